@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkHeadlessRenderWindow
+ * @brief   OpenGL render window that needs neither a display nor an X server
+ *
+ * Owns an OpenGL context made through EGL and renders into VTK's own frame buffers, from which
+ * vtkWindowToImageFilter reads. The context is made on the first call that needs it: on a GPU
+ * where a driver offers one, else by Mesa in software. Any number of windows may live at once.
+ *
+ * Where no context can be had, one error says what to install, and Render() does nothing;
+ * SupportsOpenGL() asks beforehand.
+ *
+ * Registers VTK's OpenGL classes with the object factory, so that vtkRenderer::New() works in a
+ * program that initialises no VTK modules itself.
+ */
+#ifndef vtkHeadlessRenderWindow_h
+#define vtkHeadlessRenderWindow_h
+
+#include "TetraluxRenderingModule.h" // For export macro
+#include "vtkGenericOpenGLRenderWindow.h"
+
+#include <memory> // For std::unique_ptr
+
+class TETRALUXRENDERING_EXPORT vtkHeadlessRenderWindow : public vtkGenericOpenGLRenderWindow
+{
+public:
+  static vtkHeadlessRenderWindow* New();
+  vtkTypeMacro(vtkHeadlessRenderWindow, vtkGenericOpenGLRenderWindow);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Which of EGL's devices renders, counted from 0 in EGL's order; -1 (default): the first
+   * hardware device that works, else Mesa in software. Takes effect when the context is made.
+   */
+  vtkSetClampMacro(DeviceIndex, int, -1, VTK_INT_MAX);
+  vtkGetMacro(DeviceIndex, int);
+  ///@}
+
+  ///@{
+  /**
+   * As in vtkRenderWindow; each makes the context if there is none yet.
+   */
+  void Initialize() override;
+  void Render() override;
+  void MakeCurrent() override;
+  int SupportsOpenGL() override;
+  ///@}
+
+  bool IsCurrent() override;
+
+  /**
+   * Releases every graphics resource and the context. A later Render() makes a new one.
+   */
+  void Finalize() override;
+
+  void OpenGLInitContext() override;
+
+protected:
+  vtkHeadlessRenderWindow();
+  ~vtkHeadlessRenderWindow() override;
+
+  int DeviceIndex = -1;
+
+private:
+  vtkHeadlessRenderWindow(const vtkHeadlessRenderWindow&) = delete;
+  void operator=(const vtkHeadlessRenderWindow&) = delete;
+
+  class EglContext;
+  std::unique_ptr<EglContext> Context;
+
+  // One report per cause, not one per frame.
+  bool ContextFailed = false;
+};
+
+#endif
