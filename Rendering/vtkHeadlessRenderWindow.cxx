@@ -243,9 +243,11 @@ void vtkHeadlessRenderWindow::Initialize()
   catch (const std::exception& error)
   {
     this->ContextFailed = true;
+    this->SetReadyForRendering(false);
     vtkErrorMacro(<< error.what());
     return;
   }
+  this->SetReadyForRendering(true);
   this->OpenGLInit();
 }
 
