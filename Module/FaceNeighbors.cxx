@@ -87,21 +87,21 @@ public:
     {
       slot.Key = key;
       slot.Face = face;
-      this->Connect(face, NoNeighbor, 0);
     }
-    else if (slot.Count == 2)
+    if (slot.Count == 2)
     {
       this->Connect(face, slot.Face / 4, slot.Face % 4);
       this->Connect(slot.Face, face / 4, face % 4);
-      slot.OtherFace = face;
+      return;
     }
-    else
+    if (slot.Count == 3)
     {
-      this->Connect(face, NoNeighbor, 0);
+      this->Connect(4 * this->Result.Neighbors[slot.Face] + this->Result.NeighborFaces[slot.Face],
+        NoNeighbor, 0);
       this->Connect(slot.Face, NoNeighbor, 0);
-      this->Connect(slot.OtherFace, NoNeighbor, 0);
-      this->NumberOfNonManifoldFaces += slot.Count == 3;
+      ++this->NumberOfNonManifoldFaces;
     }
+    this->Connect(face, NoNeighbor, 0);
   }
 
   std::int64_t NumberOfNonManifoldFaces = 0;
@@ -110,16 +110,15 @@ private:
   struct Slot
   {
     std::uint64_t Key;
-    std::int32_t Face;
-    std::int32_t OtherFace;
+    std::int32_t Face; ///< the first one with the key
     std::int32_t Count = 0;
   };
 
-  /// At most half of the slots are in use.
+  /// Most faces come in pairs: no more than about half of the slots are in use.
   static std::int64_t GetCapacity(std::int64_t size)
   {
     std::int64_t capacity = 8;
-    while (capacity < 2 * size)
+    while (capacity <= size)
     {
       capacity *= 2;
     }

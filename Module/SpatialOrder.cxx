@@ -16,38 +16,42 @@ namespace
 /// cell is 1e-6 of its size still has its cells told apart.
 constexpr int BitsPerAxis = 21;
 
+/// Moves bit i to bit 3 * i.
+std::uint64_t Spread(std::uint64_t bits)
+{
+  bits = (bits | bits << 32) & 0x001f00000000ffff;
+  bits = (bits | bits << 16) & 0x001f0000ff0000ff;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
+  return (bits | bits << 2) & 0x1249249249249249;
+}
+
 /// Where a grid cell lies on Hilbert's curve (Skilling, Programming the Hilbert curve, 2004).
 std::uint64_t GetHilbertKey(std::uint32_t x, std::uint32_t y, std::uint32_t z)
 {
-  std::uint32_t axes[3] = { x, y, z };
   for (std::uint32_t bit = 1u << (BitsPerAxis - 1); bit > 1; bit >>= 1)
   {
-    const std::uint32_t lower = bit - 1;
-    for (std::uint32_t& axis : axes)
+    // Where an axis has the bit, its lower bits invert those of x; where not, both exchange them.
+    const auto turn = [&x, bit](std::uint32_t& axis)
     {
-      // Inverts the first axis where the bit is set, exchanges the two where it is not.
-      const std::uint32_t isSet = axis & bit ? ~0u : 0u;
-      const std::uint32_t exchanged = (axes[0] ^ axis) & lower & ~isSet;
-      axes[0] ^= (lower & isSet) | exchanged;
+      const std::uint32_t isSet = axis & bit ? bit - 1 : 0;
+      const std::uint32_t exchanged = (x ^ axis) & ((bit - 1) ^ isSet);
+      x ^= isSet | exchanged;
       axis ^= exchanged;
-    }
+    };
+    x ^= x & bit ? bit - 1 : 0;
+    turn(y);
+    turn(z);
   }
-  axes[1] ^= axes[0];
-  axes[2] ^= axes[1];
-  std::uint32_t gray = 0;
-  for (std::uint32_t bit = 1u << (BitsPerAxis - 1); bit > 1; bit >>= 1)
+  y ^= x;
+  z ^= y;
+  // From Gray code: each bit of all axes is inverted where the bits of z above it have odd parity.
+  std::uint32_t parity = z >> 1;
+  for (int shift = 1; shift < BitsPerAxis; shift *= 2)
   {
-    gray ^= axes[2] & bit ? bit - 1 : 0;
+    parity ^= parity >> shift;
   }
-  std::uint64_t key = 0;
-  for (int bit = BitsPerAxis - 1; bit >= 0; --bit)
-  {
-    for (const std::uint32_t axis : axes)
-    {
-      key = key << 1 | ((axis ^ gray) >> bit & 1);
-    }
-  }
-  return key;
+  return Spread(x ^ parity) << 2 | Spread(y ^ parity) << 1 | Spread(z ^ parity);
 }
 
 struct KeyedPoint
@@ -214,6 +218,21 @@ std::unique_ptr<std::int32_t[]> OrderPoints(TetrahedralMesh& mesh)
   return newIds;
 }
 
+void SortFour(std::int32_t* points)
+{
+  const auto order = [points](int i, int j)
+  {
+    const std::int32_t smaller = std::min(points[i], points[j]);
+    points[j] = std::max(points[i], points[j]);
+    points[i] = smaller;
+  };
+  order(0, 1);
+  order(2, 3);
+  order(0, 2);
+  order(1, 3);
+  order(1, 2);
+}
+
 /// Cells by their smallest new point, which brings the cells around a point together at a fraction
 /// of the cost of a curve through the cells.
 void OrderCells(TetrahedralMesh& mesh, const std::int32_t* newIds)
@@ -225,7 +244,7 @@ void OrderCells(TetrahedralMesh& mesh, const std::int32_t* newIds)
     std::int32_t* points = &mesh.Cells[4 * cell];
     std::transform(
       points, points + 4, points, [newIds](std::int32_t point) { return newIds[point]; });
-    std::sort(points, points + 4);
+    SortFour(points);
   }
   const Buckets order =
     SortIntoBuckets(numberOfCells, static_cast<std::int64_t>(mesh.GetNumberOfPoints()),

@@ -248,7 +248,6 @@ TEST(CellSplit, SharedFacesOfMixedCells)
 
 TEST(CellSplit, StructuredParity)
 {
-  std::set<std::array<Id, 4>> middles;
   std::vector<std::array<Id, 4>> tets;
   double volume = 0;
   for (int cell = 0; cell < 27; ++cell)
