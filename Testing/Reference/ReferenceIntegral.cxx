@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReferenceIntegral.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Gauss-Legendre points and weights on 0..1. Ten points integrate a quadratic polynomial times the
+/// exponential of a quadratic one that falls by at most 1 to the last bit of a double.
+struct GaussLegendre
+{
+  static constexpr int Order = 10;
+  std::array<double, Order> Points;
+  std::array<double, Order> Weights;
+
+  GaussLegendre()
+  {
+    const long double pi = std::acos(-1.0L);
+    for (int i = 0; i < Order; ++i)
+    {
+      // Newton's method on the Legendre polynomial, from Tricomi's estimate of its root.
+      long double x = std::cos(pi * (i + 0.75L) / (Order + 0.5L));
+      long double derivative = 1;
+      for (int iteration = 0; iteration < 20; ++iteration)
+      {
+        long double previous = 1;
+        long double value = x;
+        for (int n = 2; n <= Order; ++n)
+        {
+          const long double next = ((2 * n - 1) * x * value - (n - 1) * previous) / n;
+          previous = value;
+          value = next;
+        }
+        derivative = Order * (x * value - previous) / (x * x - 1);
+        x -= value / derivative;
+      }
+      this->Points[i] = static_cast<double>((1 - x) / 2);
+      this->Weights[i] = static_cast<double>(1 / ((1 - x * x) * derivative * derivative));
+    }
+  }
+};
+
+/// exp(-42) is 6e-19: what lies behind this optical depth does not change a double's sum.
+constexpr int LargestOpticalDepth = 42;
+
+/// A piece of a ray over which attenuation and colour are linear.
+struct Piece
+{
+  TransferFunction::Value Begin;
+  TransferFunction::Value End;
+  double Length;
+};
+
+double OpticalDepth(const Piece& piece)
+{
+  return piece.Length * 0.5 * (piece.Begin.Attenuation + piece.End.Attenuation);
+}
+
+/// The radiance that reaches the begin of the piece is
+/// weights[0] * Begin.Color + weights[1] * End.Color.
+void IntegratePiece(const Piece& piece, double weights[2])
+{
+  static const GaussLegendre rule;
+  weights[0] = weights[1] = 0;
+  const double a = piece.Begin.Attenuation;
+  const double b = piece.End.Attenuation;
+  const double depth = OpticalDepth(piece);
+  const auto attenuation = [&](double x) { return a * (1 - x) + b * x; };
+
+  // Subintervals of unit optical depth: the root of length * (a x + (b - a) x^2 / 2) = k.
+  double begin = 0;
+  for (int k = 0; k < LargestOpticalDepth && k < depth; ++k)
+  {
+    double end = 1;
+    if (k + 1 < depth)
+    {
+      const double y = (k + 1) / piece.Length;
+      end = std::min(1.0, 2 * y / (a + std::sqrt(std::max(0.0, a * a + 2 * (b - a) * y))));
+    }
+    const double width = end - begin;
+    const double front = attenuation(begin);
+    double sum[2] = { 0, 0 };
+    for (int i = 0; i < GaussLegendre::Order; ++i)
+    {
+      const double step = width * rule.Points[i];
+      const double x = begin + step;
+      const double local = attenuation(x);
+      const double absorbed = piece.Length * step * 0.5 * (front + local);
+      const double emitted = rule.Weights[i] * local * std::exp(-absorbed);
+      sum[0] += emitted * (1 - x);
+      sum[1] += emitted * x;
+    }
+    const double scale = piece.Length * width * std::exp(-static_cast<double>(k));
+    weights[0] += scale * sum[0];
+    weights[1] += scale * sum[1];
+    begin = end;
+  }
+}
+
+/// The function in interval k, which lies between nodes k - 1 and k.
+TransferFunction::Value Evaluate(const TransferFunction& function, std::size_t k, double s)
+{
+  const auto& nodes = function.Nodes;
+  if (k == 0)
+  {
+    return nodes.front().Left;
+  }
+  if (k == nodes.size())
+  {
+    return nodes.back().Right;
+  }
+  const auto& left = nodes[k - 1];
+  const auto& right = nodes[k];
+  const long double width = static_cast<long double>(right.Scalar) - left.Scalar;
+  const double w = static_cast<double>((static_cast<long double>(s) - left.Scalar) / width);
+  const double v = static_cast<double>((right.Scalar - static_cast<long double>(s)) / width);
+  TransferFunction::Value value;
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    value.Color[channel] = v * left.Right.Color[channel] + w * right.Left.Color[channel];
+  }
+  value.Attenuation = v * left.Right.Attenuation + w * right.Left.Attenuation;
+  return value;
+}
+
+} // namespace
+
+ReferenceSegment IntegrateReference(
+  const TransferFunction& function, double s0, double s1, double length)
+{
+  const auto& nodes = function.Nodes;
+  const long double range = static_cast<long double>(s1) - s0;
+  ReferenceSegment result;
+
+  // The interval in which the segment starts, on the side of the node to which it leads.
+  std::size_t k = 0;
+  while (k < nodes.size() && (nodes[k].Scalar < s0 || (nodes[k].Scalar == s0 && s1 >= s0)))
+  {
+    ++k;
+  }
+  for (double s = s0;;)
+  {
+    double next = s1;
+    std::size_t nextInterval = k;
+    if (s1 > s0 && k < nodes.size() && nodes[k].Scalar < s1)
+    {
+      next = nodes[k].Scalar;
+      nextInterval = k + 1;
+    }
+    else if (s1 < s0 && k > 0 && nodes[k - 1].Scalar > s1)
+    {
+      next = nodes[k - 1].Scalar;
+      nextInterval = k - 1;
+    }
+
+    // A share of differences of scalars, so that a needle between close nodes keeps its width.
+    const double share =
+      s0 == s1 ? 1.0 : static_cast<double>((static_cast<long double>(next) - s) / range);
+    const Piece piece{ Evaluate(function, k, s), Evaluate(function, k, next), share * length };
+    const double depth = OpticalDepth(piece);
+    if (depth > 0)
+    {
+      if (result.FirstContribution < 0)
+      {
+        result.FirstContribution =
+          s0 == s1 ? 0.0 : static_cast<double>((static_cast<long double>(s) - s0) / range);
+      }
+      double weights[2];
+      IntegratePiece(piece, weights);
+      const double transmittance = std::exp(-result.OpticalDepth);
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        result.Color[channel] += transmittance *
+          (weights[0] * piece.Begin.Color[channel] + weights[1] * piece.End.Color[channel]);
+      }
+      result.OpticalDepth += depth;
+    }
+    if (nextInterval == k)
+    {
+      break;
+    }
+    s = next;
+    k = nextInterval;
+  }
+  result.Alpha = -std::expm1(-result.OpticalDepth);
+  return result;
+}
+
+} // namespace tetralux

@@ -1,0 +1,687 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReferenceRenderer.h"
+
+#include "ReferenceIntegral.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+using Real = long double;
+using Vector = std::array<Real, 3>;
+
+constexpr Real Infinity = std::numeric_limits<Real>::infinity();
+
+Vector ToVector(const double v[3])
+{
+  return { v[0], v[1], v[2] };
+}
+
+Real Dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector Cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+Vector Step(const Vector& begin, Real i, const Vector& stepX, Real j, const Vector& stepY)
+{
+  Vector result;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result[axis] = begin[axis] + i * stepX[axis] + j * stepY[axis];
+  }
+  return result;
+}
+
+Vector TransformDirection(const double matrix[3][4], const Vector& v)
+{
+  Vector result;
+  for (int row = 0; row < 3; ++row)
+  {
+    result[row] = matrix[row][0] * v[0] + matrix[row][1] * v[1] + matrix[row][2] * v[2];
+  }
+  return result;
+}
+
+Vector TransformPoint(const double matrix[3][4], const Vector& v)
+{
+  Vector result = TransformDirection(matrix, v);
+  for (int row = 0; row < 3; ++row)
+  {
+    result[row] += matrix[row][3];
+  }
+  return result;
+}
+
+/// The ray of one pixel. t is the distance in the world.
+struct Ray
+{
+  Vector WorldOrigin;
+  Vector WorldDirection; ///< of length 1
+  Vector Origin;         ///< in mesh coordinates
+  Vector Direction;      ///< in mesh coordinates, for one unit of t
+
+  /// Mesh coordinates are sheared so that the ray becomes an axis: (u, v) are the first two of
+  /// Axes, minus Shear times the third, which is where the direction is largest (as Woop et al.,
+  /// Watertight Ray/Triangle Intersection, 2013).
+  std::array<int, 3> Axes;
+  std::array<Real, 2> Shear;
+
+  bool Valid = false;
+};
+
+Ray MakeRay(const RayGrid& grid, int i, int j)
+{
+  Ray ray;
+  ray.WorldOrigin = Step(
+    ToVector(grid.Origin), i, ToVector(grid.OriginStepX), j, ToVector(grid.OriginStepY));
+  ray.WorldDirection = Step(
+    ToVector(grid.Direction), i, ToVector(grid.DirectionStepX), j, ToVector(grid.DirectionStepY));
+  const Real length = std::sqrt(Dot(ray.WorldDirection, ray.WorldDirection));
+  for (Real& component : ray.WorldDirection)
+  {
+    component /= length;
+  }
+  ray.Origin = TransformPoint(grid.MeshFromWorld, ray.WorldOrigin);
+  ray.Direction = TransformDirection(grid.MeshFromWorld, ray.WorldDirection);
+
+  int largest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+  {
+    if (std::abs(ray.Direction[axis]) > std::abs(ray.Direction[largest]))
+    {
+      largest = axis;
+    }
+  }
+  ray.Axes = { (largest + 1) % 3, (largest + 2) % 3, largest };
+  const Real main = ray.Direction[largest];
+  ray.Shear = { ray.Direction[ray.Axes[0]] / main, ray.Direction[ray.Axes[1]] / main };
+  ray.Valid = std::isfinite(ray.Shear[0]) && std::isfinite(ray.Shear[1]) &&
+    std::isfinite(Dot(ray.Origin, ray.Origin));
+  return ray;
+}
+
+/// A point as a ray sees it. U and V are rounded to double, so that the product of two is known
+/// exactly; every cell at the point rounds alike.
+struct SeenPoint
+{
+  double U;
+  double V;
+  Real T; ///< distance along the ray, in the sheared frame
+};
+
+SeenPoint See(const Ray& ray, const double* point)
+{
+  const Real depth = point[ray.Axes[2]] - ray.Origin[ray.Axes[2]];
+  SeenPoint seen;
+  seen.U = static_cast<double>(
+    point[ray.Axes[0]] - ray.Origin[ray.Axes[0]] - ray.Shear[0] * depth);
+  seen.V = static_cast<double>(
+    point[ray.Axes[1]] - ray.Origin[ray.Axes[1]] - ray.Shear[1] * depth);
+  seen.T = depth / ray.Direction[ray.Axes[2]];
+  return seen;
+}
+
+/// On which side of the line from a to b the ray passes: the exact sign of U_a V_b - U_b V_a. Where
+/// that is zero, the sign for a ray displaced by (e, e^2) for infinitesimal e > 0; still zero only
+/// where both points are seen as one.
+int EdgeSide(const SeenPoint& a, const SeenPoint& b)
+{
+  const double p = a.U * b.V;
+  const double q = b.U * a.V;
+  if (p != q)
+  {
+    return p > q ? 1 : -1; // rounding is monotonic
+  }
+  const double pRest = std::fma(a.U, b.V, -p);
+  const double qRest = std::fma(b.U, a.V, -q);
+  if (pRest != qRest)
+  {
+    return pRest > qRest ? 1 : -1;
+  }
+  if (a.V != b.V)
+  {
+    return a.V > b.V ? 1 : -1;
+  }
+  if (a.U != b.U)
+  {
+    return b.U > a.U ? 1 : -1;
+  }
+  return 0;
+}
+
+/// Twice the area between the ray and the edge from a to b, without the sign.
+double EdgeArea(const SeenPoint& a, const SeenPoint& b)
+{
+  const double p = a.U * b.V;
+  const double q = b.U * a.V;
+  return std::abs((p - q) + (std::fma(a.U, b.V, -p) - std::fma(b.U, a.V, -q)));
+}
+
+/// Part of a ray in one cell.
+struct Segment
+{
+  Real Begin; ///< world distance along the ray
+  double Length;
+  double BeginScalar;
+  double EndScalar;
+  std::int32_t Pixel; ///< in the band
+};
+
+/// Clips the ray by a cell; false if the ray misses it. Of the four faces a ray passes none or two.
+bool ClipByCell(
+  const Ray& ray, const double* const points[4], const double scalars[4], Segment& segment)
+{
+  SeenPoint seen[4];
+  for (int i = 0; i < 4; ++i)
+  {
+    seen[i] = See(ray, points[i]);
+  }
+  const auto allBeside = [&seen](double SeenPoint::*coordinate) {
+    const double a = seen[0].*coordinate;
+    const double b = seen[1].*coordinate;
+    const double c = seen[2].*coordinate;
+    const double d = seen[3].*coordinate;
+    return (a > 0 && b > 0 && c > 0 && d > 0) || (a < 0 && b < 0 && c < 0 && d < 0);
+  };
+  if (allBeside(&SeenPoint::U) || allBeside(&SeenPoint::V))
+  {
+    return false;
+  }
+
+  static constexpr int Faces[4][3] = { { 1, 2, 3 }, { 0, 2, 3 }, { 0, 1, 3 }, { 0, 1, 2 } };
+  int side[4][4];
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = i + 1; j < 4; ++j)
+    {
+      side[i][j] = EdgeSide(seen[i], seen[j]);
+      side[j][i] = -side[i][j];
+    }
+  }
+  Real t[2];
+  double s[2];
+  int found = 0;
+  for (const auto& face : Faces)
+  {
+    const int first = side[face[0]][face[1]];
+    if (first == 0 || first != side[face[1]][face[2]] || first != side[face[2]][face[0]])
+    {
+      continue;
+    }
+    const double area[3] = { EdgeArea(seen[face[1]], seen[face[2]]),
+      EdgeArea(seen[face[2]], seen[face[0]]), EdgeArea(seen[face[0]], seen[face[1]]) };
+    const double sum = area[0] + area[1] + area[2];
+    if (found == 2 || !(sum > 0))
+    {
+      return false; // only where products underflow
+    }
+    t[found] = 0;
+    s[found] = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      t[found] += area[i] * seen[face[i]].T;
+      s[found] += area[i] / sum * scalars[face[i]];
+    }
+    t[found] /= sum;
+    ++found;
+  }
+  if (found != 2 || !(t[0] != t[1]))
+  {
+    return false;
+  }
+  const int begin = t[0] < t[1] ? 0 : 1;
+  segment.Begin = t[begin];
+  segment.Length = static_cast<double>(t[1 - begin] - t[begin]);
+  segment.BeginScalar = s[begin];
+  segment.EndScalar = s[1 - begin];
+  return true;
+}
+
+/// Pixels that a cell may cover, both ends included; empty where First > Last.
+struct PixelBox
+{
+  int First[2];
+  int Last[2];
+};
+
+/// Where points lie in the image, to leave out pixels that can not see a cell. Knows parallel and
+/// perspective cameras; whatever else a grid holds, every pixel has to try every cell.
+class ImageProjection
+{
+public:
+  explicit ImageProjection(const RayGrid& grid)
+  {
+    this->Size[0] = grid.Width;
+    this->Size[1] = grid.Height;
+    const auto direction = [&grid](const double v[3]) {
+      return TransformDirection(grid.MeshFromWorld, ToVector(v));
+    };
+    const auto isZero = [](const double v[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; };
+    this->Perspective = isZero(grid.OriginStepX) && isZero(grid.OriginStepY);
+    const bool parallel = isZero(grid.DirectionStepX) && isZero(grid.DirectionStepY);
+    this->Origin = TransformPoint(grid.MeshFromWorld, ToVector(grid.Origin));
+
+    // A point P is seen at pixel (i, j) where P - Origin = i X + j Y + w Direction in a parallel
+    // image, w (i X + j Y + Direction) in a perspective one.
+    const Vector x = direction(this->Perspective ? grid.DirectionStepX : grid.OriginStepX);
+    const Vector y = direction(this->Perspective ? grid.DirectionStepY : grid.OriginStepY);
+    const Vector w = direction(grid.Direction);
+    const Real determinant = Dot(Cross(x, y), w);
+    const Real scale = std::sqrt(Dot(x, x) * Dot(y, y) * Dot(w, w));
+    this->Usable =
+      this->Perspective != parallel && std::abs(determinant) > SmallestDeterminant * scale;
+    this->Rows = { Cross(y, w), Cross(w, x), Cross(x, y) };
+    for (Vector& row : this->Rows)
+    {
+      for (Real& component : row)
+      {
+        component /= determinant;
+      }
+    }
+    this->DirectionLength = std::sqrt(Dot(w, w));
+  }
+
+  PixelBox Bound(const double* const points[4]) const
+  {
+    PixelBox all{ { 0, 0 }, { this->Size[0] - 1, this->Size[1] - 1 } };
+    if (!this->Usable)
+    {
+      return all;
+    }
+    Real minimum[2] = { Infinity, Infinity };
+    Real maximum[2] = { -Infinity, -Infinity };
+    int behind = 0;
+    for (int i = 0; i < 4; ++i)
+    {
+      Vector offset;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        offset[axis] = points[i][axis] - this->Origin[axis];
+      }
+      Real w = 1;
+      if (this->Perspective)
+      {
+        w = Dot(this->Rows[2], offset);
+        if (std::abs(w) * this->DirectionLength <=
+          SmallestDistance * std::sqrt(Dot(offset, offset)))
+        {
+          return all;
+        }
+        behind += w < 0;
+      }
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        const Real position = Dot(this->Rows[axis], offset) / w;
+        minimum[axis] = std::min(minimum[axis], position);
+        maximum[axis] = std::max(maximum[axis], position);
+      }
+    }
+    if (behind != 0 && behind != 4)
+    {
+      return all; // around the camera
+    }
+    PixelBox box;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      // Clamped before the conversion to int; a box beside the image becomes empty.
+      const Real size = this->Size[axis];
+      box.First[axis] = static_cast<int>(
+        std::ceil(std::min(std::max(minimum[axis] - Margin, Real(0)), size)));
+      box.Last[axis] = static_cast<int>(
+        std::floor(std::max(std::min(maximum[axis] + Margin, size - 1), Real(-1))));
+    }
+    return box;
+  }
+
+private:
+  /// Pixels added on each side; the projection is accurate to 1e-6 of a pixel in any sane image.
+  static constexpr Real Margin = 0.01L;
+  /// Share of the product of the lengths; below it the steps of the grid do not span an image.
+  static constexpr Real SmallestDeterminant = 1e-9L;
+  /// Distance from the plane of the camera relative to that from the camera, below which a point's
+  /// place in the image is not trusted.
+  static constexpr Real SmallestDistance = 1e-9L;
+
+  int Size[2];
+  bool Perspective;
+  bool Usable;
+  Vector Origin;
+  std::array<Vector, 3> Rows;
+  Real DirectionLength;
+};
+
+/// Kept parts of a ray, ascending.
+using Intervals = std::vector<std::array<Real, 2>>;
+
+/// The region along one axis, 0..2, as in vtkFixedPointVolumeRayCastMapper.
+int CroppingRegion(Real x, const double planes[2])
+{
+  return x < planes[0] ? 0 : x > planes[1] ? 2 : 1;
+}
+
+/// Which parts of begin..end the limits keep.
+void ApplyLimits(const RayLimits& limits, const Ray& ray, std::size_t pixel, Real begin, Real end,
+  Intervals& kept)
+{
+  kept.clear();
+  for (const auto& plane : limits.Planes)
+  {
+    const Vector normal{ plane[0], plane[1], plane[2] };
+    const Real distance = Dot(normal, ray.WorldOrigin) + plane[3];
+    const Real slope = Dot(normal, ray.WorldDirection);
+    if (slope > 0)
+    {
+      begin = std::max(begin, -distance / slope);
+    }
+    else if (slope < 0)
+    {
+      end = std::min(end, -distance / slope);
+    }
+    else if (!(distance >= 0))
+    {
+      return;
+    }
+  }
+  if (limits.MaximumDistances)
+  {
+    end = std::min<Real>(end, limits.MaximumDistances[pixel]);
+  }
+  if (!(begin < end))
+  {
+    return;
+  }
+  if (!limits.Cropping)
+  {
+    kept.push_back({ begin, end });
+    return;
+  }
+
+  std::vector<Real> borders{ begin, end };
+  for (int plane = 0; plane < 6; ++plane)
+  {
+    const int axis = plane / 2;
+    const Real t = (limits.CroppingPlanes[plane] - ray.Origin[axis]) / ray.Direction[axis];
+    if (t > begin && t < end)
+    {
+      borders.push_back(t);
+    }
+  }
+  std::sort(borders.begin(), borders.end());
+  for (std::size_t i = 0; i + 1 < borders.size(); ++i)
+  {
+    const Real middle = borders[i] / 2 + borders[i + 1] / 2;
+    int region = 0;
+    for (int axis = 2; axis >= 0; --axis)
+    {
+      region = 3 * region +
+        CroppingRegion(ray.Origin[axis] + middle * ray.Direction[axis],
+          limits.CroppingPlanes + 2 * axis);
+    }
+    if (limits.CroppingFlags >> region & 1)
+    {
+      kept.push_back({ borders[i], borders[i + 1] });
+    }
+  }
+}
+
+/// Front to back over the segments of one pixel.
+class Compositor
+{
+public:
+  Compositor(const TransferFunction& function)
+    : Function(function)
+  {
+  }
+
+  /// Adds the part of the segment that lies in begin..end.
+  void Add(const Segment& segment, Real begin, Real end)
+  {
+    const Real segmentEnd = segment.Begin + segment.Length;
+    if (begin >= segmentEnd || end <= segment.Begin)
+    {
+      return;
+    }
+    Real t = segment.Begin;
+    double length = segment.Length;
+    double s0 = segment.BeginScalar;
+    double s1 = segment.EndScalar;
+    if (begin > segment.Begin || end < segmentEnd)
+    {
+      t = std::max(begin, segment.Begin);
+      length = static_cast<double>(std::min(end, segmentEnd) - t);
+      const double from = static_cast<double>(t - segment.Begin) / segment.Length;
+      const double to = from + length / segment.Length;
+      s0 = segment.BeginScalar * (1 - from) + segment.EndScalar * from;
+      s1 = segment.BeginScalar * (1 - to) + segment.EndScalar * to;
+    }
+    this->Length += length;
+    const ReferenceSegment part = IntegrateReference(this->Function, s0, s1, length);
+    if (this->OpticalDepth == 0 && part.OpticalDepth > 0)
+    {
+      this->Depth = static_cast<double>(t + part.FirstContribution * length);
+    }
+    const double transmittance = std::exp(-this->OpticalDepth);
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      this->Rgba[channel] += transmittance * part.Color[channel];
+    }
+    this->OpticalDepth += part.OpticalDepth;
+    this->Rgba[3] = -std::expm1(-this->OpticalDepth);
+  }
+
+  double Rgba[4] = { 0, 0, 0, 0 };
+  double Depth = -1;
+  double Length = 0;
+
+private:
+  const TransferFunction& Function;
+  double OpticalDepth = 0;
+};
+
+void Check(const ReferenceMesh& mesh, const TransferFunction& function, const RayGrid& rays,
+  Span<const std::uint8_t> pixels)
+{
+  const auto require = [](bool condition, const char* message) {
+    if (!condition)
+    {
+      throw std::invalid_argument(message);
+    }
+  };
+  require(mesh.Points.size() % 3 == 0, "RenderReference: Points must hold three for each point");
+  require(mesh.Cells.size() % 4 == 0, "RenderReference: Cells must hold four ids for each cell");
+  require(
+    mesh.Scalars.size() == (mesh.CellScalars ? mesh.Cells.size() / 4 : mesh.Points.size() / 3),
+    "RenderReference: Scalars must hold one value for each point, or cell with CellScalars");
+  require(!function.Nodes.empty(), "RenderReference: the transfer function has no nodes");
+  require(rays.Width > 0 && rays.Height > 0, "RenderReference: the image has no pixels");
+  require(
+    pixels.empty() || pixels.size() == static_cast<std::size_t>(rays.Width) * rays.Height,
+    "RenderReference: pixels must hold one value for each pixel");
+}
+
+/// A cell's corners and scalars; false if any of them is unusable.
+bool GetCell(
+  const ReferenceMesh& mesh, std::size_t cell, const double* points[4], double scalars[4])
+{
+  const std::int64_t numberOfPoints = static_cast<std::int64_t>(mesh.Points.size() / 3);
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::int32_t id = mesh.Cells[4 * cell + i];
+    if (id < 0 || id >= numberOfPoints)
+    {
+      return false;
+    }
+    points[i] = mesh.Points.data() + 3 * static_cast<std::size_t>(id);
+    scalars[i] = mesh.Scalars[mesh.CellScalars ? cell : static_cast<std::size_t>(id)];
+    if (!std::isfinite(points[i][0]) || !std::isfinite(points[i][1]) ||
+      !std::isfinite(points[i][2]) || !std::isfinite(scalars[i]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Rows are rendered in bands of about this many pixels, one at a time for each thread: bounds the
+/// memory for segments to some 48 bytes times the depth complexity times this.
+constexpr int PixelsPerBand = 4096;
+
+} // namespace
+
+ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction& function,
+  const RayGrid& rays, const RayLimits& limits, Span<const std::uint8_t> pixels)
+{
+  Check(mesh, function, rays, pixels);
+  const std::size_t numberOfPixels = static_cast<std::size_t>(rays.Width) * rays.Height;
+  ReferenceImage image;
+  image.Rgba.assign(4 * numberOfPixels, 0.0);
+  image.Depth.assign(numberOfPixels, -1.0);
+  image.Length.assign(numberOfPixels, 0.0);
+
+  const ImageProjection projection(rays);
+  const std::int64_t numberOfCells = static_cast<std::int64_t>(mesh.Cells.size() / 4);
+  std::vector<PixelBox> boxes(numberOfCells);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
+  {
+    const double* points[4];
+    double scalars[4];
+    boxes[cell] = GetCell(mesh, cell, points, scalars) ? projection.Bound(points)
+                                                       : PixelBox{ { 0, 0 }, { -1, -1 } };
+  }
+
+  const int rowsPerBand = std::max(1, PixelsPerBand / rays.Width);
+  const int numberOfBands = (rays.Height + rowsPerBand - 1) / rowsPerBand;
+  std::int64_t numberOfSegments = 0;
+#pragma omp parallel for schedule(dynamic) reduction(+ : numberOfSegments)
+  for (int band = 0; band < numberOfBands; ++band)
+  {
+    const int firstRow = band * rowsPerBand;
+    const int lastRow = std::min(rays.Height, firstRow + rowsPerBand) - 1;
+    std::vector<Ray> bandRays(static_cast<std::size_t>(lastRow - firstRow + 1) * rays.Width);
+    for (std::size_t k = 0; k < bandRays.size(); ++k)
+    {
+      const std::size_t pixel = static_cast<std::size_t>(firstRow) * rays.Width + k;
+      if (pixels.empty() || pixels[pixel])
+      {
+        bandRays[k] = MakeRay(
+          rays, static_cast<int>(k % rays.Width), firstRow + static_cast<int>(k / rays.Width));
+      }
+    }
+
+    std::vector<Segment> segments;
+    for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
+    {
+      const PixelBox& box = boxes[cell];
+      const double* points[4];
+      double scalars[4];
+      if (box.First[1] > lastRow || box.Last[1] < firstRow || box.First[0] > box.Last[0] ||
+        !GetCell(mesh, cell, points, scalars))
+      {
+        continue;
+      }
+      for (int j = std::max(box.First[1], firstRow); j <= std::min(box.Last[1], lastRow); ++j)
+      {
+        for (int i = box.First[0]; i <= box.Last[0]; ++i)
+        {
+          const std::int32_t k = (j - firstRow) * rays.Width + i;
+          Segment segment;
+          if (bandRays[k].Valid && ClipByCell(bandRays[k], points, scalars, segment))
+          {
+            segment.Pixel = k;
+            segments.push_back(segment);
+          }
+        }
+      }
+    }
+    numberOfSegments += static_cast<std::int64_t>(segments.size());
+
+    // Of segments that begin together only one has a length worth mentioning: it goes last.
+    std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) {
+      return a.Pixel != b.Pixel ? a.Pixel < b.Pixel
+        : a.Begin != b.Begin    ? a.Begin < b.Begin
+                                : a.Length < b.Length;
+    });
+    Intervals kept;
+    for (std::size_t first = 0, last; first < segments.size(); first = last)
+    {
+      const std::int32_t k = segments[first].Pixel;
+      const std::size_t pixel = static_cast<std::size_t>(firstRow) * rays.Width + k;
+      Real end = -Infinity;
+      for (last = first; last < segments.size() && segments[last].Pixel == k; ++last)
+      {
+        end = std::max(end, segments[last].Begin + segments[last].Length);
+      }
+      ApplyLimits(limits, bandRays[k], pixel, segments[first].Begin, end, kept);
+      Compositor compositor(function);
+      for (std::size_t i = first; i < last; ++i)
+      {
+        for (const auto& interval : kept)
+        {
+          compositor.Add(segments[i], interval[0], interval[1]);
+        }
+      }
+      std::copy(compositor.Rgba, compositor.Rgba + 4, image.Rgba.begin() + 4 * pixel);
+      image.Depth[pixel] = compositor.Depth;
+      image.Length[pixel] = compositor.Length;
+    }
+  }
+  image.NumberOfSegments = numberOfSegments;
+  return image;
+}
+
+std::vector<double> MeasureGrazing(const ReferenceMesh& mesh, const TransferFunction& function,
+  const RayGrid& rays, const RayLimits& limits, const ReferenceImage& image,
+  Span<const std::uint8_t> pixels, double displacement)
+{
+  const std::size_t numberOfPixels = static_cast<std::size_t>(rays.Width) * rays.Height;
+  if (image.Rgba.size() != 4 * numberOfPixels)
+  {
+    throw std::invalid_argument("MeasureGrazing: the image is not that of the rays");
+  }
+  const auto renderDisplaced = [&](double i, double j) {
+    RayGrid displaced = rays;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      displaced.Origin[axis] += i * rays.OriginStepX[axis] + j * rays.OriginStepY[axis];
+      displaced.Direction[axis] += i * rays.DirectionStepX[axis] + j * rays.DirectionStepY[axis];
+    }
+    return RenderReference(mesh, function, displaced, limits, pixels);
+  };
+  std::vector<double> grazing(numberOfPixels, 0.0);
+  for (int direction = 0; direction < 2; ++direction)
+  {
+    const double i = direction == 0 ? displacement : 0;
+    const double j = direction == 1 ? displacement : 0;
+    const ReferenceImage left = renderDisplaced(-i, -j);
+    const ReferenceImage right = renderDisplaced(i, j);
+    for (std::size_t pixel = 0; pixel < numberOfPixels; ++pixel)
+    {
+      if (!pixels.empty() && !pixels[pixel])
+      {
+        continue;
+      }
+      for (std::size_t k = 4 * pixel; k < 4 * pixel + 4; ++k)
+      {
+        const double bend = std::abs(left.Rgba[k] - 2 * image.Rgba[k] + right.Rgba[k]);
+        const double steepness = std::abs(right.Rgba[k] - left.Rgba[k]) / 2 - displacement;
+        grazing[pixel] = std::max({ grazing[pixel], bend, steepness });
+      }
+    }
+  }
+  return grazing;
+}
+
+} // namespace tetralux

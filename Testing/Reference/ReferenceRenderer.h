@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ReferenceRenderer_h
+#define tetralux_ReferenceRenderer_h
+
+#include "RayGrid.h"
+#include "RayLimits.h"
+#include "Span.h"
+#include "TransferFunction.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tetralux
+{
+
+/// A mesh as the reference renderer reads it; it owns nothing.
+struct ReferenceMesh
+{
+  Span<const double> Points;      ///< three for each point
+  Span<const std::int32_t> Cells; ///< four point ids for each tetrahedron, in any orientation
+  Span<const double> Scalars;     ///< one for each point, or one for each cell
+  bool CellScalars = false;       ///< Scalars holds one value for each cell
+};
+
+struct ReferenceImage
+{
+  std::vector<double> Rgba; ///< premultiplied, four for each pixel, lower row first
+
+  /// World distance along the ray to where the attenuation first is more than zero; -1: nowhere.
+  /// Negative behind the begin of the ray, which only planes of the limits cut off.
+  std::vector<double> Depth;
+
+  /// World length of the ray inside the cells, after all limits; of cells that overlap, of each.
+  std::vector<double> Length;
+
+  std::int64_t NumberOfSegments = 0; ///< cells that rays passed through, before the limits
+};
+
+/// The oracle for every other method: each ray is clipped by every tetrahedron on its own, in
+/// extended precision; nothing is known about neighbours, nothing is tabulated, no ray ends early.
+/// See ReferenceIntegral.h for the integral over a segment.
+///
+/// - Cells with point ids out of range, with infinite or undefined coordinates or scalars add
+///   nothing; cells of zero volume add nothing. Duplicated cells count twice: clean a mesh first.
+/// - A ray exactly through a vertex, an edge or a face is taken as a ray that passes it at an
+///   infinitesimal distance, always on the same side. So each point of a ray in a conforming mesh
+///   is in exactly one cell; a ray along the outer boundary is either inside or outside.
+/// - Segments composite in the order of their begins; so do cells that overlap.
+/// - A ray in a cropping plane belongs to the middle region, as in VTK.
+///
+/// pixels: Width x Height, other than 0 where a pixel is wanted; empty: all. Unwanted pixels stay
+/// empty. The picture does not depend on the number of threads.
+/// Throws std::invalid_argument where sizes do not fit together.
+ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction& function,
+  const RayGrid& rays, const RayLimits& limits = {}, Span<const std::uint8_t> pixels = {});
+
+/// How ill-conditioned each pixel of image is because its ray grazes a silhouette.
+///
+/// The picture is rendered four times more, displaced by that many pixels to the left, right,
+/// bottom and top. In the larger of both directions, and of the four channels, the measure is the
+/// larger of
+/// - the bend |left - 2 centre + right|: displacement^2 times the second derivative where the
+///   picture is smooth (so around 1e-6), the height of the step or the displacement times the
+///   change of slope where a silhouette lies between the three;
+/// - the steepness |right - left| / 2 minus the displacement: 0 unless the picture changes by more
+///   than its whole range within one pixel, as on a boundary face seen nearly along itself.
+/// A pixel counts as grazed where the measure exceeds GrazingThreshold: a line across which the
+/// picture steps or kinks by that much is found wherever it passes within 0.7 displacements of the
+/// pixel's centre. A spike narrower than the displacement can be missed.
+///
+/// Costs four pictures; pixels as in RenderReference, for measuring only where a picture is off.
+std::vector<double> MeasureGrazing(const ReferenceMesh& mesh, const TransferFunction& function,
+  const RayGrid& rays, const RayLimits& limits, const ReferenceImage& image,
+  Span<const std::uint8_t> pixels = {}, double displacement = 1e-3);
+
+/// Of a channel, 0..1: twenty times what curvature alone gives at a displacement of 1e-3 pixels
+/// where the slope of a picture goes from nothing to the whole range within a pixel.
+constexpr double GrazingThreshold = 2e-5;
+
+} // namespace tetralux
+
+#endif
