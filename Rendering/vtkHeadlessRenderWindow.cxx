@@ -88,8 +88,8 @@ bool IsSoftware(EGLDeviceEXT device)
 // The displays to try, in this order.
 std::vector<EGLDisplay> GetDisplays(int deviceIndex)
 {
-  const auto getPlatformDisplay =
-    reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+  const auto getPlatformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
+    eglGetProcAddress("eglGetPlatformDisplayEXT"));
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (!getPlatformDisplay || !HasExtension(extensions, "EGL_EXT_platform_base"))
   {
@@ -140,8 +140,7 @@ EGLContext CreateContext(EGLDisplay display)
     const EGLint contextAttributes[] = { EGL_CONTEXT_MAJOR_VERSION, version[0],
       EGL_CONTEXT_MINOR_VERSION, version[1], EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE };
-    const EGLContext context =
-      eglCreateContext(display, config, EGL_NO_CONTEXT, contextAttributes);
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, contextAttributes);
     if (context != EGL_NO_CONTEXT)
     {
       return context;
@@ -224,10 +223,7 @@ vtkHeadlessRenderWindow::vtkHeadlessRenderWindow()
 }
 
 //------------------------------------------------------------------------------------------------
-vtkHeadlessRenderWindow::~vtkHeadlessRenderWindow()
-{
-  this->Finalize();
-}
+vtkHeadlessRenderWindow::~vtkHeadlessRenderWindow() { this->Finalize(); }
 
 //------------------------------------------------------------------------------------------------
 void vtkHeadlessRenderWindow::Initialize()
@@ -295,10 +291,7 @@ void vtkHeadlessRenderWindow::MakeCurrent()
 }
 
 //------------------------------------------------------------------------------------------------
-bool vtkHeadlessRenderWindow::IsCurrent()
-{
-  return this->Context && this->Context->IsCurrent();
-}
+bool vtkHeadlessRenderWindow::IsCurrent() { return this->Context && this->Context->IsCurrent(); }
 
 //------------------------------------------------------------------------------------------------
 int vtkHeadlessRenderWindow::SupportsOpenGL()

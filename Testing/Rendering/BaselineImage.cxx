@@ -67,8 +67,7 @@ testing::AssertionResult MatchesBaseline(
   grab->Update();
   vtkImageData* image = grab->GetOutput();
 
-  const std::string baselinePath =
-    std::string(TETRALUX_BASELINE_DIRECTORY) + "/" + name + ".png";
+  const std::string baselinePath = std::string(TETRALUX_BASELINE_DIRECTORY) + "/" + name + ".png";
   if (!std::ifstream(baselinePath))
   {
     return testing::AssertionFailure()
@@ -97,10 +96,9 @@ testing::AssertionResult MatchesBaseline(
   {
     return testing::AssertionFailure()
       << comparison.UnequalPixels << " pixels differ from " << baselinePath << " by more than "
-      << tolerance.Channel << " of 255, " << tolerance.Pixels
-      << " may; the largest difference is " << comparison.LargestDifference
-      << "; the picture is " << WriteOutput(image, name) << ", the difference is "
-      << WriteOutput(comparison.Difference, name + "-difference");
+      << tolerance.Channel << " of 255, " << tolerance.Pixels << " may; the largest difference is "
+      << comparison.LargestDifference << "; the picture is " << WriteOutput(image, name)
+      << ", the difference is " << WriteOutput(comparison.Difference, name + "-difference");
   }
   return testing::AssertionSuccess()
     << comparison.UnequalPixels << " pixels differ by more than " << tolerance.Channel

@@ -81,9 +81,6 @@ TEST_F(BaselineImage, RejectsWrongPictures)
   this->ExpectMismatch("Sphere", false);
 }
 
-TEST_F(BaselineImage, RejectsAMissingBaseline)
-{
-  this->ExpectMismatch("NoSuchBaseline", false);
-}
+TEST_F(BaselineImage, RejectsAMissingBaseline) { this->ExpectMismatch("NoSuchBaseline", false); }
 
 } // namespace

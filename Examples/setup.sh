@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what is missing from the distribution's packages (Debian 12 or later, and what derives
+# from it): Examples/setup.sh [test]. With "test", also what the tests need.
+set -euo pipefail
+
+packages=(
+  cmake g++ ninja-build
+  libvtk9-dev python3-vtk9 # VTK and its Python package
+  libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri # rendering without a display
+  libcli11-dev nlohmann-json3-dev # the command-line tool
+)
+if [[ "${1:-}" == test ]]; then
+  packages+=(libgtest-dev libboost-dev python3-numpy clang-format clang-tidy)
+fi
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "setup: no dpkg-query here; make sure that what these Debian packages hold is installed:" \
+    "${packages[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  if [[ "$status" != *installed* || "$status" == *not-installed* ]]; then
+    missing+=("$package")
+  fi
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "setup: missing packages, and no sudo to install them; as root run:" \
+      "apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+  echo "setup: sudo is asked for to install packages"
+fi
+echo "setup: installing ${missing[*]} (all of them together download about 0.5 GB)"
+"${as_root[@]}" apt-get -qq update
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Acquire::Retries=3 \
+  install --yes --no-install-recommends "${missing[@]}" </dev/null >/dev/null

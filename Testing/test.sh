@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# All tests, from a fresh machine: installs what is missing, builds, runs every test, the core tests
+# once more under the sanitizers, and the checks of format and of static analysis.
+# TETRALUX_DATA: a folder with the data sets that some tests need; without it they are skipped.
+# Ends with "N passed, N failed"; the exit status is 0 where none failed.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+
+passed=0
+failed=0
+skipped=0
+
+finish() {
+  if ((skipped > 0)); then
+    echo "$skipped skipped, which is neither passed nor failed"
+  fi
+  echo "$passed passed, $failed failed"
+  exit $((failed > 0))
+}
+
+# check NAME COMMAND...: one test.
+check() {
+  local name=$1
+  shift
+  echo "== $name"
+  if "$@"; then
+    passed=$((passed + 1))
+    echo "== $name: passed"
+  else
+    failed=$((failed + 1))
+    echo "== $name: FAILED"
+  fi
+}
+
+# require NAME COMMAND...: what nothing goes on without.
+require() {
+  local name=$1
+  shift
+  echo "== $name"
+  if ! "$@"; then
+    failed=$((failed + 1))
+    echo "== $name: FAILED"
+    finish
+  fi
+}
+
+# run_tests PRESET: counts what ctest ran.
+run_tests() {
+  local report="$PWD/$2/ctest.xml"
+  rm -f "$report"
+  ctest --preset "$1" -j2 --output-junit "$report"
+  local status=$?
+  if [[ ! -f "$report" ]]; then
+    failed=$((failed + 1))
+    return
+  fi
+  local suite tests failures missed
+  suite=$(grep -m1 -A6 '<testsuite ' "$report" | tr '\n' ' ')
+  tests=$(attribute tests "$suite")
+  failures=$(attribute failures "$suite")
+  missed=$(($(attribute skipped "$suite") + $(attribute disabled "$suite")))
+  passed=$((passed + tests - failures - missed))
+  failed=$((failed + failures))
+  skipped=$((skipped + missed))
+  if ((status != 0 && failures == 0)); then
+    failed=$((failed + 1))
+  fi
+}
+
+attribute() {
+  sed -n "s/.*[[:space:]]$1=\"\([0-9]*\)\".*/\1/p" <<<"$2"
+}
+
+sources() {
+  find Module Filters Rendering Application Testing Examples -name '*.h' -o -name '*.cxx'
+}
+
+check_format() {
+  sources | xargs clang-format --dry-run -Werror
+}
+
+check_core_statically() {
+  find Module -name '*.cxx' | xargs -P 2 -n 1 clang-tidy -p build --quiet
+}
+
+require "setup" Examples/setup.sh test
+require "configure" cmake --preset release
+require "build" cmake --build --preset release
+run_tests release build
+
+require "configure with sanitizers" cmake --preset sanitize
+require "build with sanitizers" cmake --build --preset sanitize
+run_tests sanitize build-sanitize
+
+check "clang-format" check_format
+check "clang-tidy" check_core_statically
+finish
