@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IntervalTable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace tetralux
+{
+namespace
+{
+
+void CheckValue(const TransferFunction::Value& value, std::size_t node)
+{
+  bool valid = std::isfinite(value.Attenuation) && value.Attenuation >= 0;
+  for (double c : value.Color)
+  {
+    valid = valid && std::isfinite(c);
+  }
+  if (!valid)
+  {
+    throw std::invalid_argument("node " + std::to_string(node) +
+      " of the transfer function has a colour or attenuation that is not finite or is negative");
+  }
+}
+
+void Check(const TransferFunction& function)
+{
+  if (function.Nodes.empty())
+  {
+    throw std::invalid_argument("the transfer function has no nodes; it needs at least one");
+  }
+  for (std::size_t k = 0; k < function.Nodes.size(); ++k)
+  {
+    const TransferFunction::Node& node = function.Nodes[k];
+    if (!std::isfinite(node.Scalar) || (k > 0 && !(function.Nodes[k - 1].Scalar < node.Scalar)))
+    {
+      throw std::invalid_argument("node " + std::to_string(k) +
+        " of the transfer function is not finite or not above the node before it");
+    }
+    CheckValue(node.Left, k);
+    CheckValue(node.Right, k);
+  }
+}
+
+IntervalTable::Interval MakeInterval(float lo, float hi, float reference, double width,
+  const TransferFunction::Value& left, const TransferFunction::Value& right)
+{
+  IntervalTable::Interval interval{};
+  interval.Lo = lo;
+  interval.Hi = hi;
+  interval.Reference = reference;
+  const auto slope = [width](double a, double b)
+  { return width > 0 ? static_cast<float>((b - a) / width) : 0.f; };
+  interval.Attenuation = static_cast<float>(left.Attenuation);
+  interval.AttenuationSlope = slope(left.Attenuation, right.Attenuation);
+  for (int c = 0; c < 3; ++c)
+  {
+    interval.Color[c] = static_cast<float>(left.Color[c]);
+    interval.ColorSlope[c] = slope(left.Color[c], right.Color[c]);
+  }
+  return interval;
+}
+
+} // namespace
+
+IntervalTable MakeIntervalTable(const TransferFunction& function)
+{
+  Check(function);
+  IntervalTable table;
+  const std::vector<TransferFunction::Node>& nodes = function.Nodes;
+  const double first = nodes.front().Scalar;
+  const double last = nodes.back().Scalar;
+  table.Offset = 0.5 * first + 0.5 * last;
+  table.Scale = 0.5 * last - 0.5 * first;
+  if (!(table.Scale > 0))
+  {
+    table.Scale = std::max(std::abs(first), std::numeric_limits<double>::min());
+  }
+  const auto map = [&table](double s)
+  { return static_cast<float>((s - table.Offset) / table.Scale); };
+
+  constexpr float Infinity = std::numeric_limits<float>::infinity();
+  table.Intervals.push_back(
+    MakeInterval(-Infinity, map(first), map(first), 0, nodes.front().Left, nodes.front().Left));
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
+  {
+    const float lo = map(nodes[k].Scalar);
+    const float hi = map(nodes[k + 1].Scalar);
+    // The width of the rounded nodes, so that the values at both ends are met.
+    table.Intervals.push_back(
+      MakeInterval(lo, hi, lo, static_cast<double>(hi) - lo, nodes[k].Right, nodes[k + 1].Left));
+  }
+  table.Intervals.push_back(
+    MakeInterval(map(last), Infinity, map(last), 0, nodes.back().Right, nodes.back().Right));
+
+  double previous = nodes.front().Left.Attenuation;
+  for (const TransferFunction::Node& node : nodes)
+  {
+    table.MaximumAttenuation =
+      std::max({ table.MaximumAttenuation, node.Left.Attenuation, node.Right.Attenuation });
+    table.AttenuationVariation += std::abs(node.Left.Attenuation - previous) +
+      std::abs(node.Right.Attenuation - node.Left.Attenuation);
+    previous = node.Right.Attenuation;
+  }
+  return table;
+}
+
+TransferFunction::Value Evaluate(const TransferFunction& function, double scalar)
+{
+  const std::vector<TransferFunction::Node>& nodes = function.Nodes;
+  if (scalar < nodes.front().Scalar)
+  {
+    return nodes.front().Left;
+  }
+  // The last node that is not above the scalar.
+  const auto next = std::upper_bound(nodes.begin(), nodes.end(), scalar,
+    [](double s, const TransferFunction::Node& node) { return s < node.Scalar; });
+  const TransferFunction::Node& node = *(next - 1);
+  if (next == nodes.end())
+  {
+    return node.Right;
+  }
+  const double f = (scalar - node.Scalar) / (next->Scalar - node.Scalar);
+  TransferFunction::Value value;
+  value.Attenuation = (1 - f) * node.Right.Attenuation + f * next->Left.Attenuation;
+  for (int c = 0; c < 3; ++c)
+  {
+    value.Color[c] = (1 - f) * node.Right.Color[c] + f * next->Left.Color[c];
+  }
+  return value;
+}
+
+} // namespace tetralux

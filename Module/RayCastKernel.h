@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RayCastKernel_h
+#define tetralux_RayCastKernel_h
+
+// What the kernels of the ray caster read and write: plain pointers, filled by RayCaster.cxx. The
+// kernels themselves (RayCastKernel.inl) are compiled once for each instruction set.
+
+#include "BoundaryBvh.h"
+#include "IntervalTable.h"
+#include "RayGrid.h"
+#include "RayLimits.h"
+#include "WalkMesh.h"
+
+#include <array>
+#include <cstdint>
+
+namespace tetralux
+{
+
+struct KernelInput
+{
+  // The mesh. Points: WalkPoint<Real> of the kernel's Real.
+  const void* Points;
+  const WalkFace* Faces;
+  const WalkEntry* Entries;
+  const BoundaryBvh::Node* Nodes; ///< nullptr: no boundary, an empty mesh
+  const std::int32_t* Triangles;
+  std::int64_t NumberOfCells;
+  double Center[3];
+  double Radius;
+
+  // The scene. Intervals for scalars at points, CellValues for scalars at cells.
+  const IntervalTable::Interval* Intervals;
+  const CellValue* CellValues;
+  const RayGrid* Grid;
+  const std::array<double, 4>* Planes;
+  int NumberOfPlanes;
+  const double* CroppingPlanes; ///< nullptr: no cropping
+  std::uint32_t CroppingFlags;
+  const float* MaximumDistances; ///< nullptr: none
+
+  /// A ray ends where less than this share of the light behind would reach the eye.
+  float MinimumTransmittance;
+
+  float* Colors; ///< four a pixel, premultiplied
+  float* Depths; ///< one a pixel
+};
+
+/// Where a ray crosses the boundary of the mesh.
+struct Crossing
+{
+  double Distance;
+  std::int32_t Entry; ///< index into KernelInput::Entries, or -1 once it was walked from or to
+};
+
+/// Room for the crossings of a packet's rays, owned by one thread and grown on demand.
+struct CrossingBuffer
+{
+  Crossing* Crossings; ///< Capacity for each lane, lane after lane
+  int Capacity;
+  void (*Grow)(CrossingBuffer&); ///< at least doubles Capacity; contents are lost
+};
+
+struct KernelCounts
+{
+  std::int64_t Segments = 0; ///< cells walked through, over all rays
+  std::int64_t Steps = 0;    ///< steps of packets; Segments / (8 Steps) is the share of busy lanes
+  std::int64_t Paths = 0;    ///< entries into the mesh
+};
+
+/// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1).
+using RayCastKernel = void (*)(
+  const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
+
+/// The kernels of one instruction set.
+struct RayCastKernels
+{
+  RayCastKernel PointFloat, PointDouble, CellFloat, CellDouble;
+};
+
+RayCastKernels GetRayCastKernelsGeneric();
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+RayCastKernels GetRayCastKernelsAvx2();
+#endif
+
+} // namespace tetralux
+
+#endif

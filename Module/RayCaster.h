@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RayCaster_h
+#define tetralux_RayCaster_h
+
+#include "IntervalTable.h"
+#include "RayGrid.h"
+#include "RayLimits.h"
+#include "Span.h"
+#include "TetraluxCoreModule.h"
+#include "TransferFunction.h"
+#include "WalkMesh.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tetralux
+{
+
+/// Arithmetic of the geometry along a ray. Integrals are always evaluated in single precision,
+/// whose error there is SegmentWeightError.
+enum class Precision
+{
+  Automatic, ///< single where EstimateGeometryError stays within the error that is asked for
+  Single,
+  Double
+};
+
+struct RayCastOptions
+{
+  /// Largest error of a colour channel or of the opacity that is aimed at, 0..1. Rays end early
+  /// where what is behind could not change a channel by half of it.
+  double MaximumError = 1e-4;
+
+  Precision Arithmetic = Precision::Automatic;
+
+  int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
+
+  /// Called now and then, by the calling thread only, with the share that is done, 0..1; returns
+  /// false to abort. May be empty.
+  std::function<bool(double)> Progress;
+};
+
+struct RayCastStatistics
+{
+  bool Aborted = false;
+  bool DoublePrecision = false;
+  std::string InstructionSet;
+  int NumberOfThreads = 0;
+  std::int64_t Rays = 0;
+  std::int64_t Segments = 0;   ///< cells walked through, over all rays
+  std::int64_t Paths = 0;      ///< entries into the mesh, over all rays
+  double LaneUse = 0;          ///< share of vector lanes that carried a ray, 0..1
+  double ErrorEstimate = 0;    ///< sum of the three below
+  double TerminationError = 0; ///< at most, by ending rays early
+  double IntegralError = 0;    ///< at most, by the weights of segments
+  double GeometryError = 0;    ///< estimated, by rounding coordinates and scalars
+};
+
+/// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of eight rays,
+/// tiles of the image over OpenMP threads. The picture does not depend on the number of threads.
+/// What is set stays valid until it is set again; nothing is rebuilt by Cast.
+class TETRALUXCORE_EXPORT RayCaster
+{
+public:
+  /// The mesh; scalars must be set after it.
+  void SetMesh(std::shared_ptr<WalkMesh> mesh);
+  const WalkMesh* GetMesh() const { return this->Mesh.get(); }
+
+  /// One scalar for each point, or for each cell, of WalkMesh::GetMesh(); any values, those that
+  /// are not finite make the cells that touch them contribute nothing. Throws
+  /// std::invalid_argument where their number is wrong.
+  ///@{
+  void SetPointScalars(std::vector<double> scalars);
+  void SetCellScalars(std::vector<double> scalars);
+  ///@}
+
+  /// Cells that touch a scalar which is not finite.
+  std::int64_t GetNumberOfBlankCells() const { return this->NumberOfBlankCells; }
+
+  /// Throws std::invalid_argument as MakeIntervalTable does.
+  void SetTransferFunction(const TransferFunction& function);
+
+  /// Casts all rays of the grid. colors: four floats a pixel, premultiplied red, green, blue and
+  /// opacity; depths: one float a pixel, the distance along the ray to the first contribution in
+  /// world units, -1 where there is none; both lower row first. After an abort they are incomplete.
+  RayCastStatistics Cast(const RayGrid& grid, const RayLimits& limits,
+    const RayCastOptions& options, Span<float> colors, Span<float> depths);
+
+  /// Estimated error of a channel by single precision coordinates and scalars: their rounding moves
+  /// every face along a ray by about meshRadius 2^-23 and every scalar by scalar 2^-24, which
+  /// matters as far as the attenuation changes over that. worldRadius: radius of the mesh in world
+  /// units; largestScalar: as mapped by the table, at least 1.
+  static double EstimateGeometryError(
+    const IntervalTable& table, double worldRadius, double largestScalar);
+
+private:
+  void SetScalars(std::vector<double> scalars, bool ofCells);
+  void CountBlankCells();
+  double GetLargestMappedScalar() const;
+  void UpdatePointScalars(bool doublePrecision);
+  void UpdateCellValues();
+
+  std::shared_ptr<WalkMesh> Mesh;
+  std::vector<double> Scalars;
+  bool ScalarsOfCells = false;
+  double ScalarRange[2] = { 0, 0 }; ///< of the finite ones
+  std::int64_t NumberOfBlankCells = 0;
+  TransferFunction Function;
+  IntervalTable Table;
+  std::vector<CellValue> CellValues;
+  /// Which tables hold the scalars as mapped by Table.
+  bool FloatScalarsValid = false;
+  bool DoubleScalarsValid = false;
+  bool CellValuesValid = false;
+};
+
+} // namespace tetralux
+
+#endif

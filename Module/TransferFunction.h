@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_TransferFunction_h
+#define tetralux_TransferFunction_h
+
+#include <vector>
+
+namespace tetralux
+{
+
+/// Colour c(s) and attenuation tau(s) over the scalar s (Weiler et al. 2003, section 3.3), piecewise
+/// linear, with a step allowed at every node.
+///
+/// Between nodes k and k + 1 the function is linear from Nodes[k].Right to Nodes[k + 1].Left. Below
+/// the first node it is Nodes.front().Left, above the last one Nodes.back().Right.
+struct TransferFunction
+{
+  struct Value
+  {
+    double Color[3];    ///< red, green, blue, not multiplied by anything; usually 0..1
+    double Attenuation; ///< tau, per world unit of length, at least 0, finite
+  };
+
+  struct Node
+  {
+    double Scalar; ///< in the units of the scalars, finite
+    Value Left;    ///< limit from smaller scalars
+    Value Right;   ///< limit from larger scalars
+  };
+
+  /// Strictly ascending in Scalar; at least one.
+  std::vector<Node> Nodes;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_WalkMesh_h
+#define tetralux_WalkMesh_h
+
+#include "BoundaryBvh.h"
+#include "FaceNeighbors.h"
+#include "MeshCleaning.h"
+#include "Span.h"
+#include "TetrahedralMesh.h"
+#include "TetraluxCoreModule.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tetralux
+{
+
+/// A point as the walk reads it: in one load. Coordinates relative to the mesh's centre, in units
+/// of its radius; the scalar as SetPointScalars was asked for.
+template <class Real>
+struct alignas(4 * sizeof(Real)) WalkPoint
+{
+  Real X, Y, Z, S;
+};
+
+/// What lies behind one face of a cell, in one load of eight bytes.
+struct WalkFace
+{
+  std::int32_t Cell;  ///< the cell behind (a_{t,i} of the paper), or ~b at boundary face b
+  std::int32_t Point; ///< that cell's point opposite to the face; 0 at the boundary
+};
+
+/// A boundary face and the cell it belongs to. Points ascending.
+struct WalkEntry
+{
+  std::int32_t Points[3];
+  std::int32_t Cell;
+  std::int32_t Opposite; ///< the cell's fourth point
+};
+
+/// The tables that a ray is walked through, built once for a mesh: 32 bytes a tetrahedron for the
+/// topology and 16 a point for single precision; double precision costs 32 more a point, and only
+/// once it is asked for.
+///
+/// The four points of each cell have ascending ids, and face i of a cell is the one opposite to its
+/// i-th point: the index of a face then follows from comparing ids, and no table has to store how
+/// neighbouring cells are turned against each other.
+class TETRALUXCORE_EXPORT WalkMesh
+{
+public:
+  /// Cleans and reorders the mesh (RemoveUnusableCells, OrderSpatially), finds its neighbours and
+  /// boundary, and fills the tables.
+  explicit WalkMesh(TetrahedralMesh mesh);
+
+  /// The mesh in the order of the tables; OriginalPoints and OriginalCells lead back to the input.
+  const TetrahedralMesh& GetMesh() const { return this->Mesh; }
+
+  std::int32_t GetNumberOfCells() const
+  {
+    return static_cast<std::int32_t>(this->Mesh.GetNumberOfCells());
+  }
+
+  const RemovedCells& GetRemovedCells() const { return this->Removed; }
+  std::int64_t GetNumberOfNonManifoldFaces() const { return this->NumberOfNonManifoldFaces; }
+  std::int64_t GetNumberOfComponents() const { return this->NumberOfComponents; }
+  std::int32_t GetNumberOfBoundaryFaces() const
+  {
+    return static_cast<std::int32_t>(this->Entries.size());
+  }
+
+  /// A table's coordinates are (x - Center) / Radius: at most 1 in length. Radius is 1 for an empty
+  /// mesh.
+  const double* GetCenter() const { return this->Center; }
+  double GetRadius() const { return this->Radius; }
+
+  /// The scalars of the points of GetMesh(), as (s - offset) / scale. Values that are not finite
+  /// become not-a-number; cells that touch one contribute nothing.
+  /// real: float or double, whichever table the next rays need; the other one is left as it was.
+  template <class Real>
+  void SetPointScalars(Span<const double> scalars, double offset, double scale);
+
+  /// Bytes of all tables, without GetMesh().
+  std::size_t GetTableSize() const;
+
+  template <class Real>
+  const WalkPoint<Real>* GetPoints() const;
+  const WalkFace* GetFaces() const { return this->Faces.data(); }
+  const WalkEntry* GetEntries() const { return this->Entries.data(); }
+  const BoundaryBvh& GetBvh() const { return this->Bvh; }
+
+private:
+  template <class Real>
+  std::vector<WalkPoint<Real>>& GetPointTable();
+  template <class Real>
+  void FillCoordinates();
+
+  TetrahedralMesh Mesh;
+  RemovedCells Removed;
+  std::int64_t NumberOfNonManifoldFaces = 0;
+  std::int64_t NumberOfComponents = 0;
+  double Center[3] = { 0, 0, 0 };
+  double Radius = 1;
+  std::vector<WalkPoint<float>> FloatPoints;
+  std::vector<WalkPoint<double>> DoublePoints;
+  std::vector<WalkFace> Faces;
+  std::vector<WalkEntry> Entries;
+  BoundaryBvh Bvh;
+};
+
+} // namespace tetralux
+
+#endif
