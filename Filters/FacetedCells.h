@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_FacetedCells_h
+#define tetralux_FacetedCells_h
+
+#include <cstdint>
+#include <vector>
+
+namespace tetralux
+{
+
+/// Cells that are given by their faces: prisms, quadratic cells, polyhedra. They are cut by cutting
+/// the faces into triangles, by a rule that both sides of a face follow, and joining the triangles
+/// with one apex.
+
+/// The faces of a cell type with a fixed number of points, in the numbering of the cell's points.
+struct FacetedCellType
+{
+  int NumberOfPoints = 0;
+
+  /// Planar polygons whose union is the cell's surface, seen counter-clockwise from outside. A
+  /// curved face is several polygons: a quadratic triangle four triangles; a quadratic quadrilateral
+  /// its four corners and what is left of it; a biquadratic face a fan about its centre; a
+  /// quadratic-linear quadrilateral its two halves.
+  std::vector<std::vector<int>> Polygons;
+
+  /// The point that lies on no face, or -1.
+  int MiddlePoint = -1;
+
+  /// Interpolation weights of the points at the cell's parametric centre.
+  std::vector<double> MiddleWeights;
+
+  /// Whether one of the corners may be the apex: not in a quadratic cell, where polygons that a
+  /// corner is not part of lie in one plane with it.
+  bool ApexAtCorner = false;
+};
+
+/// The faces of a cell type as VTK's own cell class gives them; nullptr for a type that is not
+/// among the prisms and quadratic cells. Safe to call from any thread.
+const FacetedCellType* GetFacetedCellType(int cellType);
+
+/// Cuts cells given by their faces. Holds scratch memory: one for each thread.
+class FacetedCellSplitter
+{
+public:
+  /// Starts a cell.
+  void Clear();
+
+  /// Adds a face: point ids, seen counter-clockwise from outside (see OrientOutward).
+  void AddPolygon(const std::int64_t* ids, std::size_t size);
+
+  /// Turns all faces around if they enclose a negative volume. points: coordinates by point id.
+  void OrientOutward(const double* points);
+
+  /// Cones from the smallest point id if that gives only positive tetrahedra.
+  /// tets receives four ids for each tetrahedron; returns whether it did.
+  bool ConeFromSmallestId(const double* points, std::vector<std::int64_t>& tets) const;
+
+  /// Cones from any apex id that is on no face.
+  void ConeFrom(std::int64_t apex, std::vector<std::int64_t>& tets) const;
+
+  /// The ids of all faces, ascending, each once.
+  const std::vector<std::int64_t>& GetPoints();
+
+private:
+  double SignedVolume(const double* points) const;
+
+  std::vector<std::int64_t> Triangles; // three ids each
+  std::vector<std::int64_t> Points;
+};
+
+} // namespace tetralux
+
+#endif

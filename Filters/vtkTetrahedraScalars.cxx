@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTetrahedraScalars.h"
+
+#include "vtkTetrahedraIntake.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
+#include "vtkDataSet.h"
+#include "vtkPointData.h"
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace tetralux
+{
+
+namespace
+{
+
+// Values of vtkMapper's VTK_SCALAR_MODE_... and vtkAbstractMapper's VTK_GET_ARRAY_BY_...; this
+// module does not depend on rendering.
+enum ScalarModes
+{
+  Default = 0,
+  UsePointData = 1,
+  UseCellData = 2,
+  UsePointFieldData = 3,
+  UseCellFieldData = 4,
+  UseFieldData = 5
+};
+enum ArrayAccessModes
+{
+  ById = 0,
+  ByName = 1
+};
+enum VectorModes
+{
+  Disabled = -1,
+  Magnitude = 0,
+  Component = 1
+};
+
+/// Values that one task converts.
+constexpr vtkIdType Grain = 65536;
+
+/// One number for each tuple of an array.
+struct ReduceTuples
+{
+  template <class ArrayT>
+  void operator()(ArrayT* array, vtkIdType count, int vectorMode, int component, double* out) const
+  {
+    const auto tuples = vtk::DataArrayTupleRange(array);
+    const bool magnitude = vectorMode == Magnitude && array->GetNumberOfComponents() > 1;
+    vtkSMPTools::For(0, count, Grain,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = begin; i < end; ++i)
+        {
+          const auto tuple = tuples[i];
+          if (magnitude)
+          {
+            double sum = 0;
+            for (const auto value : tuple)
+            {
+              sum += static_cast<double>(value) * static_cast<double>(value);
+            }
+            out[i] = std::sqrt(sum);
+          }
+          else
+          {
+            out[i] = static_cast<double>(tuple[component]);
+          }
+        }
+      });
+  }
+};
+
+vtkDataArray* SelectArray(vtkDataSetAttributes* attributes, const ScalarSelection& selection)
+{
+  switch (selection.ScalarMode)
+  {
+    case UsePointFieldData:
+    case UseCellFieldData:
+      return selection.ArrayAccessMode == ByName ? attributes->GetArray(selection.ArrayName.c_str())
+                                                 : attributes->GetArray(selection.ArrayId);
+    default:
+      return attributes->GetScalars();
+  }
+}
+
+/// The selected array of one block. cellData: -1 where either will do, else 0 or 1; set to what was
+/// found.
+vtkDataArray* FindArray(vtkDataSet* dataSet, const ScalarSelection& selection, int& cellData)
+{
+  if (cellData != 1)
+  {
+    if (vtkDataArray* array = SelectArray(dataSet->GetPointData(), selection))
+    {
+      cellData = 0;
+      return array;
+    }
+  }
+  if (cellData != 0)
+  {
+    if (vtkDataArray* array = SelectArray(dataSet->GetCellData(), selection))
+    {
+      cellData = 1;
+      return array;
+    }
+  }
+  return nullptr;
+}
+
+std::string DescribeSelection(const ScalarSelection& selection)
+{
+  switch (selection.ScalarMode)
+  {
+    case UsePointData:
+      return "the input has no active point scalars";
+    case UseCellData:
+      return "the input has no active cell scalars";
+    case UsePointFieldData:
+    case UseCellFieldData:
+    {
+      const std::string kind = selection.ScalarMode == UsePointFieldData ? "point" : "cell";
+      return selection.ArrayAccessMode == ByName
+        ? "the input has no " + kind + " array named '" + selection.ArrayName + "'"
+        : "the input has no " + kind + " array number " + std::to_string(selection.ArrayId);
+    }
+    default:
+      return "the input has no active point or cell scalars";
+  }
+}
+
+void AppendNames(vtkDataSetAttributes* attributes, std::vector<std::string>& names)
+{
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = attributes->GetArray(i);
+    if (!array ||
+      (array->GetName() && !std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName())))
+    {
+      continue;
+    }
+    std::string name = array->GetName() ? array->GetName() : "(no name)";
+    if (array->GetNumberOfComponents() != 1)
+    {
+      name += " (" + std::to_string(array->GetNumberOfComponents()) + " components)";
+    }
+    if (std::find(names.begin(), names.end(), name) == names.end())
+    {
+      names.push_back(name);
+    }
+  }
+}
+
+std::string Join(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (const std::string& name : names)
+  {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text.empty() ? "none" : text;
+}
+
+/// Values of the input's points or cells, all blocks one after the other; empty on error.
+std::vector<double> ReadInput(
+  vtkDataObject* input, const ScalarSelection& selection, ExtractedScalars& result)
+{
+  int cellData = -1;
+  if (selection.ScalarMode == UsePointData || selection.ScalarMode == UsePointFieldData)
+  {
+    cellData = 0;
+  }
+  if (selection.ScalarMode == UseCellData || selection.ScalarMode == UseCellFieldData)
+  {
+    cellData = 1;
+  }
+
+  // The first block that has the array decides what kind it is, so ask before converting.
+  const std::vector<DataSetBlock> blocks = CollectDataSets(input);
+  std::int64_t points = 0;
+  std::int64_t cells = 0;
+  bool found = false;
+  for (const DataSetBlock& block : blocks)
+  {
+    found = FindArray(block.DataSet, selection, cellData) != nullptr || found;
+    points += block.DataSet->GetNumberOfPoints();
+    cells += block.DataSet->GetNumberOfCells();
+  }
+  if (!found)
+  {
+    result.Error = DescribeSelection(selection) + "; there are " + DescribeArrays(input);
+    return {};
+  }
+  result.CellData = cellData == 1;
+
+  std::vector<double> values(
+    result.CellData ? cells : points, std::numeric_limits<double>::quiet_NaN());
+  for (const DataSetBlock& block : blocks)
+  {
+    vtkDataArray* array = FindArray(block.DataSet, selection, cellData);
+    const vtkIdType count =
+      result.CellData ? block.DataSet->GetNumberOfCells() : block.DataSet->GetNumberOfPoints();
+    if (!array || count == 0)
+    {
+      continue;
+    }
+    if (result.ArrayName.empty() && array->GetName())
+    {
+      result.ArrayName = array->GetName();
+    }
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (array->GetNumberOfTuples() < count)
+    {
+      result.Error = "array '" + name + "' has " + std::to_string(array->GetNumberOfTuples()) +
+        " values for " + std::to_string(count) + (result.CellData ? " cells" : " points");
+      return {};
+    }
+    const int components = array->GetNumberOfComponents();
+    const int component = selection.VectorMode == Component ? selection.VectorComponent : 0;
+    if (component < 0 || component >= components)
+    {
+      result.Error = "array '" + name + "' has no component " + std::to_string(component) +
+        "; it has " + std::to_string(components) + ", counted from 0";
+      return {};
+    }
+    double* out = values.data() + (result.CellData ? block.FirstCell : block.FirstPoint);
+    ReduceTuples worker;
+    if (!vtkArrayDispatch::Dispatch::Execute(
+          array, worker, count, selection.VectorMode, component, out))
+    {
+      worker(array, count, selection.VectorMode, component, out);
+    }
+  }
+  return values;
+}
+
+/// Input values carried over to the mesh's points.
+std::vector<double> ToPoints(std::vector<double>&& input, const TetrahedralMesh& mesh)
+{
+  if (mesh.OriginalPoints.empty())
+  {
+    return std::move(input);
+  }
+  std::vector<double> values(mesh.GetNumberOfPoints());
+  vtkSMPTools::For(0, static_cast<vtkIdType>(values.size()), Grain,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const std::int64_t original = mesh.OriginalPoints[i];
+        if (original >= 0)
+        {
+          values[i] = input[original];
+          continue;
+        }
+        const auto& added = mesh.AddedPoints;
+        double sum = 0;
+        for (std::int64_t j = added.Offsets[-1 - original]; j < added.Offsets[-original]; ++j)
+        {
+          sum += added.Weights[j] * input[added.Sources[j]];
+        }
+        values[i] = sum;
+      }
+    });
+  return values;
+}
+
+/// Input values carried over to the mesh's tetrahedra.
+std::vector<double> ToCells(std::vector<double>&& input, const TetrahedralMesh& mesh)
+{
+  if (mesh.OriginalCells.empty())
+  {
+    return std::move(input);
+  }
+  std::vector<double> values(mesh.GetNumberOfCells());
+  vtkSMPTools::For(0, static_cast<vtkIdType>(values.size()), Grain,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        values[i] = input[mesh.OriginalCells[i]];
+      }
+    });
+  return values;
+}
+
+} // namespace
+
+ExtractedScalars ExtractScalars(
+  vtkDataObject* input, const TetrahedralMesh& mesh, const ScalarSelection& selection)
+{
+  ExtractedScalars result;
+  if (selection.ScalarMode == UseFieldData)
+  {
+    result.Error =
+      "scalars of the field data belong to no point or cell; choose point or cell data";
+    return result;
+  }
+  std::vector<double> values = ReadInput(input, selection, result);
+  if (result.Error.empty())
+  {
+    result.Values =
+      result.CellData ? ToCells(std::move(values), mesh) : ToPoints(std::move(values), mesh);
+  }
+  return result;
+}
+
+std::string DescribeArrays(vtkDataObject* input)
+{
+  std::vector<std::string> pointNames;
+  std::vector<std::string> cellNames;
+  for (const DataSetBlock& block : CollectDataSets(input))
+  {
+    AppendNames(block.DataSet->GetPointData(), pointNames);
+    AppendNames(block.DataSet->GetCellData(), cellNames);
+  }
+  return "point arrays: " + Join(pointNames) + "; cell arrays: " + Join(cellNames);
+}
+
+} // namespace tetralux

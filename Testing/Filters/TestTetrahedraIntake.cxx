@@ -1,0 +1,628 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTetrahedraIntake.h"
+
+#include "CellPatch.h"
+#include "FaceNeighbors.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkSMPTools.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+using namespace tetralux;
+
+namespace
+{
+
+CellPatch::Position KeepPosition(const CellPatch::Position& x) { return x; }
+
+/// Where a point of the mesh was before the map: the same weights apply before and after.
+std::function<CellPatch::Position(std::int64_t)> MakeToBox(
+  vtkUnstructuredGrid* grid, const TetrahedralMesh& mesh)
+{
+  vtkDataArray* unmapped = grid->GetPointData()->GetArray("Unmapped");
+  return [unmapped, &mesh](std::int64_t point)
+  {
+    CellPatch::Position x = { 0, 0, 0 };
+    const std::int64_t original = mesh.OriginalPoints.empty() ? point : mesh.OriginalPoints[point];
+    if (original >= 0)
+    {
+      unmapped->GetTuple(original, x.data());
+      return x;
+    }
+    const auto& added = mesh.AddedPoints;
+    for (std::int64_t j = added.Offsets[-1 - original]; j < added.Offsets[-original]; ++j)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        x[axis] += added.Weights[j] * unmapped->GetComponent(added.Sources[j], axis);
+      }
+    }
+    return x;
+  };
+}
+
+std::size_t CountBoundaryFaces(const TetrahedralMesh& mesh)
+{
+  return FindFaceNeighbors(mesh.Cells, mesh.GetNumberOfPoints()).BoundaryFaces.size();
+}
+
+struct CellTypeCase
+{
+  int Type;
+  int TetrahedraPerBox; ///< 0: depends on the ids
+  int AddedPerBox;
+};
+
+class EveryCellType : public testing::TestWithParam<CellTypeCase>
+{
+};
+
+std::string NameCase(const testing::TestParamInfo<CellTypeCase>& info)
+{
+  return GetCellTypeName(info.param.Type);
+}
+
+} // namespace
+
+TEST_P(EveryCellType, FillsItsVolumeWithPositiveTetrahedraWhoseFacesAgree)
+{
+  const CellTypeCase& param = GetParam();
+  CellPatch patch;
+  patch.AddBoxes(param.Type, 0, 0, 0, 3, 2, 2);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    auto grid = patch.MakeGrid(seed, MapAffine);
+    const TetrahedraIntake intake = TakeInTetrahedra(grid);
+    ASSERT_EQ(intake.Error, "");
+    EXPECT_EQ(intake.Report.CellsByType.at(param.Type), grid->GetNumberOfCells());
+    EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), 0);
+    EXPECT_EQ(intake.Report.InvalidCells, 0);
+
+    std::int64_t notPositive = 0;
+    EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), 12 * GetAffineDeterminant(), 1e-9);
+    EXPECT_EQ(notPositive, 0) << "seed " << seed;
+    EXPECT_EQ(FindConformityProblem(intake.Mesh, MakeToBox(grid, intake.Mesh), { 3, 2, 2 }), "")
+      << "seed " << seed;
+    if (param.TetrahedraPerBox > 0)
+    {
+      EXPECT_EQ(intake.Mesh.GetNumberOfCells(), 12u * param.TetrahedraPerBox);
+    }
+    EXPECT_EQ(intake.Mesh.GetNumberOfPoints(),
+      static_cast<std::size_t>(grid->GetNumberOfPoints()) + 12u * param.AddedPerBox);
+  }
+}
+
+TEST_P(EveryCellType, FacesAgreeWhereTheyAreNotPlanar)
+{
+  CellPatch patch;
+  patch.AddBoxes(GetParam().Type, 0, 0, 0, 3, 2, 2);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    auto grid = patch.MakeGrid(seed, MapWarped);
+    const TetrahedraIntake intake = TakeInTetrahedra(grid);
+    ASSERT_EQ(intake.Error, "");
+    EXPECT_EQ(FindConformityProblem(intake.Mesh, MakeToBox(grid, intake.Mesh), { 3, 2, 2 }), "")
+      << "seed " << seed;
+  }
+}
+
+// Triangles of a surface: 4 of a quadratic triangle, 6 of a quadratic quadrilateral and of a
+// biquadratic triangle, 8 of a biquadratic quadrilateral, 4 of a quadratic-linear quadrilateral.
+INSTANTIATE_TEST_SUITE_P(Types, EveryCellType,
+  testing::Values(CellTypeCase{ VTK_TETRA, 12, 0 }, CellTypeCase{ VTK_VOXEL, 0, 0 },
+    CellTypeCase{ VTK_HEXAHEDRON, 0, 0 }, CellTypeCase{ VTK_WEDGE, 2 * 3, 0 },
+    CellTypeCase{ VTK_PYRAMID, 6 * 2, 0 }, CellTypeCase{ VTK_POLYHEDRON, 6, 0 },
+    CellTypeCase{ VTK_QUADRATIC_TETRA, 12 * 16, 12 },
+    CellTypeCase{ VTK_QUADRATIC_HEXAHEDRON, 36, 1 },
+    CellTypeCase{ VTK_TRIQUADRATIC_HEXAHEDRON, 48, 0 },
+    CellTypeCase{ VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, 4 * 8 + 2 * 6, 1 },
+    CellTypeCase{ VTK_QUADRATIC_WEDGE, 2 * (2 * 4 + 3 * 6), 2 },
+    CellTypeCase{ VTK_QUADRATIC_LINEAR_WEDGE, 2 * (2 * 4 + 3 * 4), 2 },
+    CellTypeCase{ VTK_BIQUADRATIC_QUADRATIC_WEDGE, 2 * (2 * 4 + 3 * 8), 2 },
+    CellTypeCase{ VTK_QUADRATIC_PYRAMID, 6 * (6 + 4 * 4), 6 },
+    CellTypeCase{ VTK_TRIQUADRATIC_PYRAMID, 6 * (8 + 4 * 6), 0 }),
+  NameCase);
+
+TEST(TetrahedraIntake, DifferentCellTypesAgreeOnTheirFaces)
+{
+  CellPatch patch;
+  patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 1, 2, 2);
+  patch.AddBoxes(VTK_PYRAMID, 1, 0, 0, 1, 2, 2);
+  patch.AddBoxes(VTK_WEDGE, 2, 0, 0, 1, 2, 2);
+  patch.AddBoxes(VTK_POLYHEDRON, 3, 0, 0, 1, 2, 2);
+  patch.AddBoxes(VTK_VOXEL, 4, 0, 0, 1, 2, 2);
+  for (std::uint64_t seed = 1; seed <= 50; ++seed)
+  {
+    auto grid = patch.MakeGrid(seed, MapAffine);
+    const TetrahedraIntake intake = TakeInTetrahedra(grid);
+    std::int64_t notPositive = 0;
+    EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), 20 * GetAffineDeterminant(), 1e-9);
+    EXPECT_EQ(notPositive, 0);
+    EXPECT_EQ(FindConformityProblem(intake.Mesh, MakeToBox(grid, intake.Mesh), { 5, 2, 2 }), "");
+    ASSERT_EQ(intake.Mesh.OriginalCells.size(), intake.Mesh.GetNumberOfCells());
+    EXPECT_EQ(intake.Mesh.OriginalCells.front(), 0);
+    EXPECT_EQ(intake.Mesh.OriginalCells.back(), grid->GetNumberOfCells() - 1);
+  }
+}
+
+TEST(TetrahedraIntake, PrismsShareTheirSides)
+{
+  for (int sides : { 5, 6 })
+  {
+    // Two prisms one above the other, and their volume from the regular polygon's area.
+    const double pi = std::acos(-1.0);
+    CellPatch patch;
+    for (int layer : { 0, 1 })
+    {
+      std::vector<CellPatch::Position> corners;
+      for (int level : { layer, layer + 1 })
+      {
+        for (int i = 0; i < sides; ++i)
+        {
+          corners.push_back(
+            { std::cos(2 * pi * i / sides), std::sin(2 * pi * i / sides), double(level) });
+        }
+      }
+      patch.AddCell(sides == 5 ? VTK_PENTAGONAL_PRISM : VTK_HEXAGONAL_PRISM, corners);
+    }
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    {
+      auto grid = patch.MakeGrid(seed, KeepPosition);
+      const TetrahedraIntake intake = TakeInTetrahedra(grid);
+      std::int64_t notPositive = 0;
+      EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), sides * std::sin(2 * pi / sides), 1e-5);
+      EXPECT_EQ(notPositive, 0);
+      EXPECT_EQ(intake.Mesh.GetNumberOfPoints(), 3u * sides) << "a convex prism needs no new point";
+      EXPECT_EQ(CountBoundaryFaces(intake.Mesh), 2u * (sides - 2) + 2u * 2 * sides);
+    }
+  }
+}
+
+TEST(TetrahedraIntake, DentedPolyhedronIsConedFromItsMiddle)
+{
+  // A cube whose top has a dent, so that no corner of the top sees everything.
+  const std::vector<CellPatch::Position> points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 },
+    { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 }, { 0.5, 0.5, 0.75 } };
+  const std::vector<std::vector<int>> outward = { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 },
+    { 3, 7, 6, 2 }, { 0, 3, 2, 1 }, { 4, 5, 8 }, { 5, 6, 8 }, { 6, 7, 8 }, { 7, 4, 8 } };
+  std::vector<std::vector<int>> inward = outward;
+  for (std::vector<int>& face : inward)
+  {
+    std::reverse(face.begin(), face.end());
+  }
+  std::set<std::size_t> numbersOfPoints;
+  for (const auto& faces : { outward, inward })
+  {
+    CellPatch patch;
+    patch.AddPolyhedron(points, faces);
+    for (std::uint64_t seed = 1; seed <= 50; ++seed)
+    {
+      auto grid = patch.MakeGrid(seed, KeepPosition);
+      const TetrahedraIntake intake = TakeInTetrahedra(grid);
+      std::int64_t notPositive = 0;
+      EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), 1 - 0.25 / 3, 1e-12);
+      EXPECT_EQ(notPositive, 0) << "seed " << seed;
+      EXPECT_EQ(CountBoundaryFaces(intake.Mesh), 5u * 2 + 4);
+      numbersOfPoints.insert(intake.Mesh.GetNumberOfPoints());
+    }
+  }
+  EXPECT_EQ(numbersOfPoints, (std::set<std::size_t>{ 9, 10 })) << "both ways were tried";
+}
+
+TEST(TetrahedraIntake, ConvexPointSetIsFilled)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkUnstructuredGrid> grid;
+  std::vector<vtkIdType> ids;
+  for (int i = 0; i < 8; ++i)
+  {
+    ids.push_back(points->InsertNextPoint(i & 1, i >> 1 & 1, i >> 2));
+  }
+  grid->SetPoints(points);
+  grid->InsertNextCell(VTK_CONVEX_POINT_SET, 8, ids.data());
+  const TetrahedraIntake intake = TakeInTetrahedra(grid);
+  double volume = 0;
+  for (std::size_t i = 0; i < intake.Mesh.GetNumberOfCells(); ++i)
+  {
+    TetrahedralMesh one;
+    one.Points = intake.Mesh.Points;
+    one.Cells.assign(&intake.Mesh.Cells[4 * i], &intake.Mesh.Cells[4 * i] + 4);
+    volume += std::abs(GetVolume(one));
+  }
+  EXPECT_NEAR(volume, 1, 1e-12);
+}
+
+TEST(TetrahedraIntake, AllTetrahedraPassAsTheyAre)
+{
+  CellPatch patch;
+  patch.AddBoxes(VTK_TETRA, 0, 0, 0, 2, 2, 2);
+  auto grid = patch.MakeGrid(7, KeepPosition);
+  for (bool wide : { false, true })
+  {
+    wide ? grid->GetCells()->ConvertTo64BitStorage() : grid->GetCells()->ConvertTo32BitStorage();
+    const TetrahedraIntake intake = TakeInTetrahedra(grid);
+    EXPECT_TRUE(intake.Mesh.OriginalCells.empty());
+    EXPECT_TRUE(intake.Mesh.OriginalPoints.empty());
+    ASSERT_EQ(intake.Mesh.GetNumberOfCells(), static_cast<std::size_t>(grid->GetNumberOfCells()));
+    for (vtkIdType cellId = 0; cellId < grid->GetNumberOfCells(); ++cellId)
+    {
+      vtkNew<vtkIdList> ids;
+      grid->GetCellPoints(cellId, ids);
+      for (int i = 0; i < 4; ++i)
+      {
+        EXPECT_EQ(intake.Mesh.Cells[4 * cellId + i], ids->GetId(i));
+      }
+    }
+  }
+}
+
+TEST(TetrahedraIntake, SinglePrecisionAndIntegerPointsAreRead)
+{
+  for (int type : { VTK_FLOAT, VTK_DOUBLE, VTK_INT })
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataType(type);
+    points->InsertNextPoint(0, 0, 0);
+    points->InsertNextPoint(3, 0, 0);
+    points->InsertNextPoint(0, 4, 0);
+    points->InsertNextPoint(0, 0, 5);
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points);
+    const vtkIdType ids[4] = { 0, 1, 2, 3 };
+    grid->InsertNextCell(VTK_TETRA, 4, ids);
+    EXPECT_DOUBLE_EQ(GetVolume(TakeInTetrahedra(grid).Mesh), 10) << "type " << type;
+  }
+}
+
+TEST(TetrahedraIntake, GhostAndBlankedCellsAreCounted)
+{
+  CellPatch patch;
+  patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 5, 1, 1);
+  auto grid = patch.MakeGrid(3, KeepPosition);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(5);
+  ghosts->FillValue(0);
+  ghosts->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
+  ghosts->SetValue(1, vtkDataSetAttributes::HIDDENCELL);
+  ghosts->SetValue(2, vtkDataSetAttributes::REFINEDCELL);
+  ghosts->SetValue(3, vtkDataSetAttributes::EXTERIORCELL); // says nothing about visibility
+  grid->GetCellData()->AddArray(ghosts);
+  TetrahedraIntake intake = TakeInTetrahedra(grid);
+  EXPECT_EQ(intake.Report.GhostCells, 1);
+  EXPECT_EQ(intake.Report.BlankedCells, 2);
+  EXPECT_NEAR(GetVolume(intake.Mesh), 2, 1e-12);
+  EXPECT_EQ(
+    std::set<std::int64_t>(intake.Mesh.OriginalCells.begin(), intake.Mesh.OriginalCells.end()),
+    (std::set<std::int64_t>{ 3, 4 }));
+
+  // A hidden corner hides the cells around it; a duplicated one does not.
+  grid->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  vtkNew<vtkUnsignedCharArray> pointGhosts;
+  pointGhosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  pointGhosts->SetNumberOfValues(grid->GetNumberOfPoints());
+  pointGhosts->FillValue(vtkDataSetAttributes::DUPLICATEPOINT);
+  vtkNew<vtkIdList> ids;
+  grid->GetCellPoints(0, ids);
+  pointGhosts->SetValue(ids->GetId(0), vtkDataSetAttributes::HIDDENPOINT); // at x = 0
+  grid->GetPointData()->AddArray(pointGhosts);
+  intake = TakeInTetrahedra(grid);
+  EXPECT_EQ(intake.Report.BlankedCells, 1);
+  EXPECT_NEAR(GetVolume(intake.Mesh), 4, 1e-12);
+}
+
+TEST(TetrahedraIntake, TetrahedraWithGhostsAreLeftOut)
+{
+  CellPatch patch;
+  patch.AddBoxes(VTK_TETRA, 0, 0, 0, 1, 1, 1);
+  auto grid = patch.MakeGrid(3, KeepPosition);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(12);
+  ghosts->FillValue(0);
+  ghosts->SetValue(4, vtkDataSetAttributes::DUPLICATECELL);
+  grid->GetCellData()->AddArray(ghosts);
+  const TetrahedraIntake intake = TakeInTetrahedra(grid);
+  EXPECT_EQ(intake.Mesh.GetNumberOfCells(), 11u);
+  EXPECT_EQ(intake.Mesh.OriginalCells[4], 5);
+}
+
+TEST(TetrahedraIntake, BlankedCellsOfAStructuredGrid)
+{
+  vtkNew<vtkStructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  for (int k = 0; k < 4; ++k)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        points->InsertNextPoint(i, j, k);
+      }
+    }
+  }
+  grid->SetDimensions(4, 4, 4);
+  grid->SetPoints(points);
+  EXPECT_NEAR(GetVolume(TakeInTetrahedra(grid).Mesh), 27, 1e-12);
+  grid->BlankCell(13); // the middle one
+  TetrahedraIntake intake = TakeInTetrahedra(grid);
+  EXPECT_EQ(intake.Report.BlankedCells, 1);
+  EXPECT_NEAR(GetVolume(intake.Mesh), 26, 1e-12);
+  grid->BlankPoint(0);
+  intake = TakeInTetrahedra(grid);
+  EXPECT_EQ(intake.Report.BlankedCells, 2);
+  EXPECT_NEAR(GetVolume(intake.Mesh), 25, 1e-12);
+}
+
+TEST(TetrahedraIntake, LowerDimensionalCellsAreIgnoredAndCounted)
+{
+  CellPatch patch;
+  patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 2, 1, 1);
+  auto grid = patch.MakeGrid(3, KeepPosition);
+  const vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  grid->InsertNextCell(VTK_VERTEX, 1, ids);
+  grid->InsertNextCell(VTK_POLY_LINE, 3, ids);
+  grid->InsertNextCell(VTK_QUAD, 4, ids);
+  grid->InsertNextCell(VTK_QUADRATIC_TRIANGLE, 6, ids);
+  grid->InsertNextCell(VTK_LAGRANGE_TRIANGLE, 6, ids);
+  const TetrahedraIntake intake = TakeInTetrahedra(grid);
+  EXPECT_EQ(intake.Report.LowerDimensionalCells, 5);
+  EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), 0);
+  EXPECT_NEAR(GetVolume(intake.Mesh), 2, 1e-12);
+
+  vtkNew<vtkImageData> plane;
+  plane->SetDimensions(4, 5, 1);
+  const TetrahedraIntake flat = TakeInTetrahedra(plane);
+  EXPECT_EQ(flat.Error, "");
+  EXPECT_EQ(flat.Report.LowerDimensionalCells, 12);
+  EXPECT_EQ(flat.Mesh.GetNumberOfCells(), 0u);
+}
+
+TEST(TetrahedraIntake, CellsThatCannotBeSplitAreNamed)
+{
+  CellPatch patch;
+  patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 1, 1, 1);
+  auto grid = patch.MakeGrid(3, KeepPosition);
+  const vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
+  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
+  grid->InsertNextCell(VTK_BEZIER_TETRAHEDRON, 4, ids);
+  const TetrahedraIntake intake = TakeInTetrahedra(grid);
+  EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), 3);
+  EXPECT_EQ(intake.Report.DescribeSkippedCells(), "2 vtkLagrangeHexahedron, 1 vtkBezierTetra");
+  EXPECT_NEAR(GetVolume(intake.Mesh), 1, 1e-12);
+  EXPECT_EQ(GetCellTypeName(200), "cell type 200");
+}
+
+TEST(TetrahedraIntake, CellsThatNamePointsThatDoNotExistAreCounted)
+{
+  CellPatch patch;
+  patch.AddBoxes(VTK_TETRA, 0, 0, 0, 1, 1, 1);
+  auto grid = patch.MakeGrid(3, KeepPosition);
+  const vtkIdType beyond[4] = { 0, 1, 2, grid->GetNumberOfPoints() };
+  const vtkIdType negative[4] = { 0, -1, 2, 3 };
+  const vtkIdType tooFew[3] = { 0, 1, 2 };
+  grid->InsertNextCell(VTK_TETRA, 4, beyond);
+  grid->InsertNextCell(VTK_TETRA, 4, negative);
+  grid->InsertNextCell(VTK_HEXAHEDRON, 4, beyond);
+  grid->InsertNextCell(VTK_TETRA, 3, tooFew);
+  const TetrahedraIntake intake = TakeInTetrahedra(grid);
+  EXPECT_EQ(intake.Report.InvalidCells, 4);
+  EXPECT_EQ(intake.Mesh.GetNumberOfCells(), 12u);
+}
+
+TEST(TetrahedraIntake, CollapsedHexahedronKeepsItsVolume)
+{
+  // A hexahedron whose edge 1-2 and edge 5-6 are points is a wedge of half the volume.
+  vtkNew<vtkPoints> points;
+  const double x[6][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
+    { 0, 1, 1 } };
+  for (const auto& point : x)
+  {
+    points->InsertNextPoint(point);
+  }
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  const vtkIdType ids[8] = { 0, 1, 1, 2, 3, 4, 4, 5 };
+  grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+  const TetrahedraIntake intake = TakeInTetrahedra(grid);
+  std::int64_t notPositive = 0;
+  EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), 0.5, 1e-12);
+  EXPECT_EQ(notPositive, 0);
+}
+
+TEST(TetrahedraIntake, GridsSplitIntoFiveTetrahedraACell)
+{
+  vtkNew<vtkImageData> image;
+  image->SetExtent(3, 6, -1, 3, 2, 4);
+  image->SetSpacing(0.5, 1, 2);
+  const double turned[9] = { 0, -1, 0, 1, 0, 0, 0, 0, 1 };
+  image->SetDirectionMatrix(turned);
+
+  vtkNew<vtkRectilinearGrid> rectilinear;
+  rectilinear->SetDimensions(4, 5, 3);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    vtkNew<vtkDoubleArray> coordinates;
+    for (int i = 0; i < 5 - (axis != 1) - (axis == 2); ++i)
+    {
+      coordinates->InsertNextValue(0.5 * i * i);
+    }
+    axis == 0     ? rectilinear->SetXCoordinates(coordinates)
+      : axis == 1 ? rectilinear->SetYCoordinates(coordinates)
+                  : rectilinear->SetZCoordinates(coordinates);
+  }
+
+  const auto check = [](vtkDataSet* dataSet, double volume)
+  {
+    const TetrahedraIntake intake = TakeInTetrahedra(dataSet);
+    ASSERT_EQ(intake.Error, "");
+    EXPECT_EQ(intake.Mesh.GetNumberOfCells(), 5u * 3 * 4 * 2);
+    EXPECT_EQ(intake.Report.CellsByType.at(VTK_VOXEL), 3 * 4 * 2);
+    std::int64_t notPositive = 0;
+    EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), volume, 1e-9);
+    EXPECT_EQ(notPositive, 0);
+    const auto toBox = [](std::int64_t point) -> CellPatch::Position {
+      return { double(point % 4), double(point / 4 % 5), double(point / 20) };
+    };
+    EXPECT_EQ(FindConformityProblem(intake.Mesh, toBox, { 3, 4, 2 }), "");
+  };
+  check(image, 3 * 4 * 2);
+  check(rectilinear, 4.5 * 8 * 2);
+}
+
+TEST(TetrahedraIntake, NeighbouringPiecesOfAnImageCutTheirCommonFaceAlike)
+{
+  const auto edgesInPlane = [](int from, int to)
+  {
+    vtkNew<vtkImageData> image;
+    image->SetExtent(from, to, 0, 4, 0, 4);
+    const TetrahedraIntake intake = TakeInTetrahedra(image);
+    std::set<std::pair<CellPatch::Position, CellPatch::Position>> edges;
+    for (std::size_t i = 0; i < intake.Mesh.Cells.size(); ++i)
+    {
+      for (std::size_t j = i / 4 * 4; j < i / 4 * 4 + 4; ++j)
+      {
+        const double* a = &intake.Mesh.Points[3 * intake.Mesh.Cells[i]];
+        const double* b = &intake.Mesh.Points[3 * intake.Mesh.Cells[j]];
+        if (a[0] == 3 && b[0] == 3)
+        {
+          edges.insert({ { a[0], a[1], a[2] }, { b[0], b[1], b[2] } });
+        }
+      }
+    }
+    return edges;
+  };
+  EXPECT_EQ(edgesInPlane(0, 3), edgesInPlane(3, 5));
+}
+
+TEST(TetrahedraIntake, BlocksAreConcatenated)
+{
+  CellPatch hexahedra;
+  hexahedra.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 2, 1, 1);
+  CellPatch quadratic;
+  quadratic.AddBoxes(VTK_QUADRATIC_HEXAHEDRON, 0, 0, 0, 1, 1, 1);
+  auto first = hexahedra.MakeGrid(1, KeepPosition);
+  auto second = quadratic.MakeGrid(2, MapAffine);
+  vtkNew<vtkImageData> third;
+  third->SetDimensions(2, 2, 2);
+  vtkNew<vtkTable> table;
+  vtkNew<vtkPolyData> nothing;
+  vtkNew<vtkMultiBlockDataSet> inner;
+  inner->SetBlock(0, second);
+  inner->SetBlock(1, table);
+  inner->SetBlock(2, third);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetNumberOfBlocks(4);
+  blocks->SetBlock(0, nothing);
+  blocks->SetBlock(1, first);
+  blocks->SetBlock(3, inner); // block 2 is missing
+
+  const TetrahedraIntake intake = TakeInTetrahedra(blocks);
+  ASSERT_EQ(intake.Error, "");
+  EXPECT_EQ(intake.Report.Blocks, 4);
+  EXPECT_EQ(intake.Report.SkippedBlocks, 1);
+  EXPECT_EQ(intake.Report.NumberOfPoints, 12 + 20 + 8);
+  EXPECT_EQ(intake.Mesh.GetNumberOfPoints(), 12u + 20 + 8 + 1);
+  EXPECT_EQ(intake.Mesh.OriginalPoints.back(), -1);
+  EXPECT_EQ(
+    std::set<std::int64_t>(intake.Mesh.OriginalCells.begin(), intake.Mesh.OriginalCells.end()),
+    (std::set<std::int64_t>{ 0, 1, 2, 3 }));
+  EXPECT_NEAR(GetVolume(intake.Mesh), 2 + GetAffineDeterminant() + 1, 1e-9);
+  for (std::int64_t source : intake.Mesh.AddedPoints.Sources)
+  {
+    EXPECT_GE(source, 12);
+    EXPECT_LT(source, 32);
+  }
+}
+
+TEST(TetrahedraIntake, EmptyInputsGiveEmptyMeshes)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkStructuredGrid> structured;
+  vtkNew<vtkImageData> image;
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (vtkDataObject* input : std::vector<vtkDataObject*>{ grid, structured, image, blocks })
+  {
+    const TetrahedraIntake intake = TakeInTetrahedra(input);
+    EXPECT_EQ(intake.Error, "");
+    EXPECT_EQ(intake.Mesh.GetNumberOfCells(), 0u);
+  }
+}
+
+TEST(TetrahedraIntake, WhatIsNoDataSetIsRefused)
+{
+  vtkNew<vtkTable> table;
+  EXPECT_EQ(TakeInTetrahedra(table).Error,
+    "the input is a vtkTable, not a data set or a composite of data sets");
+  EXPECT_EQ(TakeInTetrahedra(nullptr).Error, "there is no input");
+}
+
+TEST(TetrahedraIntake, InputsThatAreTooLargeAreRefusedBeforeAnyWork)
+{
+  vtkNew<vtkImageData> image; // without arrays it takes no memory
+  image->SetDimensions(1300, 1300, 1300);
+  EXPECT_EQ(TakeInTetrahedra(image).Error,
+    "the input has 2197000000 points, counting those that splitting adds; at most 2147483647 are "
+    "possible");
+  image->SetDimensions(480, 480, 480);
+  EXPECT_EQ(TakeInTetrahedra(image).Error,
+    "the input splits into more than 536870911 tetrahedra, which is the most that is possible");
+}
+
+TEST(TetrahedraIntake, ProgressRisesAndAborts)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(101, 101, 101);
+  std::vector<double> fractions;
+  EXPECT_FALSE(TakeInTetrahedra(image,
+    [&](double fraction)
+    {
+      fractions.push_back(fraction);
+      return true;
+    }).Aborted);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_EQ(fractions.back(), 1);
+  EXPECT_GT(fractions.size(), 1u);
+
+  const TetrahedraIntake aborted = TakeInTetrahedra(image, [](double) { return false; });
+  EXPECT_TRUE(aborted.Aborted);
+  EXPECT_EQ(aborted.Mesh.GetNumberOfCells(), 0u);
+}
+
+TEST(TetrahedraIntake, TheNumberOfThreadsDoesNotMatter)
+{
+  CellPatch patch;
+  patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 20, 20, 20);
+  patch.AddBoxes(VTK_QUADRATIC_PYRAMID, 20, 0, 0, 1, 20, 20);
+  auto grid = patch.MakeGrid(5, MapWarped);
+  TetrahedraIntake one;
+  TetrahedraIntake four;
+  vtkSMPTools::LocalScope(
+    vtkSMPTools::Config(1, "Sequential", false), [&] { one = TakeInTetrahedra(grid); });
+  vtkSMPTools::LocalScope(
+    vtkSMPTools::Config(4, "STDThread", false), [&] { four = TakeInTetrahedra(grid); });
+  EXPECT_EQ(one.Mesh.Points, four.Mesh.Points);
+  EXPECT_EQ(one.Mesh.Cells, four.Mesh.Cells);
+  EXPECT_EQ(one.Mesh.OriginalCells, four.Mesh.OriginalCells);
+  EXPECT_EQ(one.Mesh.AddedPoints.Offsets, four.Mesh.AddedPoints.Offsets);
+  EXPECT_EQ(one.Mesh.AddedPoints.Sources, four.Mesh.AddedPoints.Sources);
+}
