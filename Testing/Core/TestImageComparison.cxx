@@ -65,10 +65,10 @@ TEST(ImageComparison, WhatIsNotANumberIsInfinitelyWrong)
 
 TEST(ImageComparison, RefusesDifferentSizes)
 {
-  EXPECT_THROW(CompareWithReference(std::vector<float>(8), std::vector<double>(4)),
-    std::invalid_argument);
-  EXPECT_THROW(CompareWithReference(
-                 std::vector<float>(8), std::vector<double>(8), std::vector<double>(8)),
+  EXPECT_THROW(
+    CompareWithReference(std::vector<float>(8), std::vector<double>(4)), std::invalid_argument);
+  EXPECT_THROW(
+    CompareWithReference(std::vector<float>(8), std::vector<double>(8), std::vector<double>(8)),
     std::invalid_argument);
 }
 

@@ -45,8 +45,7 @@ struct PrecisePiece
   }
   Precise OpticalDepth(const Precise& x) const
   {
-    return this->Length *
-      (this->Begin[3] * x + (this->End[3] - this->Begin[3]) * x * x / 2);
+    return this->Length * (this->Begin[3] * x + (this->End[3] - this->Begin[3]) * x * x / 2);
   }
 };
 
@@ -113,10 +112,10 @@ PreciseSegment IntegratePrecisely(
     {
       ++k;
     }
-    const auto value = [&](const Precise& s, int channel) -> Precise {
-      const auto get = [channel](const TransferFunction::Value& v) -> Precise {
-        return channel == 3 ? v.Attenuation : v.Color[channel];
-      };
+    const auto value = [&](const Precise& s, int channel) -> Precise
+    {
+      const auto get = [channel](const TransferFunction::Value& v) -> Precise
+      { return channel == 3 ? v.Attenuation : v.Color[channel]; };
       if (k == 0 || k == nodes.size())
       {
         return get(k == 0 ? nodes.front().Left : nodes.back().Right);
@@ -232,7 +231,8 @@ TEST(ReferenceIntegral, AgreesWithFiftyDigitsForRandomFunctions)
   for (int example = 0; example < 60; ++example)
   {
     TransferFunction function;
-    const auto randomValue = [&]() -> TransferFunction::Value {
+    const auto randomValue = [&]() -> TransferFunction::Value
+    {
       const double attenuation = unit(generator) < 0.2 ? 0 : std::pow(10, 8 * unit(generator) - 5);
       return { { unit(generator), unit(generator), unit(generator) }, attenuation };
     };
@@ -331,8 +331,7 @@ WorldRay GetRay(const RayGrid& grid, int i, int j)
   long double length = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    ray.Origin[axis] =
-      grid.Origin[axis] + i * grid.OriginStepX[axis] + j * grid.OriginStepY[axis];
+    ray.Origin[axis] = grid.Origin[axis] + i * grid.OriginStepX[axis] + j * grid.OriginStepY[axis];
     ray.Direction[axis] =
       grid.Direction[axis] + i * grid.DirectionStepX[axis] + j * grid.DirectionStepY[axis];
     length += ray.Direction[axis] * ray.Direction[axis];
@@ -446,9 +445,9 @@ TEST(Reference, RaysThroughVerticesEdgesAndFacesCountOnce)
   for (const int n : { 1, 4 })
   {
     const Scene scene = MakeConstantScene(MakeBox(n, n, n, { 0, 0, 0 }, { 1, 1, 1 }));
-    const Vector targets[] = { { 0, 0, 0 }, { 1, 1, 1 }, { 1, 0, 0 }, { 0, 1, 1 },
-      { 0.5, 0.5, 0 }, { 0.5, 0.5, 1 }, { 0.5, 0, 0.5 }, { 1, 0.5, 0.5 }, { 0.5, 0.5, 0.5 },
-      { 0.25, 0.5, 0.75 }, { 0.25, 0.25, 0 } };
+    const Vector targets[] = { { 0, 0, 0 }, { 1, 1, 1 }, { 1, 0, 0 }, { 0, 1, 1 }, { 0.5, 0.5, 0 },
+      { 0.5, 0.5, 1 }, { 0.5, 0, 0.5 }, { 1, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, { 0.25, 0.5, 0.75 },
+      { 0.25, 0.25, 0 } };
     const Vector positions[] = { { -1, -1, -1 }, { 2, 2, 2 }, { 2, -1, -1 }, { 0.5, 0.5, -3 },
       { 0.5, 0.5, 3 }, { -2, 0.5, 0.5 }, { 0.25, 3, 0.5 }, { 3, 3, 0.5 }, { -1, 2, 0.25 },
       { 0.25, 0.5, 2 } };
@@ -495,8 +494,7 @@ TEST(Reference, ParallelPictureAlongTheGridLinesLosesNothing)
   // Pixel centres are the grid's vertices and the middles of its edges.
   const int n = 8;
   const Scene scene = MakeLinearScene(MakeBox(n, n, n, { 0, 0, 0 }, { 1, 1, 1 }), { 0, 0, 1 }, 0);
-  const TransferFunction ramp =
-    MakeLinearFunction({ { 0, 1, 0, 0, 0.5 }, { 1, 0, 1, 0, 3.0 } });
+  const TransferFunction ramp = MakeLinearFunction({ { 0, 1, 0, 0, 0.5 }, { 1, 0, 1, 0, 3.0 } });
   const int size = 2 * n - 1;
   const RayGrid grid =
     MakeParallelGrid({ 0.5, 0.5, 2 }, { 0.5, 0.5, 0 }, { 0, 1, 0 }, size / (4.0 * n), size, size);
@@ -509,6 +507,95 @@ TEST(Reference, ParallelPictureAlongTheGridLinesLosesNothing)
     EXPECT_NEAR(image.Rgba[4 * pixel + 1], expected.Color[1], 1e-14);
     EXPECT_NEAR(image.Rgba[4 * pixel + 3], expected.Alpha, 1e-14);
     EXPECT_NEAR(image.Depth[pixel], 1, 1e-15);
+  }
+}
+
+/// Where a line enters and leaves a tetrahedron, by its four planes in fifty digits.
+Precise ClipByPlanes(const WorldRay& ray, const std::vector<double>& points)
+{
+  Precise begin = -1e30;
+  Precise end = 1e30;
+  for (int opposite = 0; opposite < 4; ++opposite)
+  {
+    const double* corner[4]; // the one opposite to the plane comes first
+    for (int i = 0; i < 4; ++i)
+    {
+      corner[i] = points.data() + 3 * ((opposite + i) % 4);
+    }
+    Precise normal[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      normal[axis] =
+        (Precise(corner[2][u]) - corner[1][u]) * (Precise(corner[3][v]) - corner[1][v]) -
+        (Precise(corner[2][v]) - corner[1][v]) * (Precise(corner[3][u]) - corner[1][u]);
+    }
+    Precise inside = 0;
+    Precise distance = 0;
+    Precise slope = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      inside += normal[axis] * (Precise(corner[0][axis]) - corner[1][axis]);
+      distance += normal[axis] * (Precise(ray.Origin[axis]) - corner[1][axis]);
+      slope += normal[axis] * Precise(ray.Direction[axis]);
+    }
+    if (slope != 0)
+    {
+      const Precise t = -distance / slope;
+      if ((slope > 0) == (inside > 0))
+      {
+        begin = std::max(begin, t);
+      }
+      else
+      {
+        end = std::min(end, t);
+      }
+    }
+    else if ((distance > 0) != (inside > 0))
+    {
+      return 0;
+    }
+  }
+  return begin < end ? Precise(end - begin) : Precise(0);
+}
+
+TEST(Reference, ClipsAsByPlanes)
+{
+  // Random tetrahedra, and the same flattened: one corner moved close to the opposite face.
+  const struct
+  {
+    double Thickness;
+    double Tolerance;
+  } examples[] = { { 1, 1e-14 }, { 1e-6, 1e-11 } };
+  for (const auto& example : examples)
+  {
+    std::mt19937_64 generator(12);
+    std::uniform_real_distribution<double> unit(0, 1);
+    int hits = 0;
+    for (int trial = 0; trial < 1000; ++trial)
+    {
+      TetrahedralMesh mesh;
+      for (int i = 0; i < 12; ++i)
+      {
+        mesh.Points.push_back(unit(generator));
+      }
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double mean = (mesh.Points[axis] + mesh.Points[3 + axis] + mesh.Points[6 + axis]) / 3;
+        mesh.Points[9 + axis] = mean + example.Thickness * (mesh.Points[9 + axis] - mean);
+      }
+      mesh.Cells = { 0, 1, 2, 3 };
+      const Vector target{ unit(generator), unit(generator), unit(generator) };
+      const RayGrid grid =
+        MakeSingleRay({ 5 * unit(generator), 4, 6 * unit(generator) - 3 }, target);
+      const std::vector<double> points = mesh.Points;
+      const Precise expected = ClipByPlanes(GetRay(grid, 0, 0), points);
+      const double length = MakeConstantScene(std::move(mesh)).Render(Grey, grid).Length[0];
+      EXPECT_NEAR(length, static_cast<double>(expected), example.Tolerance) << "trial " << trial;
+      hits += expected > 0;
+    }
+    EXPECT_GT(hits, 50);
   }
 }
 
@@ -526,7 +613,8 @@ void ExpectLinearBox(const Scene& scene, const Vector& lower, const Vector& uppe
   {
     const WorldRay ray = GetRay(grid, pixel % grid.Width, pixel / grid.Width);
     const Chord chord = ClipByBox(ray, lower, upper);
-    const auto scalar = [&](long double t) {
+    const auto scalar = [&](long double t)
+    {
       long double s = constant;
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -556,8 +644,8 @@ void ExpectLinearBox(const Scene& scene, const Vector& lower, const Vector& uppe
 TEST(Reference, LinearFieldInAJitteredBox)
 {
   const Vector gradient{ 0.4, -0.7, 0.6 };
-  const Scene scene = MakeLinearScene(
-    MakeBox(7, 6, 5, { 0, 0, 0 }, { 1, 1.2, 0.9 }, 0.15, 3), gradient, 0.3);
+  const Scene scene =
+    MakeLinearScene(MakeBox(7, 6, 5, { 0, 0, 0 }, { 1, 1.2, 0.9 }, 0.15, 3), gradient, 0.3);
   const Vector upper{ 1, 1.2, 0.9 };
   const Vector center{ 0.5, 0.6, 0.45 };
   const Vector up{ 0, 1, 0.1 };
@@ -580,7 +668,8 @@ TEST(Reference, LinearFieldInAJitteredBox)
   // At a vertex of the mesh.
   ExpectLinearBox(scene, { 0, 0, 0 }, upper, gradient, 0.3,
     MakePerspectiveGrid({ scene.Mesh.Points[300], scene.Mesh.Points[301], scene.Mesh.Points[302] },
-      { 0.5, 0.6, 2 }, up, 100, 37, 29), 1e-13);
+      { 0.5, 0.6, 2 }, up, 100, 37, 29),
+    1e-13);
 }
 
 TEST(Reference, GridsThatAreNoCamera)
@@ -600,8 +689,7 @@ TEST(Reference, FlatCellsKeepTheirShare)
   // A boundary layer: cells with edges of 1 by 1e-6.
   const Vector upper{ 1, 1, 8e-6 };
   const Vector gradient{ 0.4, 0.2, 3e4 };
-  const Scene scene =
-    MakeLinearScene(MakeBox(8, 8, 8, { 0, 0, 0 }, upper, 0.15, 9), gradient, 0.1);
+  const Scene scene = MakeLinearScene(MakeBox(8, 8, 8, { 0, 0, 0 }, upper, 0.15, 9), gradient, 0.1);
   ExpectLinearBox(scene, { 0, 0, 0 }, upper, gradient, 0.1,
     MakePerspectiveGrid({ 0.4, 0.3, 2 }, { 0.5, 0.5, 0 }, { 0, 1, 0 }, 30, 33, 33), 1e-11);
 }
@@ -663,7 +751,8 @@ TEST(Reference, CroppingKeepsTheFlaggedRegions)
         if (flag >> region & 1)
         {
           length += ClipByBox(ray, { borders[0][i[0]], borders[1][i[1]], borders[2][i[2]] },
-            { borders[0][i[0] + 1], borders[1][i[1] + 1], borders[2][i[2] + 1] }).Length();
+            { borders[0][i[0] + 1], borders[1][i[1] + 1], borders[2][i[2] + 1] })
+                      .Length();
         }
       }
       EXPECT_NEAR(image.Length[pixel], length, 1e-14) << "flags " << flag << " pixel " << pixel;
@@ -677,8 +766,7 @@ TEST(Reference, MaximumDistancesEndTheRays)
   const Vector gradient{ 0, 0, 1 };
   const Scene scene =
     MakeLinearScene(MakeBox(4, 4, 4, { 0, 0, 0 }, { 1, 1, 1 }, 0.15, 3), gradient, 0);
-  const TransferFunction ramp =
-    MakeLinearFunction({ { 0, 1, 0, 0, 0.5 }, { 1, 0, 1, 0, 3.0 } });
+  const TransferFunction ramp = MakeLinearFunction({ { 0, 1, 0, 0, 0.5 }, { 1, 0, 1, 0, 3.0 } });
   const RayGrid grid = MakeParallelGrid({ 0.5, 0.5, 2 }, { 0.5, 0.5, 0 }, { 0, 1, 0 }, 0.1, 5, 1);
   const float distances[5] = { 0.5f, 1.0f, 1.25f, 2.0f, std::numeric_limits<float>::infinity() };
   RayLimits limits;
@@ -717,9 +805,8 @@ TEST(Reference, LengthsAreMeasuredInTheWorld)
   for (const bool parallel : { false, true })
   {
     const Vector center{ 6.2, -2.6, 1.5 };
-    RayGrid grid = parallel
-      ? MakeParallelGrid({ 9, 1, 6 }, center, { 0, 0, 1 }, 1.4, 41, 33)
-      : MakePerspectiveGrid({ 9, 1, 6 }, center, { 0, 0, 1 }, 25, 41, 33);
+    RayGrid grid = parallel ? MakeParallelGrid({ 9, 1, 6 }, center, { 0, 0, 1 }, 1.4, 41, 33)
+                            : MakePerspectiveGrid({ 9, 1, 6 }, center, { 0, 0, 1 }, 25, 41, 33);
     RayLimits limits;
     limits.Planes.push_back({ 0.3, 0.5, -0.7, 0.6 });
     const ReferenceImage expected = moved.Render(ramp, grid, limits);
@@ -750,7 +837,8 @@ TEST(Reference, FarFromTheOrigin)
     const double offset = example.Offset;
     const double size = example.Size;
     Scene far = MakeLinearScene(MakeBox(6, 6, 6, { offset, offset, offset },
-      { offset + size, offset + size, offset + size }, 0.15, 3), { 0, 0, 0 }, 0);
+                                  { offset + size, offset + size, offset + size }, 0.15, 3),
+      { 0, 0, 0 }, 0);
     Scene near = far;
     for (std::size_t i = 0; i < near.Mesh.Points.size(); ++i)
     {
@@ -800,8 +888,7 @@ TEST(Reference, CellScalars)
   scene.CellScalars = true;
   scene.Scalars.assign(10, 0.0);
   std::fill(scene.Scalars.begin() + 5, scene.Scalars.end(), 1.0);
-  const TransferFunction function =
-    MakeLinearFunction({ { 0, 1, 0, 0, 0.5 }, { 1, 0, 1, 0, 2 } });
+  const TransferFunction function = MakeLinearFunction({ { 0, 1, 0, 0, 0.5 }, { 1, 0, 1, 0, 2 } });
   const RayGrid grid = MakeParallelGrid({ 0.5, 0.5, 4 }, { 0.5, 0.5, 0 }, { 0, 1, 0 }, 0.5, 9, 9);
   const ReferenceImage image = scene.Render(function, grid);
   for (int pixel = 0; pixel < 81; ++pixel)
@@ -872,8 +959,8 @@ TEST(Reference, GrazingFindsSilhouettesAndOnlyThem)
 {
   // One column of pixels straddles the side of a box, seen along its faces, at half the
   // displacement; a second box is seen obliquely, so that the picture kinks at its edges.
-  const Scene box = MakeLinearScene(
-    MakeBox(3, 3, 3, { 0, 0, 0 }, { 1, 1, 1 }, 0.15, 3), { 0.5, 0.3, 0.2 }, 0);
+  const Scene box =
+    MakeLinearScene(MakeBox(3, 3, 3, { 0, 0, 0 }, { 1, 1, 1 }, 0.15, 3), { 0.5, 0.3, 0.2 }, 0);
   const TransferFunction smooth =
     MakeLinearFunction({ { 0, 1, 0, 0.2, 0.6 }, { 0.5, 0, 1, 0, 2 }, { 1, 1, 1, 0, 1 } });
   const int size = 32;
@@ -896,13 +983,12 @@ TEST(Reference, GrazingFindsSilhouettesAndOnlyThem)
   const RayGrid oblique =
     MakePerspectiveGrid({ 1.5, 1.9, 2.3 }, { 0.5, 0.5, 0.5 }, { 0, 1, 0 }, 30, 64, 64);
   const ReferenceImage obliqueImage = box.Render(smooth, oblique);
-  const std::vector<double> measure =
-    MeasureGrazing(box.View(), smooth, oblique, {}, obliqueImage);
+  const std::vector<double> measure = MeasureGrazing(box.View(), smooth, oblique, {}, obliqueImage);
   const auto grazed = std::count_if(
     measure.begin(), measure.end(), [](double value) { return value > GrazingThreshold; });
   EXPECT_LT(grazed, 10);
   EXPECT_TRUE(MeasureGrazing(box.View(), smooth, oblique, {}, obliqueImage,
-    std::vector<std::uint8_t>(64 * 64, 0)) == std::vector<double>(64 * 64, 0.0));
+                std::vector<std::uint8_t>(64 * 64, 0)) == std::vector<double>(64 * 64, 0.0));
 }
 
 } // namespace

@@ -63,9 +63,9 @@ void Print(std::ostream& stream, const char* name, const ImageErrors& errors)
 {
   stream << name << " pixels: " << errors.NumberOfPixels << ", maximum error " << errors.Maximum
          << " at pixel " << errors.WorstPixel << ", RMS " << errors.RootMeanSquare
-         << ", 99.9 % quantile " << errors.Quantile999 << ", above 1e-4: "
-         << 100 * errors.ShareAbove1e4 << " %, above 1/255: " << 100 * errors.ShareAbove1Of255
-         << " %\n";
+         << ", 99.9 % quantile " << errors.Quantile999
+         << ", above 1e-4: " << 100 * errors.ShareAbove1e4
+         << " %, above 1/255: " << 100 * errors.ShareAbove1Of255 << " %\n";
 }
 
 } // namespace
@@ -88,9 +88,8 @@ ImageComparison CompareWithReference(Span<const float> rgba, Span<const double> 
     {
       const float value = rgba[4 * pixel + channel];
       finite = finite && std::isfinite(value);
-      differences[channel] = std::isfinite(value)
-        ? std::abs(value - reference[4 * pixel + channel])
-        : std::numeric_limits<double>::infinity();
+      differences[channel] = std::isfinite(value) ? std::abs(value - reference[4 * pixel + channel])
+                                                  : std::numeric_limits<double>::infinity();
     }
     if (finite && rgba[4 * pixel + 3] == 0 && reference[4 * pixel + 3] == 0 &&
       *std::max_element(differences, differences + 3) == 0)

@@ -19,15 +19,9 @@ using Vector = std::array<Real, 3>;
 
 constexpr Real Infinity = std::numeric_limits<Real>::infinity();
 
-Vector ToVector(const double v[3])
-{
-  return { v[0], v[1], v[2] };
-}
+Vector ToVector(const double v[3]) { return { v[0], v[1], v[2] }; }
 
-Real Dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+Real Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector Cross(const Vector& a, const Vector& b)
 {
@@ -84,8 +78,8 @@ struct Ray
 Ray MakeRay(const RayGrid& grid, int i, int j)
 {
   Ray ray;
-  ray.WorldOrigin = Step(
-    ToVector(grid.Origin), i, ToVector(grid.OriginStepX), j, ToVector(grid.OriginStepY));
+  ray.WorldOrigin =
+    Step(ToVector(grid.Origin), i, ToVector(grid.OriginStepX), j, ToVector(grid.OriginStepY));
   ray.WorldDirection = Step(
     ToVector(grid.Direction), i, ToVector(grid.DirectionStepX), j, ToVector(grid.DirectionStepY));
   const Real length = std::sqrt(Dot(ray.WorldDirection, ray.WorldDirection));
@@ -125,10 +119,8 @@ SeenPoint See(const Ray& ray, const double* point)
 {
   const Real depth = point[ray.Axes[2]] - ray.Origin[ray.Axes[2]];
   SeenPoint seen;
-  seen.U = static_cast<double>(
-    point[ray.Axes[0]] - ray.Origin[ray.Axes[0]] - ray.Shear[0] * depth);
-  seen.V = static_cast<double>(
-    point[ray.Axes[1]] - ray.Origin[ray.Axes[1]] - ray.Shear[1] * depth);
+  seen.U = static_cast<double>(point[ray.Axes[0]] - ray.Origin[ray.Axes[0]] - ray.Shear[0] * depth);
+  seen.V = static_cast<double>(point[ray.Axes[1]] - ray.Origin[ray.Axes[1]] - ray.Shear[1] * depth);
   seen.T = depth / ray.Direction[ray.Axes[2]];
   return seen;
 }
@@ -188,7 +180,8 @@ bool ClipByCell(
   {
     seen[i] = See(ray, points[i]);
   }
-  const auto allBeside = [&seen](double SeenPoint::*coordinate) {
+  const auto allBeside = [&seen](double SeenPoint::*coordinate)
+  {
     const double a = seen[0].*coordinate;
     const double b = seen[1].*coordinate;
     const double c = seen[2].*coordinate;
@@ -265,9 +258,8 @@ public:
   {
     this->Size[0] = grid.Width;
     this->Size[1] = grid.Height;
-    const auto direction = [&grid](const double v[3]) {
-      return TransformDirection(grid.MeshFromWorld, ToVector(v));
-    };
+    const auto direction = [&grid](const double v[3])
+    { return TransformDirection(grid.MeshFromWorld, ToVector(v)); };
     const auto isZero = [](const double v[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; };
     this->Perspective = isZero(grid.OriginStepX) && isZero(grid.OriginStepY);
     const bool parallel = isZero(grid.DirectionStepX) && isZero(grid.DirectionStepY);
@@ -337,8 +329,8 @@ public:
     {
       // Clamped before the conversion to int; a box beside the image becomes empty.
       const Real size = this->Size[axis];
-      box.First[axis] = static_cast<int>(
-        std::ceil(std::min(std::max(minimum[axis] - Margin, Real(0)), size)));
+      box.First[axis] =
+        static_cast<int>(std::ceil(std::min(std::max(minimum[axis] - Margin, Real(0)), size)));
       box.Last[axis] = static_cast<int>(
         std::floor(std::max(std::min(maximum[axis] + Margin, size - 1), Real(-1))));
     }
@@ -372,8 +364,8 @@ int CroppingRegion(Real x, const double planes[2])
 }
 
 /// Which parts of begin..end the limits keep.
-void ApplyLimits(const RayLimits& limits, const Ray& ray, std::size_t pixel, Real begin, Real end,
-  Intervals& kept)
+void ApplyLimits(
+  const RayLimits& limits, const Ray& ray, std::size_t pixel, Real begin, Real end, Intervals& kept)
 {
   kept.clear();
   for (const auto& plane : limits.Planes)
@@ -426,8 +418,8 @@ void ApplyLimits(const RayLimits& limits, const Ray& ray, std::size_t pixel, Rea
     for (int axis = 2; axis >= 0; --axis)
     {
       region = 3 * region +
-        CroppingRegion(ray.Origin[axis] + middle * ray.Direction[axis],
-          limits.CroppingPlanes + 2 * axis);
+        CroppingRegion(
+          ray.Origin[axis] + middle * ray.Direction[axis], limits.CroppingPlanes + 2 * axis);
     }
     if (limits.CroppingFlags >> region & 1)
     {
@@ -493,7 +485,8 @@ private:
 void Check(const ReferenceMesh& mesh, const TransferFunction& function, const RayGrid& rays,
   Span<const std::uint8_t> pixels)
 {
-  const auto require = [](bool condition, const char* message) {
+  const auto require = [](bool condition, const char* message)
+  {
     if (!condition)
     {
       throw std::invalid_argument(message);
@@ -506,8 +499,7 @@ void Check(const ReferenceMesh& mesh, const TransferFunction& function, const Ra
     "RenderReference: Scalars must hold one value for each point, or cell with CellScalars");
   require(!function.Nodes.empty(), "RenderReference: the transfer function has no nodes");
   require(rays.Width > 0 && rays.Height > 0, "RenderReference: the image has no pixels");
-  require(
-    pixels.empty() || pixels.size() == static_cast<std::size_t>(rays.Width) * rays.Height,
+  require(pixels.empty() || pixels.size() == static_cast<std::size_t>(rays.Width) * rays.Height,
     "RenderReference: pixels must hold one value for each pixel");
 }
 
@@ -550,10 +542,13 @@ ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction
   image.Depth.assign(numberOfPixels, -1.0);
   image.Length.assign(numberOfPixels, 0.0);
 
+  const int rowsPerBand = std::max(1, PixelsPerBand / rays.Width);
+  const int numberOfBands = (rays.Height + rowsPerBand - 1) / rowsPerBand;
+
   const ImageProjection projection(rays);
   const std::int64_t numberOfCells = static_cast<std::int64_t>(mesh.Cells.size() / 4);
   std::vector<PixelBox> boxes(numberOfCells);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (numberOfBands > 1)
   for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
   {
     const double* points[4];
@@ -562,10 +557,8 @@ ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction
                                                        : PixelBox{ { 0, 0 }, { -1, -1 } };
   }
 
-  const int rowsPerBand = std::max(1, PixelsPerBand / rays.Width);
-  const int numberOfBands = (rays.Height + rowsPerBand - 1) / rowsPerBand;
   std::int64_t numberOfSegments = 0;
-#pragma omp parallel for schedule(dynamic) reduction(+ : numberOfSegments)
+#pragma omp parallel for schedule(dynamic) reduction(+ : numberOfSegments) if (numberOfBands > 1)
   for (int band = 0; band < numberOfBands; ++band)
   {
     const int firstRow = band * rowsPerBand;
@@ -609,11 +602,13 @@ ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction
     numberOfSegments += static_cast<std::int64_t>(segments.size());
 
     // Of segments that begin together only one has a length worth mentioning: it goes last.
-    std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) {
-      return a.Pixel != b.Pixel ? a.Pixel < b.Pixel
-        : a.Begin != b.Begin    ? a.Begin < b.Begin
-                                : a.Length < b.Length;
-    });
+    std::sort(segments.begin(), segments.end(),
+      [](const Segment& a, const Segment& b)
+      {
+        return a.Pixel != b.Pixel ? a.Pixel < b.Pixel
+          : a.Begin != b.Begin    ? a.Begin < b.Begin
+                                  : a.Length < b.Length;
+      });
     Intervals kept;
     for (std::size_t first = 0, last; first < segments.size(); first = last)
     {
@@ -651,7 +646,8 @@ std::vector<double> MeasureGrazing(const ReferenceMesh& mesh, const TransferFunc
   {
     throw std::invalid_argument("MeasureGrazing: the image is not that of the rays");
   }
-  const auto renderDisplaced = [&](double i, double j) {
+  const auto renderDisplaced = [&](double i, double j)
+  {
     RayGrid displaced = rays;
     for (int axis = 0; axis < 3; ++axis)
     {

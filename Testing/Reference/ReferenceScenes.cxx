@@ -57,8 +57,8 @@ void SpreadPixels(const Frame& frame, double halfHeight, int width, int height, 
 
 } // namespace
 
-RayGrid MakePerspectiveGrid(const Vector& position, const Vector& focalPoint,
-  const Vector& viewUp, double viewAngle, int width, int height)
+RayGrid MakePerspectiveGrid(const Vector& position, const Vector& focalPoint, const Vector& viewUp,
+  double viewAngle, int width, int height)
 {
   const Frame frame(position, focalPoint, viewUp);
   RayGrid grid;
