@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTetrahedraRayCastMapper
+ * @brief   direct volume rendering of unstructured grids by cell-to-cell ray casting on the CPU
+ *
+ * Renders the cells of a data set as a volume, with an error that is known: the integral over each
+ * cell is evaluated in closed form, never sampled, and the picture does not depend on the number
+ * of threads.
+ *
+ * Accepts whatever vtkTetrahedraFilter accepts: unstructured, structured, rectilinear and image
+ * grids, any other vtkDataSet, and composites of these. Cells that can't be rendered are left out
+ * and counted, see GetStatistics(), with one warning where their types are not supported. A point
+ * or cell whose scalar is not a finite number leaves the cells that touch it empty.
+ *
+ * Optical model: attenuation per world unit is the scalar opacity over the property's
+ * ScalarOpacityUnitDistance, radiance is the integral of attenuation x colour x exp(-optical depth).
+ * That is the model of VTK's own mappers of unstructured grids, not the 1 - (1 - a)^(l / d) of its
+ * mappers of image data. The property's colour (RGB in any colour space, or grey), scalar opacity
+ * and unit distance of component 0 are used at the exact scalars of their nodes, no table is
+ * sampled; Shade and gradient opacity are not used, and one warning says so. BlendMode must be
+ * composite.
+ *
+ * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
+ * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper
+ * are in world coordinates and keep their positive side, as in VTK's other mappers.
+ *
+ * What is built is kept: tetrahedra and their neighbours until points, cells or ghost flags of the
+ * input change, scalars until the array or the choice of it changes, the transfer function until
+ * the property changes. A new camera rebuilds nothing.
+ *
+ * Created by name, there is no object factory behind it. Errors are reported once for each cause;
+ * the volume is then not drawn.
+ *
+ * @sa vtkTetrahedraFilter, vtkUnstructuredGridVolumeRayCastMapper
+ */
+#ifndef vtkTetrahedraRayCastMapper_h
+#define vtkTetrahedraRayCastMapper_h
+
+#include "TetraluxRenderingModule.h" // For export macro
+#include "vtkUnstructuredGridVolumeMapper.h"
+
+#include <memory> // For std::unique_ptr
+#include <string> // For std::string
+
+class vtkDataObject;
+class vtkImageData;
+
+class TETRALUXRENDERING_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
+{
+public:
+  static vtkTetrahedraRayCastMapper* New();
+  vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkUnstructuredGridVolumeMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The input, where it does not come through SetInputConnection. GetInput() of the superclass
+   * returns it only if it is an unstructured grid, GetDataObjectInput() always.
+   */
+  void SetInputData(vtkUnstructuredGridBase* input) override;
+  void SetInputData(vtkDataSet* input) override;
+  virtual void SetInputData(vtkDataObject* input);
+  ///@}
+
+  ///@{
+  /**
+   * Bounds of the input, of a composite those of all its blocks.
+   */
+  double* GetBounds() VTK_SIZEHINT(6) override;
+  using Superclass::GetBounds;
+  ///@}
+
+  ///@{
+  /**
+   * Error aimed at, of each premultiplied colour channel and of the opacity, absolute, 0..1.
+   * Default 1e-4. Rays end where what is behind can't matter, arithmetic is single or double
+   * precision, and colour functions that are not piecewise linear are subdivided, each as far as
+   * this allows. Below 1e-6 the single precision of the result is the limit.
+   */
+  vtkSetClampMacro(MaximumError, double, 0.0, 1.0);
+  vtkGetMacro(MaximumError, double);
+  ///@}
+
+  ///@{
+  /**
+   * Threads that cast rays; 0 (default): as many as OpenMP offers. At most 1024. The picture does
+   * not depend on it.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  enum PrecisionType
+  {
+    AUTOMATIC_PRECISION,
+    SINGLE_PRECISION,
+    DOUBLE_PRECISION
+  };
+
+  ///@{
+  /**
+   * Arithmetic of the geometry along rays. Automatic (default): single where its estimated error
+   * stays within a quarter of MaximumError, else double. Double precision takes 32 bytes a point
+   * more.
+   */
+  vtkSetClampMacro(Precision, int, AUTOMATIC_PRECISION, DOUBLE_PRECISION);
+  vtkGetMacro(Precision, int);
+  void SetPrecisionToAutomatic() { this->SetPrecision(AUTOMATIC_PRECISION); }
+  void SetPrecisionToSingle() { this->SetPrecision(SINGLE_PRECISION); }
+  void SetPrecisionToDouble() { this->SetPrecision(DOUBLE_PRECISION); }
+  ///@}
+
+  enum VectorModeType
+  {
+    DISABLED = -1,
+    MAGNITUDE = 0,
+    COMPONENT = 1
+  };
+
+  ///@{
+  /**
+   * How an array of several components becomes the scalar, as in vtkSmartVolumeMapper: DISABLED
+   * (default), the first component; MAGNITUDE, the Euclidean norm; COMPONENT, component
+   * VectorComponent, counted from 0, which is 0 by default and must exist.
+   */
+  vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
+  vtkGetMacro(VectorMode, int);
+  vtkSetClampMacro(VectorComponent, int, 0, VTK_INT_MAX);
+  vtkGetMacro(VectorComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Distance of rays in pixels, 0.1..100, default 1: one ray through each pixel's centre. At 2 one
+   * ray does for 2 x 2 pixels, and the picture is interpolated; at 0.5 a pixel is the mean of 4.
+   * Used where AutoAdjustSampleDistances is off.
+   */
+  vtkSetClampMacro(ImageSampleDistance, float, 0.1f, 100.0f);
+  vtkGetMacro(ImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * The range that automatic adjustment may choose the distance of rays from, in pixels, each
+   * 0.1..100, default 1 and 10.
+   */
+  vtkSetClampMacro(MinimumImageSampleDistance, float, 0.1f, 100.0f);
+  vtkGetMacro(MinimumImageSampleDistance, float);
+  vtkSetClampMacro(MaximumImageSampleDistance, float, 0.1f, 100.0f);
+  vtkGetMacro(MaximumImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the distance of rays follows from the time that the renderer allocates to the volume
+   * and the time that a ray took in the last frame. On by default. Without a desired update rate,
+   * as in still and off-screen frames, that time is hours, and the distance
+   * MinimumImageSampleDistance.
+   */
+  vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether rays end at opaque geometry that was drawn before, by the depth buffer. On by default;
+   * off, the volume is in front of all geometry.
+   */
+  vtkSetMacro(IntermixIntersectingGeometry, vtkTypeBool);
+  vtkGetMacro(IntermixIntersectingGeometry, vtkTypeBool);
+  vtkBooleanMacro(IntermixIntersectingGeometry, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether only some of the 27 regions are rendered that CroppingRegionPlanes (xmin, xmax, ymin,
+   * ymax, zmin, zmax, in coordinates of the data; default 0, 1, 0, 1, 0, 1) cut space into. As in
+   * vtkVolumeMapper. Off by default.
+   */
+  vtkSetMacro(Cropping, vtkTypeBool);
+  vtkGetMacro(Cropping, vtkTypeBool);
+  vtkBooleanMacro(Cropping, vtkTypeBool);
+  vtkSetVector6Macro(CroppingRegionPlanes, double);
+  vtkGetVector6Macro(CroppingRegionPlanes, double);
+  ///@}
+
+  ///@{
+  /**
+   * Which regions are rendered: bit x + 3 y + 9 z is that of region x, y, z, each 0 below, 1
+   * between and 2 above its two planes. Default: the subvolume between the planes, 0x2000.
+   */
+  vtkSetClampMacro(CroppingRegionFlags, int, 0x0, 0x7ffffff);
+  vtkGetMacro(CroppingRegionFlags, int);
+  void SetCroppingRegionFlagsToSubVolume() { this->SetCroppingRegionFlags(0x0002000); }
+  void SetCroppingRegionFlagsToFence() { this->SetCroppingRegionFlags(0x2ebfeba); }
+  void SetCroppingRegionFlagsToInvertedFence() { this->SetCroppingRegionFlags(0x5140145); }
+  void SetCroppingRegionFlagsToCross() { this->SetCroppingRegionFlags(0x0417410); }
+  void SetCroppingRegionFlagsToInvertedCross() { this->SetCroppingRegionFlags(0x7be8bef); }
+  ///@}
+
+  /**
+   * The picture of the last frame as it was cast, before anything was done to it: one point for
+   * each ray, bottom row first, over the viewport, or the part of it in the window. Point arrays
+   * RGBA, the scalars: four floats, premultiplied, without any background; Depth: a float, distance
+   * along the ray in world units, from the camera or in a parallel projection from the plane through
+   * it, to the first contribution, -1 where there is none. Empty before the first frame and after
+   * one that failed; incomplete after one that was aborted. Belongs to the mapper, which overwrites
+   * it in the next frame.
+   */
+  vtkImageData* GetOutputImage();
+
+  /**
+   * What the last frame was made of, as JSON: what was rebuilt, times in seconds, counts, the error
+   * estimate, what the scene did not need. "{}" before the first frame.
+   */
+  std::string GetStatistics();
+
+  /**
+   * Estimated largest error of a channel in the last frame, absolute, 0..1: by ending rays early,
+   * by the integrals and by rounding coordinates and scalars; of colour functions that were
+   * subdivided too. Not that of interpolating between rays more than a pixel apart.
+   */
+  double GetErrorEstimate();
+
+  ///@{
+  /**
+   * Of the last mesh: cells of types that can't be rendered; tetrahedra without volume, duplicated
+   * or with points that are no numbers; tetrahedra left empty because they touch a scalar that is
+   * not finite.
+   */
+  vtkIdType GetNumberOfSkippedCells();
+  vtkIdType GetNumberOfRemovedCells();
+  vtkIdType GetNumberOfBlankCells();
+  ///@}
+
+  /**
+   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
+   *
+   * Casts and composites. Invokes VolumeMapperRenderStartEvent, VolumeMapperRenderProgressEvent
+   * with a double 0..1, and VolumeMapperRenderEndEvent; while the mesh is built, ProgressEvent.
+   * Each time the render window is asked whether to abort: an aborted frame is not drawn.
+   */
+  void Render(vtkRenderer* renderer, vtkVolume* volume) override;
+
+  /**
+   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
+   */
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+protected:
+  vtkTetrahedraRayCastMapper();
+  ~vtkTetrahedraRayCastMapper() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+  double MaximumError = 1e-4;
+  int NumberOfThreads = 0;
+  int Precision = AUTOMATIC_PRECISION;
+  int VectorMode = DISABLED;
+  int VectorComponent = 0;
+  float ImageSampleDistance = 1;
+  float MinimumImageSampleDistance = 1;
+  float MaximumImageSampleDistance = 10;
+  vtkTypeBool AutoAdjustSampleDistances = 1;
+  vtkTypeBool IntermixIntersectingGeometry = 1;
+  vtkTypeBool Cropping = 0;
+  double CroppingRegionPlanes[6] = { 0, 1, 0, 1, 0, 1 };
+  int CroppingRegionFlags = 0x2000;
+
+private:
+  vtkTetrahedraRayCastMapper(const vtkTetrahedraRayCastMapper&) = delete;
+  void operator=(const vtkTetrahedraRayCastMapper&) = delete;
+
+  class Internals;
+  std::unique_ptr<Internals> Private;
+};
+
+#endif
