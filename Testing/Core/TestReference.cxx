@@ -684,6 +684,52 @@ TEST(Reference, GridsThatAreNoCamera)
   ExpectLinearBox(scene, { 0, 0, 0 }, { 1, 1, 1 }, gradient, 0.3, grid, 1e-13);
 }
 
+TEST(Reference, LeavesOutOnlyPixelsThatSeeNothing)
+{
+  // Random overlapping cells, large, small and flat, around the camera. Steps of the begin that are
+  // too small to move it make a grid that is no camera, of which every pixel tries every cell.
+  std::mt19937_64 generator(31);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Scene scene;
+  for (int cell = 0; cell < 500; ++cell)
+  {
+    const double size = std::pow(10, 2 * unit(generator) - 1.5);
+    const double thickness = std::pow(10, 3 * unit(generator) - 3);
+    const double center[3] = { 3 * unit(generator), 3 * unit(generator), 3 * unit(generator) };
+    const double normal[3] = { unit(generator), unit(generator), unit(generator) };
+    for (int i = 0; i < 4; ++i)
+    {
+      double p[3] = { unit(generator), unit(generator), unit(generator) };
+      const double height = p[0] * normal[0] + p[1] * normal[1] + p[2] * normal[2];
+      const double square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        p[axis] += (thickness - 1) * height / square * normal[axis];
+        scene.Mesh.Points.push_back(center[axis] + size * p[axis]);
+      }
+      scene.Mesh.Cells.push_back(4 * cell + i);
+      scene.Scalars.push_back(0);
+    }
+  }
+  for (const double viewAngle : { 1.0, 40.0, 150.0 })
+  {
+    RayGrid grid =
+      MakePerspectiveGrid({ 0.1, 0.2, 0.3 }, { 1, -0.5, 2 }, { 0, 1, 0 }, viewAngle, 53, 41);
+    const ReferenceImage image = scene.Render(Grey, grid);
+    grid.OriginStepX[0] = 1e-200;
+    const ReferenceImage expected = scene.Render(Grey, grid);
+    EXPECT_GT(image.NumberOfSegments, 1000);
+    EXPECT_EQ(image.NumberOfSegments, expected.NumberOfSegments) << viewAngle;
+    EXPECT_EQ(image.Rgba, expected.Rgba);
+  }
+  RayGrid grid = MakeParallelGrid({ 5, 6, 7 }, { 0, 0, 0 }, { 0, 1, 0 }, 4, 53, 41);
+  const ReferenceImage image = scene.Render(Grey, grid);
+  grid.DirectionStepX[0] = 1e-200;
+  const ReferenceImage expected = scene.Render(Grey, grid);
+  EXPECT_EQ(image.NumberOfSegments, expected.NumberOfSegments);
+  EXPECT_EQ(image.Rgba, expected.Rgba);
+}
+
 TEST(Reference, FlatCellsKeepTheirShare)
 {
   // A boundary layer: cells with edges of 1 by 1e-6.

@@ -242,22 +242,30 @@ bool ClipByCell(
   return true;
 }
 
-/// Pixels that a cell may cover, both ends included; empty where First > Last.
-struct PixelBox
+/// Pixels or rows of pixels, both ends included; empty where First > Last.
+struct Range
 {
-  int First[2];
-  int Last[2];
+  int First = 0;
+  int Last = -1;
 };
 
-/// Where points lie in the image, to leave out pixels that can not see a cell. Knows parallel and
-/// perspective cameras; whatever else a grid holds, every pixel has to try every cell.
+/// Where points lie in the image: at pixel (X / W, Y / W), behind the camera if W is negative.
+struct ImagePoint
+{
+  double X;
+  double Y;
+  double W;
+};
+
+/// Finds the pixels that may see a cell, a few too many rather than one too few. Knows parallel and
+/// perspective cameras; of any other grid, every pixel has to try every cell.
 class ImageProjection
 {
 public:
   explicit ImageProjection(const RayGrid& grid)
+    : Width(grid.Width)
+    , Height(grid.Height)
   {
-    this->Size[0] = grid.Width;
-    this->Size[1] = grid.Height;
     const auto direction = [&grid](const double v[3])
     { return TransformDirection(grid.MeshFromWorld, ToVector(v)); };
     const auto isZero = [](const double v[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; };
@@ -265,8 +273,8 @@ public:
     const bool parallel = isZero(grid.DirectionStepX) && isZero(grid.DirectionStepY);
     this->Origin = TransformPoint(grid.MeshFromWorld, ToVector(grid.Origin));
 
-    // A point P is seen at pixel (i, j) where P - Origin = i X + j Y + w Direction in a parallel
-    // image, w (i X + j Y + Direction) in a perspective one.
+    // A point P is seen at pixel (i, j) where P - Origin = i x + j y + w Direction in a parallel
+    // image, w (i x + j y + Direction) in a perspective one.
     const Vector x = direction(this->Perspective ? grid.DirectionStepX : grid.OriginStepX);
     const Vector y = direction(this->Perspective ? grid.DirectionStepY : grid.OriginStepY);
     const Vector w = direction(grid.Direction);
@@ -274,84 +282,119 @@ public:
     const Real scale = std::sqrt(Dot(x, x) * Dot(y, y) * Dot(w, w));
     this->Usable =
       this->Perspective != parallel && std::abs(determinant) > SmallestDeterminant * scale;
-    this->Rows = { Cross(y, w), Cross(w, x), Cross(x, y) };
-    for (Vector& row : this->Rows)
+    this->Inverse = { Cross(y, w), Cross(w, x), Cross(x, y) };
+    for (Vector& row : this->Inverse)
     {
       for (Real& component : row)
       {
         component /= determinant;
       }
     }
-    this->DirectionLength = std::sqrt(Dot(w, w));
   }
 
-  PixelBox Bound(const double* const points[4]) const
+  ImagePoint Project(const double* point) const
   {
-    PixelBox all{ { 0, 0 }, { this->Size[0] - 1, this->Size[1] - 1 } };
+    const Vector offset{ point[0] - this->Origin[0], point[1] - this->Origin[1],
+      point[2] - this->Origin[2] };
+    const auto coordinate = [&](int row)
+    { return static_cast<double>(Dot(this->Inverse[row], offset)); };
+    return { coordinate(0), coordinate(1), this->Perspective ? coordinate(2) : 1 };
+  }
+
+  /// Rows that may see a cell.
+  Range FindRows(const ImagePoint* const corners[4]) const
+  {
     if (!this->Usable)
     {
-      return all;
+      return { 0, this->Height - 1 };
     }
-    Real minimum[2] = { Infinity, Infinity };
-    Real maximum[2] = { -Infinity, -Infinity };
-    int behind = 0;
+    double y[4];
+    double w[4];
     for (int i = 0; i < 4; ++i)
     {
-      Vector offset;
-      for (int axis = 0; axis < 3; ++axis)
+      y[i] = corners[i]->Y;
+      w[i] = corners[i]->W;
+    }
+    return Cover(y, w, 4, this->Height);
+  }
+
+  /// Pixels of a row that may see a cell.
+  Range FindPixels(const ImagePoint* const corners[4], int row) const
+  {
+    if (!this->Usable)
+    {
+      return { 0, this->Width - 1 };
+    }
+    // Corners of the polygon in which the plane of the row cuts the cell. Those within the margin
+    // of the plane count as well, so that rounding can not lose the polygon.
+    double x[10];
+    double w[10];
+    int count = 0;
+    double distance[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      const ImagePoint& corner = *corners[i];
+      distance[i] = corner.Y - row * corner.W;
+      if (!(std::abs(distance[i]) > Margin * std::abs(corner.W) + Rounding * std::abs(corner.Y)))
       {
-        offset[axis] = points[i][axis] - this->Origin[axis];
+        x[count] = corner.X;
+        w[count] = corner.W;
+        ++count;
       }
-      Real w = 1;
-      if (this->Perspective)
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = i + 1; j < 4; ++j)
       {
-        w = Dot(this->Rows[2], offset);
-        if (std::abs(w) * this->DirectionLength <=
-          SmallestDistance * std::sqrt(Dot(offset, offset)))
+        if ((distance[i] < 0) != (distance[j] < 0))
         {
-          return all;
+          const double share = distance[i] / (distance[i] - distance[j]);
+          x[count] = (1 - share) * corners[i]->X + share * corners[j]->X;
+          w[count] = (1 - share) * corners[i]->W + share * corners[j]->W;
+          ++count;
         }
-        behind += w < 0;
-      }
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        const Real position = Dot(this->Rows[axis], offset) / w;
-        minimum[axis] = std::min(minimum[axis], position);
-        maximum[axis] = std::max(maximum[axis], position);
       }
     }
-    if (behind != 0 && behind != 4)
-    {
-      return all; // around the camera
-    }
-    PixelBox box;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      // Clamped before the conversion to int; a box beside the image becomes empty.
-      const Real size = this->Size[axis];
-      box.First[axis] =
-        static_cast<int>(std::ceil(std::min(std::max(minimum[axis] - Margin, Real(0)), size)));
-      box.Last[axis] = static_cast<int>(
-        std::floor(std::max(std::min(maximum[axis] + Margin, size - 1), Real(-1))));
-    }
-    return box;
+    return count == 0 ? Range() : Cover(x, w, count, this->Width);
   }
 
 private:
-  /// Pixels added on each side; the projection is accurate to 1e-6 of a pixel in any sane image.
-  static constexpr Real Margin = 0.01L;
+  /// Pixels; the projection is accurate to 1e-6 of a pixel in any sane image.
+  static constexpr double Margin = 0.01;
+  /// Relative rounding error of a coordinate of an ImagePoint, and some more.
+  static constexpr double Rounding = 1e-12;
   /// Share of the product of the lengths; below it the steps of the grid do not span an image.
   static constexpr Real SmallestDeterminant = 1e-9L;
-  /// Distance from the plane of the camera relative to that from the camera, below which a point's
-  /// place in the image is not trusted.
-  static constexpr Real SmallestDistance = 1e-9L;
 
-  int Size[2];
+  /// The pixels of 0..size - 1 between the smallest and the largest value / w; all of them where
+  /// values lie on both sides of the camera or too close to it to tell.
+  static Range Cover(const double* values, const double* w, int count, int size)
+  {
+    const Range all{ 0, size - 1 };
+    double minimum = std::numeric_limits<double>::infinity();
+    double maximum = -minimum;
+    for (int i = 0; i < count; ++i)
+    {
+      const double position = values[i] / w[i];
+      if ((w[i] < 0) != (w[0] < 0) || !(std::abs(position) < Margin / Rounding))
+      {
+        return all;
+      }
+      minimum = std::min(minimum, position);
+      maximum = std::max(maximum, position);
+    }
+    // Clamped before the conversion to int; a range beside the image becomes empty.
+    const auto clamp = [size](double value) { return std::clamp<double>(value, -1, size); };
+    return { static_cast<int>(std::max(0.0, clamp(std::ceil(minimum - Margin)))),
+      static_cast<int>(std::min(size - 1.0, clamp(std::floor(maximum + Margin)))) };
+  }
+
+  int Width;
+  int Height;
   bool Perspective;
   bool Usable;
   Vector Origin;
-  std::array<Vector, 3> Rows;
-  Real DirectionLength;
+  std::array<Vector, 3> Inverse; ///< from mesh coordinates to those of an ImagePoint
 };
 
 /// Kept parts of a ray, ascending.
@@ -364,10 +407,9 @@ int CroppingRegion(Real x, const double planes[2])
 }
 
 /// Which parts of begin..end the limits keep.
-void ApplyLimits(
-  const RayLimits& limits, const Ray& ray, std::size_t pixel, Real begin, Real end, Intervals& kept)
+Intervals ApplyLimits(
+  const RayLimits& limits, const Ray& ray, std::size_t pixel, Real begin, Real end)
 {
-  kept.clear();
   for (const auto& plane : limits.Planes)
   {
     const Vector normal{ plane[0], plane[1], plane[2] };
@@ -383,7 +425,7 @@ void ApplyLimits(
     }
     else if (!(distance >= 0))
     {
-      return;
+      return {};
     }
   }
   if (limits.MaximumDistances)
@@ -392,12 +434,11 @@ void ApplyLimits(
   }
   if (!(begin < end))
   {
-    return;
+    return {};
   }
   if (!limits.Cropping)
   {
-    kept.push_back({ begin, end });
-    return;
+    return { { begin, end } };
   }
 
   std::vector<Real> borders{ begin, end };
@@ -411,6 +452,7 @@ void ApplyLimits(
     }
   }
   std::sort(borders.begin(), borders.end());
+  Intervals kept;
   for (std::size_t i = 0; i + 1 < borders.size(); ++i)
   {
     const Real middle = borders[i] / 2 + borders[i + 1] / 2;
@@ -426,6 +468,7 @@ void ApplyLimits(
       kept.push_back({ borders[i], borders[i + 1] });
     }
   }
+  return kept;
 }
 
 /// Front to back over the segments of one pixel.
@@ -503,31 +546,183 @@ void Check(const ReferenceMesh& mesh, const TransferFunction& function, const Ra
     "RenderReference: pixels must hold one value for each pixel");
 }
 
-/// A cell's corners and scalars; false if any of them is unusable.
-bool GetCell(
-  const ReferenceMesh& mesh, std::size_t cell, const double* points[4], double scalars[4])
+/// A cell as the renderer reads it.
+struct Cell
+{
+  std::int32_t Points[4];
+  const double* Coordinates[4];
+  double Scalars[4];
+};
+
+/// False if the cell is unusable.
+bool GetCell(const ReferenceMesh& mesh, std::size_t id, Cell& cell)
 {
   const std::int64_t numberOfPoints = static_cast<std::int64_t>(mesh.Points.size() / 3);
   for (int i = 0; i < 4; ++i)
   {
-    const std::int32_t id = mesh.Cells[4 * cell + i];
-    if (id < 0 || id >= numberOfPoints)
+    const std::int32_t point = mesh.Cells[4 * id + i];
+    if (point < 0 || point >= numberOfPoints)
     {
       return false;
     }
-    points[i] = mesh.Points.data() + 3 * static_cast<std::size_t>(id);
-    scalars[i] = mesh.Scalars[mesh.CellScalars ? cell : static_cast<std::size_t>(id)];
-    if (!std::isfinite(points[i][0]) || !std::isfinite(points[i][1]) ||
-      !std::isfinite(points[i][2]) || !std::isfinite(scalars[i]))
+    const double* x = mesh.Points.data() + 3 * static_cast<std::size_t>(point);
+    const double scalar = mesh.Scalars[mesh.CellScalars ? id : static_cast<std::size_t>(point)];
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]) ||
+      !std::isfinite(scalar))
     {
       return false;
     }
+    cell.Points[i] = point;
+    cell.Coordinates[i] = x;
+    cell.Scalars[i] = scalar;
   }
   return true;
 }
 
+/// Renders bands of rows, independently of each other.
+class BandRenderer
+{
+public:
+  BandRenderer(const ReferenceMesh& mesh, const TransferFunction& function, const RayGrid& grid,
+    const RayLimits& limits, Span<const std::uint8_t> pixels)
+    : Mesh(mesh)
+    , Function(function)
+    , Grid(grid)
+    , Limits(limits)
+    , Pixels(pixels)
+    , Projection(grid)
+    , ImagePoints(mesh.Points.size() / 3)
+    , Rows(mesh.Cells.size() / 4)
+  {
+    const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->ImagePoints.size());
+    for (std::int64_t point = 0; point < numberOfPoints; ++point)
+    {
+      this->ImagePoints[point] = this->Projection.Project(mesh.Points.data() + 3 * point);
+    }
+    for (std::size_t id = 0; id < this->Rows.size(); ++id)
+    {
+      Cell cell;
+      if (GetCell(mesh, id, cell))
+      {
+        this->Rows[id] = this->Projection.FindRows(this->GetCorners(cell).data());
+      }
+    }
+  }
+
+  /// Fills the image's rows; returns the number of segments.
+  std::int64_t Render(const Range& rows, ReferenceImage& image) const
+  {
+    const std::vector<Ray> rays = this->MakeRays(rows);
+    std::vector<Segment> segments = this->CollectSegments(rows, rays);
+
+    // Of segments that begin together only one has a length worth mentioning: it goes last.
+    std::sort(segments.begin(), segments.end(),
+      [](const Segment& a, const Segment& b)
+      {
+        return a.Pixel != b.Pixel ? a.Pixel < b.Pixel
+          : a.Begin != b.Begin    ? a.Begin < b.Begin
+                                  : a.Length < b.Length;
+      });
+    const std::size_t firstPixel = static_cast<std::size_t>(rows.First) * this->Grid.Width;
+    for (auto first = segments.begin(), last = first; first != segments.end(); first = last)
+    {
+      last = std::find_if(first, segments.end(),
+        [&](const Segment& segment) { return segment.Pixel != first->Pixel; });
+      const Span<const Segment> ofPixel(&*first, last - first);
+      this->Composite(ofPixel, rays[first->Pixel], firstPixel + first->Pixel, image);
+    }
+    return static_cast<std::int64_t>(segments.size());
+  }
+
+private:
+  std::array<const ImagePoint*, 4> GetCorners(const Cell& cell) const
+  {
+    const auto corner = [&](int i) { return &this->ImagePoints[cell.Points[i]]; };
+    return { corner(0), corner(1), corner(2), corner(3) };
+  }
+
+  /// Rays of the pixels that are wanted; the others are not valid.
+  std::vector<Ray> MakeRays(const Range& rows) const
+  {
+    std::vector<Ray> rays;
+    for (int j = rows.First; j <= rows.Last; ++j)
+    {
+      for (int i = 0; i < this->Grid.Width; ++i)
+      {
+        const std::size_t pixel = static_cast<std::size_t>(j) * this->Grid.Width + i;
+        const bool wanted = this->Pixels.empty() || this->Pixels[pixel];
+        rays.push_back(wanted ? MakeRay(this->Grid, i, j) : Ray());
+      }
+    }
+    return rays;
+  }
+
+  std::vector<Segment> CollectSegments(const Range& rows, const std::vector<Ray>& rays) const
+  {
+    std::vector<Segment> segments;
+    for (std::size_t id = 0; id < this->Rows.size(); ++id)
+    {
+      const Range common{ std::max(this->Rows[id].First, rows.First),
+        std::min(this->Rows[id].Last, rows.Last) };
+      Cell cell;
+      if (common.First > common.Last || !GetCell(this->Mesh, id, cell))
+      {
+        continue;
+      }
+      const auto corners = this->GetCorners(cell);
+      for (int j = common.First; j <= common.Last; ++j)
+      {
+        const Range pixels = this->Projection.FindPixels(corners.data(), j);
+        for (int i = pixels.First; i <= pixels.Last; ++i)
+        {
+          Segment segment;
+          segment.Pixel = (j - rows.First) * this->Grid.Width + i;
+          const Ray& ray = rays[segment.Pixel];
+          if (ray.Valid && ClipByCell(ray, cell.Coordinates, cell.Scalars, segment))
+          {
+            segments.push_back(segment);
+          }
+        }
+      }
+    }
+    return segments;
+  }
+
+  /// segments: those of the pixel, in order.
+  void Composite(
+    Span<const Segment> segments, const Ray& ray, std::size_t pixel, ReferenceImage& image) const
+  {
+    Real end = -Infinity;
+    for (const Segment& segment : segments)
+    {
+      end = std::max(end, segment.Begin + segment.Length);
+    }
+    const Intervals kept = ApplyLimits(this->Limits, ray, pixel, segments[0].Begin, end);
+    Compositor compositor(this->Function);
+    for (const Segment& segment : segments)
+    {
+      for (const auto& interval : kept)
+      {
+        compositor.Add(segment, interval[0], interval[1]);
+      }
+    }
+    std::copy(compositor.Rgba, compositor.Rgba + 4, image.Rgba.begin() + 4 * pixel);
+    image.Depth[pixel] = compositor.Depth;
+    image.Length[pixel] = compositor.Length;
+  }
+
+  const ReferenceMesh& Mesh;
+  const TransferFunction& Function;
+  const RayGrid& Grid;
+  const RayLimits& Limits;
+  Span<const std::uint8_t> Pixels;
+  ImageProjection Projection;
+  std::vector<ImagePoint> ImagePoints;
+  std::vector<Range> Rows; ///< that may see a cell
+};
+
 /// Rows are rendered in bands of about this many pixels, one at a time for each thread: bounds the
-/// memory for segments to some 48 bytes times the depth complexity times this.
+/// memory for segments to some 64 bytes times the depth complexity times this.
 constexpr int PixelsPerBand = 4096;
 
 } // namespace
@@ -542,96 +737,16 @@ ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction
   image.Depth.assign(numberOfPixels, -1.0);
   image.Length.assign(numberOfPixels, 0.0);
 
+  const BandRenderer renderer(mesh, function, rays, limits, pixels);
   const int rowsPerBand = std::max(1, PixelsPerBand / rays.Width);
   const int numberOfBands = (rays.Height + rowsPerBand - 1) / rowsPerBand;
-
-  const ImageProjection projection(rays);
-  const std::int64_t numberOfCells = static_cast<std::int64_t>(mesh.Cells.size() / 4);
-  std::vector<PixelBox> boxes(numberOfCells);
-#pragma omp parallel for schedule(static) if (numberOfBands > 1)
-  for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
-  {
-    const double* points[4];
-    double scalars[4];
-    boxes[cell] = GetCell(mesh, cell, points, scalars) ? projection.Bound(points)
-                                                       : PixelBox{ { 0, 0 }, { -1, -1 } };
-  }
-
   std::int64_t numberOfSegments = 0;
 #pragma omp parallel for schedule(dynamic) reduction(+ : numberOfSegments) if (numberOfBands > 1)
   for (int band = 0; band < numberOfBands; ++band)
   {
     const int firstRow = band * rowsPerBand;
     const int lastRow = std::min(rays.Height, firstRow + rowsPerBand) - 1;
-    std::vector<Ray> bandRays(static_cast<std::size_t>(lastRow - firstRow + 1) * rays.Width);
-    for (std::size_t k = 0; k < bandRays.size(); ++k)
-    {
-      const std::size_t pixel = static_cast<std::size_t>(firstRow) * rays.Width + k;
-      if (pixels.empty() || pixels[pixel])
-      {
-        bandRays[k] = MakeRay(
-          rays, static_cast<int>(k % rays.Width), firstRow + static_cast<int>(k / rays.Width));
-      }
-    }
-
-    std::vector<Segment> segments;
-    for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
-    {
-      const PixelBox& box = boxes[cell];
-      const double* points[4];
-      double scalars[4];
-      if (box.First[1] > lastRow || box.Last[1] < firstRow || box.First[0] > box.Last[0] ||
-        !GetCell(mesh, cell, points, scalars))
-      {
-        continue;
-      }
-      for (int j = std::max(box.First[1], firstRow); j <= std::min(box.Last[1], lastRow); ++j)
-      {
-        for (int i = box.First[0]; i <= box.Last[0]; ++i)
-        {
-          const std::int32_t k = (j - firstRow) * rays.Width + i;
-          Segment segment;
-          if (bandRays[k].Valid && ClipByCell(bandRays[k], points, scalars, segment))
-          {
-            segment.Pixel = k;
-            segments.push_back(segment);
-          }
-        }
-      }
-    }
-    numberOfSegments += static_cast<std::int64_t>(segments.size());
-
-    // Of segments that begin together only one has a length worth mentioning: it goes last.
-    std::sort(segments.begin(), segments.end(),
-      [](const Segment& a, const Segment& b)
-      {
-        return a.Pixel != b.Pixel ? a.Pixel < b.Pixel
-          : a.Begin != b.Begin    ? a.Begin < b.Begin
-                                  : a.Length < b.Length;
-      });
-    Intervals kept;
-    for (std::size_t first = 0, last; first < segments.size(); first = last)
-    {
-      const std::int32_t k = segments[first].Pixel;
-      const std::size_t pixel = static_cast<std::size_t>(firstRow) * rays.Width + k;
-      Real end = -Infinity;
-      for (last = first; last < segments.size() && segments[last].Pixel == k; ++last)
-      {
-        end = std::max(end, segments[last].Begin + segments[last].Length);
-      }
-      ApplyLimits(limits, bandRays[k], pixel, segments[first].Begin, end, kept);
-      Compositor compositor(function);
-      for (std::size_t i = first; i < last; ++i)
-      {
-        for (const auto& interval : kept)
-        {
-          compositor.Add(segments[i], interval[0], interval[1]);
-        }
-      }
-      std::copy(compositor.Rgba, compositor.Rgba + 4, image.Rgba.begin() + 4 * pixel);
-      image.Depth[pixel] = compositor.Depth;
-      image.Length[pixel] = compositor.Length;
-    }
+    numberOfSegments += renderer.Render({ firstRow, lastRow }, image);
   }
   image.NumberOfSegments = numberOfSegments;
   return image;
