@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Generate.h"
+
+#include "AtomicFile.h"
+#include "CommandErrors.h"
+#include "GeneratedMeshes.h"
+#include "OptionValues.h"
+#include "WriteData.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <stdexcept>
+
+namespace
+{
+
+std::map<std::string, double> ReadParameters(const std::vector<std::string>& arguments)
+{
+  std::map<std::string, double> parameters;
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+  {
+    const std::string& argument = arguments[i];
+    if (argument.compare(0, 2, "--") != 0)
+    {
+      throw UsageError("generate: '" + argument + "' is not --parameter VALUE");
+    }
+    const std::size_t equals = argument.find('=');
+    const std::string option = argument.substr(0, equals);
+    if (equals == std::string::npos && i + 1 == arguments.size())
+    {
+      throw UsageError(option + ": there is no value behind it");
+    }
+    const std::string text =
+      equals == std::string::npos ? arguments[++i] : argument.substr(equals + 1);
+    parameters[option.substr(2)] = ParseNumber(option, text);
+  }
+  return parameters;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(const tetralux::GeneratedMesh& generated)
+{
+  const tetralux::TetrahedralMesh& mesh = generated.Mesh;
+  const auto numberOfPoints = static_cast<vtkIdType>(mesh.GetNumberOfPoints());
+  const auto numberOfCells = static_cast<vtkIdType>(mesh.GetNumberOfCells());
+
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(numberOfPoints);
+  std::copy(mesh.Points.begin(), mesh.Points.end(), coordinates->GetPointer(0));
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+
+  vtkNew<vtkTypeInt32Array> connectivity;
+  connectivity->SetNumberOfValues(4 * numberOfCells);
+  std::copy(mesh.Cells.begin(), mesh.Cells.end(), connectivity->GetPointer(0));
+  vtkNew<vtkTypeInt32Array> offsets;
+  offsets->SetNumberOfValues(numberOfCells + 1);
+  for (vtkIdType i = 0; i <= numberOfCells; ++i)
+  {
+    offsets->SetValue(i, static_cast<vtkTypeInt32>(4 * i));
+  }
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetName("Field");
+  scalars->SetNumberOfValues(numberOfPoints);
+  std::copy(generated.Scalars.begin(), generated.Scalars.end(), scalars->GetPointer(0));
+
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(points);
+  grid->SetCells(VTK_TETRA, cells);
+  grid->GetPointData()->SetScalars(scalars);
+  return grid;
+}
+
+} // namespace
+
+void GenerateFile(const GenerateOptions& options)
+{
+  if (GetExtension(options.Output) != ".vtu")
+  {
+    throw UsageError("--output: '" + options.Output + "' must end in .vtu");
+  }
+  const std::map<std::string, double> parameters = ReadParameters(options.Parameters);
+  AtomicFile output(options.Output);
+  tetralux::GeneratedMesh generated;
+  try
+  {
+    generated = tetralux::GenerateMesh(options.Name, parameters);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw UsageError(std::string("generate: ") + error.what());
+  }
+  WriteXml(MakeGrid(generated), output.GetTemporaryName(), options.Output);
+  output.Commit();
+}
+
+void ListGenerators()
+{
+  for (const tetralux::Generator& generator : tetralux::GetGenerators())
+  {
+    std::cout << generator.Name << ": " << generator.Description << "\n";
+    for (const tetralux::GeneratorParameter& parameter : generator.Parameters)
+    {
+      std::cout << "  --" << parameter.Name << " " << FormatNumber(parameter.Default) << "  ("
+                << FormatNumber(parameter.Minimum) << " .. " << FormatNumber(parameter.Maximum)
+                << ") " << parameter.Description << "\n";
+    }
+  }
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef MessageCapture_h
+#define MessageCapture_h
+
+#include "vtkOutputWindow.h"
+
+#include <string>
+
+/// Keeps what VTK would print while it lives, so that the tool can say it in one line of its own.
+/// Warnings are printed as such, each once. Captures do not nest.
+class MessageCapture
+{
+public:
+  MessageCapture();
+  ~MessageCapture();
+  MessageCapture(const MessageCapture&) = delete;
+  MessageCapture& operator=(const MessageCapture&) = delete;
+
+  /// The first error since the construction, as one line without VTK's decoration; empty: none.
+  std::string GetError() const;
+
+private:
+  class Window;
+  vtkOutputWindow* Previous;
+  Window* Current;
+};
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef OptionValues_h
+#define OptionValues_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Reading of option values. Each function throws UsageError, which names the option, repeats the
+/// text and says what would be right. The whole text must be read; numbers must be finite.
+///@{
+double ParseNumber(const std::string& option, const std::string& text);
+
+/// A number above 0.
+double ParsePositive(const std::string& option, const std::string& text);
+
+int ParseInteger(const std::string& option, const std::string& text, int minimum, int maximum);
+
+/// count numbers with commas between; shape shows them in the error, as "X,Y,Z".
+std::vector<double> ParseNumbers(
+  const std::string& option, const std::string& text, std::size_t count, const std::string& shape);
+
+/// "Name=Value", with a name that is not empty.
+std::pair<std::string, std::string> ParseAssignment(
+  const std::string& option, const std::string& text);
+///@}
+
+/// Extension of a file name in small letters with its dot, as ".vtu"; empty where it has none.
+std::string GetExtension(const std::string& fileName);
+
+/// A number in as few digits as tell it apart, at most six.
+std::string FormatNumber(double value);
+
+/// "a, b and c"
+std::string JoinNames(const std::vector<std::string>& names);
+
+#endif

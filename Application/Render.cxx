@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Render.h"
+
+#include "Arrays.h"
+#include "AtomicFile.h"
+#include "CommandErrors.h"
+#include "MessageCapture.h"
+#include "Methods.h"
+#include "OptionValues.h"
+#include "ProgressLine.h"
+#include "ReadMesh.h"
+#include "SceneCamera.h"
+#include "TransferFunctionFile.h"
+#include "WriteData.h"
+#include "vtkHeadlessRenderWindow.h"
+#include "vtkTetrahedraRayCastMapper.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRenderer.h"
+#include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
+#include "vtkWindowToImageFilter.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+namespace
+{
+
+/// Everything of the command line that can be wrong by itself.
+void CheckOptions(const RenderOptions& options)
+{
+  const std::string extension = GetExtension(options.Output);
+  if (extension != ".png" && extension != ".vti")
+  {
+    throw UsageError("--output: '" + options.Output + "' must end in .png or .vti");
+  }
+  if (!options.StatisticsFile.empty() && GetExtension(options.StatisticsFile) != ".json")
+  {
+    throw UsageError("--stats: '" + options.StatisticsFile + "' must end in .json");
+  }
+  CheckCamera(options);
+}
+
+void ConfigureMapper(const RenderOptions& options, vtkTetrahedraRayCastMapper* mapper)
+{
+  ResolveMethod(options.Method);
+  // A still picture has one ray a pixel unless --set asks for something else.
+  mapper->AutoAdjustSampleDistancesOff();
+  if (options.MaximumError)
+  {
+    mapper->SetMaximumError(*options.MaximumError);
+  }
+  mapper->SetNumberOfThreads(options.NumberOfThreads);
+  for (const std::string& setting : options.Settings)
+  {
+    SetProperty(mapper, setting);
+  }
+}
+
+void SelectScalars(const ArrayChoice& choice, vtkTetrahedraRayCastMapper* mapper)
+{
+  mapper->SetScalarMode(choice.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
+                                              : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
+  mapper->SelectScalarArray(choice.Array.Name.c_str());
+  mapper->SetVectorMode(choice.Magnitude ? vtkTetrahedraRayCastMapper::MAGNITUDE
+                                         : vtkTetrahedraRayCastMapper::COMPONENT);
+  mapper->SetVectorComponent(choice.Component);
+}
+
+/// The range for the default colours; that of a constant is widened, so that it gets the middle.
+std::array<double, 2> GetColorRange(const ArrayChoice& choice)
+{
+  std::array<double, 2> range = choice.Range;
+  if (range[0] == range[1])
+  {
+    const double half = std::max(std::abs(range[0]), 1.0) / 2;
+    range = { range[0] - half, range[1] + half };
+  }
+  return range;
+}
+
+bool IsEmpty(vtkImageData* image)
+{
+  vtkDataArray* colors = image->GetPointData()->GetArray("RGBA");
+  if (!colors)
+  {
+    return true;
+  }
+  const auto pixels = vtk::DataArrayTupleRange<4>(colors);
+  return std::all_of(pixels.begin(), pixels.end(), [](const auto& pixel) { return pixel[3] == 0; });
+}
+
+void PrintStatistics(const nlohmann::ordered_json& value, const std::string& indent)
+{
+  for (const auto& [name, member] : value.items())
+  {
+    if (member.is_object())
+    {
+      std::cout << indent << name << "\n";
+      PrintStatistics(member, indent + "  ");
+    }
+    else
+    {
+      std::cout << indent << name << ": "
+                << (member.is_string() ? member.get<std::string>() : member.dump()) << "\n";
+    }
+  }
+}
+
+void WriteStatistics(const std::string& statistics, AtomicFile& file)
+{
+  std::ofstream stream(file.GetTemporaryName());
+  stream << statistics << "\n";
+  stream.close();
+  if (!stream)
+  {
+    throw WorkError("cannot write '" + file.GetName() + "'");
+  }
+}
+
+void WritePicture(vtkRenderWindow* window, vtkImageData* image, const AtomicFile& output)
+{
+  if (GetExtension(output.GetName()) == ".vti")
+  {
+    WriteXml(image, output.GetTemporaryName(), output.GetName());
+    return;
+  }
+  vtkNew<vtkWindowToImageFilter> reader;
+  reader->SetInput(window);
+  reader->ShouldRerenderOff();
+  reader->ReadFrontBufferOff();
+  reader->SetInputBufferTypeToRGB();
+  reader->Update();
+  WritePng(reader->GetOutput(), output.GetTemporaryName(), output.GetName());
+}
+
+} // namespace
+
+void RenderPicture(const RenderOptions& options)
+{
+  CheckOptions(options);
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  ConfigureMapper(options, mapper);
+
+  AtomicFile output(options.Output);
+  std::unique_ptr<AtomicFile> statisticsOutput;
+  if (!options.StatisticsFile.empty())
+  {
+    statisticsOutput = std::make_unique<AtomicFile>(options.StatisticsFile);
+  }
+  ColorAndOpacity functions;
+  if (!options.TransferFile.empty())
+  {
+    ReadTransferFunction(options.TransferFile, functions);
+  }
+
+  const vtkSmartPointer<vtkDataObject> data = ReadMesh(options.Input, options.Plot3dSolution);
+  const ArrayChoice choice = ChooseArray(data, options.Array, options.Component);
+  if (options.TransferFile.empty())
+  {
+    MakeDefaultTransferFunction(GetColorRange(choice).data(), functions);
+  }
+  SelectScalars(choice, mapper);
+  mapper->SetInputData(data.GetPointer());
+  double bounds[6];
+  mapper->GetBounds(bounds);
+  if (!vtkBoundingBox(bounds).IsValid())
+  {
+    throw WorkError("'" + options.Input + "': it has no points");
+  }
+
+  vtkNew<vtkVolumeProperty> property;
+  property->SetColor(functions.Color);
+  property->SetScalarOpacity(functions.Opacity);
+  property->SetScalarOpacityUnitDistance(options.OpacityUnitDistance.value_or(
+    DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
+  vtkNew<vtkVolume> volume;
+  volume->SetMapper(mapper);
+  volume->SetProperty(property);
+  vtkNew<vtkHeadlessRenderWindow> window;
+  window->SetSize(options.Width, options.Height);
+  window->SetMultiSamples(0);
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(options.Background.data());
+  renderer->AddVolume(volume);
+  window->AddRenderer(renderer);
+  PlaceCamera(options, bounds, renderer);
+
+  {
+    const MessageCapture messages;
+    ProgressLine progress("rendering");
+    progress.Observe(mapper, vtkCommand::ProgressEvent);
+    progress.Observe(mapper, vtkCommand::VolumeMapperRenderProgressEvent);
+    window->Render();
+    if (!messages.GetError().empty())
+    {
+      throw WorkError("'" + options.Input + "': " + messages.GetError());
+    }
+  }
+  vtkImageData* image = mapper->GetOutputImage();
+  if (IsEmpty(image))
+  {
+    std::cerr << "tetralux: warning: the picture is empty: no ray meets a cell that is not "
+                 "transparent\n";
+  }
+
+  const std::string statistics = mapper->GetStatistics();
+  WritePicture(window, image, output);
+  if (statisticsOutput)
+  {
+    WriteStatistics(statistics, *statisticsOutput);
+    statisticsOutput->Commit();
+  }
+  output.Commit();
+  if (options.PrintStatistics)
+  {
+    PrintStatistics(nlohmann::ordered_json::parse(statistics), "");
+  }
+}

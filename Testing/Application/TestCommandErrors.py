@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every way in which a command line can be wrong: status 2 where the command line is, 1 where the
+work fails; one line that says so; no file left."""
+
+import os
+import signal
+import subprocess
+import time
+
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_LAGRANGE_HEXAHEDRON, VTK_TRIANGLE, vtkUnstructuredGrid
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+import tool
+from tool import ToolTest
+
+
+class WrongUsage(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
+
+    def render_fails(self, *arguments, says):
+        self.fail(2, "render", "ball.vtu", "--output", "out.png", *arguments, says=says)
+
+    def test_commands(self):
+        self.fail(2, says="--help")
+        self.fail(2, "rendr", says="--help")
+        self.fail(2, "render", says=["IN", "required", "tetralux render --help"])
+        self.fail(2, "render", "ball.vtu", says=["--output", "required"])
+        self.fail(2, "info", says=["IN", "required"])
+        self.fail(2, "info", "ball.vtu", "--frobnicate", says="--frobnicate")
+
+    def test_unknown_options(self):
+        self.render_fails("--frobnicate", says=["--frobnicate", "tetralux render --help"])
+        self.render_fails("more.vtu", says="more.vtu")
+
+    def test_methods(self):
+        for method in ("bunyk", "isosurface", "gpu-ray-cast", ""):
+            self.render_fails("--method", method, says=["--method", "auto and ray-cast"])
+
+    def test_numbers(self):
+        for option, text, right in [
+            ("--size", "512", "W,H"),
+            ("--size", "512,", "integer from 1"),
+            ("--size", "0,5", "integer from 1"),
+            ("--size", "5,1e9", "integer from 1"),
+            ("--size", "5,5,5", "integer from 1"),
+            ("--background", "0,0", "R,G,B"),
+            ("--background", "0,0,2", "from 0 to 1"),
+            ("--background", "a,b,c", "R,G,B"),
+            ("--camera-position", "1,2", "X,Y,Z"),
+            ("--camera-position", "1,2,nan", "X,Y,Z"),
+            ("--camera-focal-point", "1,2,3,4", "X,Y,Z"),
+            ("--camera-view-up", "up", "X,Y,Z"),
+            ("--camera-view-up", "0,0,0", "0,0,0"),
+            ("--camera-view-angle", "180", "below 180"),
+            ("--camera-view-angle", "-3", "above 0"),
+            ("--camera-parallel-scale", "0", "above 0"),
+            ("--camera-parallel-scale", "inf", "above 0"),
+            ("--opacity-unit-distance", "0", "above 0"),
+            ("--opacity-unit-distance", "1x", "above 0"),
+            ("--max-error", "2", "at most 1"),
+            ("--max-error", "", "above 0"),
+            ("--threads", "-1", "integer from 0"),
+            ("--threads", "2.5", "integer from 0"),
+            ("--component", "x", "magnitude"),
+            ("--component", "-1", "magnitude"),
+        ]:
+            with self.subTest(option=option, text=text):
+                self.render_fails(option, text, says=[option, f"'{text}'" if text else "''", right]
+                    if right != "0,0,0" else [option, right])
+
+    def test_camera(self):
+        self.render_fails(
+            "--camera-view-angle", 30, "--camera-parallel-scale", 1, says="--camera-parallel-scale"
+        )
+        self.render_fails(
+            "--camera-position", "1,2,3", "--camera-focal-point", "1,2,3", says="--camera-position"
+        )
+
+    def test_properties(self):
+        self.render_fails("--set", "Foo=1", says=["'Foo'", "MaximumError", "NumberOfThreads"])
+        self.render_fails("--set", "Foo", says="Property=Value")
+        self.render_fails("--set", "=3", says="Property=Value")
+        self.render_fails("--set", "MaximumError=x", says=["--set MaximumError", "'x'"])
+        self.render_fails("--set", "MaximumError=2", says="from 0 to 1")
+        self.render_fails("--set", "Cropping=2", says="integer from 0 to 1")
+        self.render_fails("--set", "ImageSampleDistance=0", says="from 0.1 to 100")
+        self.render_fails("--set", "CroppingRegionPlanes=1,2", says="XMIN,XMAX")
+
+    def test_output_names(self):
+        self.fail(2, "render", "ball.vtu", "--output", "out.jpg", says=[".png", ".vti"])
+        self.fail(2, "render", "ball.vtu", "--output", "out", says=[".png", ".vti"])
+        self.render_fails("--stats", "out.txt", says=["--stats", ".json"])
+
+    def test_generate(self):
+        self.fail(2, "generate", says="--list")
+        self.fail(2, "generate", "ball", says="--output")
+        self.fail(2, "generate", "ball", "--output", "x.vtk", says=".vtu")
+        self.fail(2, "generate", "bal", "--output", "x.vtu", says=["'bal'", "ball"])
+        for arguments, says in [
+            (("--cels", 3), ["'cels'", "cells"]),
+            (("--cells", "many"), ["--cells", "'many'"]),
+            (("--cells", -5), "cells"),
+            (("--cells",), "--cells"),
+            (("7",), "'7'"),
+        ]:
+            with self.subTest(arguments=arguments):
+                self.fail(2, "generate", "ball", "--output", "x.vtu", *arguments, says=says)
+
+
+class FailedWork(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
+
+    def render_fails(self, *arguments, says):
+        self.fail(1, "render", "ball.vtu", "--output", "out.png", *arguments, says=says)
+
+    def test_inputs(self):
+        os.mkdir(self.path("folder.vtu"))
+        self.write("mesh.abc", "")
+        self.write("broken.vtu", "<VTKFile type='UnstructuredGrid'><Unstr")
+        self.write("broken.vtk", "no header")
+        self.write("broken.ex2", "no netcdf")
+        self.write("broken.nhdr", "no nrrd")
+        self.write("broken.slc", "no slc")
+        self.write("broken.bin", "no plot3d")
+        self.write("empty.vtu", "")
+        with open(self.path("ball.vtu"), "rb") as file:
+            half = file.read()[:2000]
+        with open(self.path("half.vtu"), "wb") as file:
+            file.write(half)
+        for name, says in [
+            ("missing.vtu", "No such file"),
+            ("folder.vtu", "folder"),
+            ("mesh.abc", ".vtu"),
+            ("broken.vtu", ""),
+            ("broken.vtk", ""),
+            ("broken.ex2", ""),
+            ("broken.nhdr", ""),
+            ("broken.slc", ""),
+            ("broken.bin", ""),
+            ("empty.vtu", ""),
+            ("half.vtu", ""),
+        ]:
+            for command in (("info", name), ("render", name, "--output", "out.vti")):
+                with self.subTest(command=command):
+                    self.fail(1, *command, says=[f"'{name}'", says])
+        self.fail(1, "info", "missing.bin,q.bin", says="'missing.bin'")
+        self.fail(1, "info", "broken.bin,missing.bin", says="'missing.bin'")
+        self.fail(1, "info", "broken.bin", "--plot3d-q", "missing.bin", says="'missing.bin'")
+
+    def test_arrays(self):
+        self.render_fails("--array", "Temp", says=["'Temp'", "Field"])
+        self.render_fails("--component", 1, says=["--component", "no component 1"])
+
+    def write_grid(self, name, cell_type, count, with_scalars=True, value=1.0):
+        points = vtkPoints()
+        scalars = vtkDoubleArray()
+        scalars.SetName("Field")
+        for i in range(count):
+            points.InsertNextPoint(i & 1, i >> 1 & 1, i >> 2)
+            scalars.InsertNextValue(value * i)
+        grid = vtkUnstructuredGrid()
+        grid.SetPoints(points)
+        if count:
+            grid.InsertNextCell(cell_type, count, list(range(count)))
+        if with_scalars:
+            grid.GetPointData().AddArray(scalars)
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(self.path(name))
+        writer.SetInputData(grid)
+        writer.Write()
+
+    def test_meshes_without_anything_to_render(self):
+        self.write_grid("noarrays.vtu", VTK_TRIANGLE, 3, with_scalars=False)
+        self.write_grid("nothing.vtu", VTK_TRIANGLE, 0)
+        self.write_grid("nan.vtu", VTK_TRIANGLE, 3, value=float("nan"))
+        self.write_grid("flat.vtu", VTK_TRIANGLE, 3)
+        self.write_grid("lagrange.vtu", VTK_LAGRANGE_HEXAHEDRON, 8)
+        for name, says in [
+            ("noarrays.vtu", "no arrays"),
+            ("nothing.vtu", "nothing.vtu"),
+            ("nan.vtu", "no finite values"),
+            ("flat.vtu", "flat.vtu"),
+            ("lagrange.vtu", "lagrange.vtu"),
+        ]:
+            with self.subTest(name=name):
+                self.fail(1, "render", name, "--output", "out.png", says=says)
+
+    def test_transfer_functions(self):
+        self.render_fails("--transfer", "missing.json", says="'missing.json'")
+        for text, says in [
+            ("", "not JSON"),
+            ("{", "not JSON"),
+            ("3", "preset"),
+            ("[]", "empty"),
+            ("{}", "neither"),
+            ('{"RGBPoints": [0, 0, 0]}', "RGBPoints"),
+            ('{"RGBPoints": [0, 0, 0, "red"]}', "RGBPoints"),
+            ('{"RGBPoints": [0, 0, 0, 2]}', "0 to 1"),
+            ('{"RGBPoints": [1, 0, 0, 0, 0, 1, 1, 1]}', "ascending"),
+            ('{"Points": []}', "Points"),
+            ('{"RGBPoints": [0, 0, 0, 0], "ColorSpace": "Mauve"}', "Mauve"),
+            ('{"RGBPoints": [1, 0, 0, 0, 2, 1, 1, 1], "UseLogScale": 1}', "UseLogScale"),
+        ]:
+            with self.subTest(text=text):
+                self.write("preset.json", text)
+                self.render_fails("--transfer", "preset.json", says=["preset.json", says])
+
+    def test_outputs(self):
+        os.mkdir(self.path("folder.png"))
+        for output, says in [
+            ("missing/out.png", "No such file"),
+            ("folder.png", "folder"),
+            ("ball.vtu/out.png", "Not a directory"),
+        ]:
+            with self.subTest(output=output):
+                self.fail(1, "render", "ball.vtu", "--output", output, says=[output, says])
+        self.render_fails("--stats", "missing/stats.json", says="missing/stats.json")
+        self.fail(1, "generate", "ball", "--output", "missing/x.vtu", says="missing/x.vtu")
+
+    def test_a_failure_keeps_an_older_output(self):
+        self.write("out.png", "older")
+        self.render_fails("--array", "Temp", says="Temp")
+        with open(self.path("out.png"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "older")
+
+    def test_camera_that_depends_on_the_data(self):
+        self.render_fails("--camera-position", "0,0,0", says="--camera-position")
+        self.render_fails(
+            "--camera-position", "0,9,0", "--camera-view-up", "0,1,0", says="--camera-view-up"
+        )
+
+    def test_an_interrupt_leaves_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            before = self.files()
+            process = subprocess.Popen(
+                [tool.TOOL, "generate", "ball", "--cells", "150", "--output", "large.vtu"],
+                cwd=self.folder,
+            )
+            deadline = time.monotonic() + 20
+            while self.files() == before and time.monotonic() < deadline:
+                time.sleep(0.01)
+            self.assertNotEqual(self.files(), before, "the temporary file never came")
+            process.send_signal(number)
+            self.assertEqual(process.wait(60), 128 + number)
+            self.assertEqual(self.files(), before)
+
+
+if __name__ == "__main__":
+    tool.main()

@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the commands do when all is right; with real data where TETRALUX_DATA names its folder."""
+
+import json
+import os
+import unittest
+
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLUnstructuredGridReader
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import numpy
+
+import tool
+from tool import ToolTest
+
+PRESET = {
+    "Name": "steps",
+    "ColorSpace": "RGB",
+    "RGBPoints": [0, 1, 0, 0, 0.5, 1, 0, 0, 0.5, 0, 0, 1, 1, 0, 0, 1],
+    "Points": [0, 0.2, 0.5, 0, 1, 0.8, 0.5, 0],
+}
+
+
+class Commands(ToolTest):
+    def read_png(self, name):
+        """Rows from the bottom, 0..1."""
+        reader = vtkPNGReader()
+        reader.SetFileName(self.path(name))
+        reader.Update()
+        image = reader.GetOutput()
+        width, height, _ = image.GetDimensions()
+        return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3) / 255
+
+    def read_vti(self, name):
+        reader = vtkXMLImageDataReader()
+        reader.SetFileName(self.path(name))
+        reader.Update()
+        image = reader.GetOutput()
+        width, height, _ = image.GetDimensions()
+        points = image.GetPointData()
+        colors = vtk_to_numpy(points.GetArray("RGBA")).reshape(height, width, 4)
+        depth = vtk_to_numpy(points.GetArray("Depth")).reshape(height, width)
+        return colors, depth
+
+    def test_help(self):
+        text = self.succeed("--help")
+        for word in ("render", "info", "generate", "Exit status"):
+            self.assertIn(word, text)
+        self.assertNotIn("bench", text)
+        text = self.succeed("render", "--help")
+        for option in (
+            "--array --component --method --transfer --opacity-unit-distance --camera-position "
+            "--camera-focal-point --camera-view-up --camera-view-angle --camera-parallel-scale "
+            "--size --background --max-error --set --threads --stats --output --plot3d-q"
+        ).split():
+            self.assertIn(option, text)
+        self.assertIn("--plot3d-q", self.succeed("info", "--help"))
+        self.assertIn("--list", self.succeed("generate", "--help"))
+        self.assertRegex(self.succeed("--version"), r"^\d+\.\d+\.\d+\n$")
+
+    def test_every_generator_with_its_defaults_has_a_field(self):
+        text = self.succeed("generate", "--list")
+        names = [line.split(":")[0] for line in text.splitlines() if not line.startswith(" ")]
+        self.assertGreaterEqual(len(names), 7)
+        for name in names:
+            with self.subTest(name=name):
+                self.succeed("generate", name, "--output", "mesh.vtu")
+                reader = vtkXMLUnstructuredGridReader()
+                reader.SetFileName(self.path("mesh.vtu"))
+                reader.Update()
+                grid = reader.GetOutput()
+                self.assertGreater(grid.GetNumberOfCells(), 0)
+                field = vtk_to_numpy(grid.GetPointData().GetScalars())
+                self.assertEqual(len(field), grid.GetNumberOfPoints())
+                self.assertLess(field.min(), field.max())
+        self.assertEqual(self.files(), {"mesh.vtu"})
+
+    def test_generator_parameters(self):
+        sizes = {}
+        for cells in (4, 8):
+            for form in (["--cells", str(cells)], [f"--cells={cells}"]):
+                self.succeed("generate", "ball", *form, "--output", "ball.vtu")
+                text = self.succeed("info", "ball.vtu")
+                sizes.setdefault(cells, set()).add(
+                    next(line for line in text.splitlines() if line.startswith("tetrahedra "))
+                )
+        self.assertEqual(len(sizes[4]), 1)
+        self.assertEqual(len(sizes[8]), 1)
+        self.assertNotEqual(sizes[4], sizes[8])
+
+    def test_info(self):
+        self.succeed("generate", "ball", "--cells", 6, "--output", "ball.vtu")
+        rows = {}
+        for line in self.succeed("info", "ball.vtu").splitlines():
+            rows[line[:26].strip()] = line[26:].strip()
+        self.assertEqual(rows["file"], "ball.vtu")
+        self.assertEqual(rows["type"], "vtkUnstructuredGrid")
+        self.assertEqual(rows["cells"], rows["vtkTetra"])
+        self.assertEqual(rows["tetrahedra"], rows["cells"])
+        self.assertEqual(rows["components"], "1")
+        self.assertIn("..", rows["point array Field"])
+        self.assertIn("microseconds a tetrahedron", rows["time to prepare"])
+        self.assertRegex(rows["memory of the tables"], r"MB$")
+        self.assertGreater(int(rows["boundary faces"]), 0)
+
+    def test_the_two_outputs_are_one_picture(self):
+        self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")
+        view = ["--size", "60,40", "--background", "0.2,0.4,0.6"]
+        self.succeed("render", "ball.vtu", *view, "--output", "ball.png")
+        self.succeed("render", "ball.vtu", *view, "--output", "ball.vti")
+        self.assertEqual(self.files(), {"ball.vtu", "ball.png", "ball.vti"})
+        colors, depth = self.read_vti("ball.vti")
+        self.assertEqual(colors.shape, (40, 60, 4))
+        self.assertEqual(colors.dtype, numpy.float32)
+        self.assertEqual(depth.dtype, numpy.float32)
+        opacity = colors[:, :, 3]
+        self.assertTrue(((opacity > 0) == (depth >= 0)).all())
+        self.assertTrue((depth[opacity == 0] == -1).all())
+        self.assertGreater((opacity > 0.01).mean(), 0.1)
+        over = colors[:, :, :3] + (1 - opacity[:, :, None]) * numpy.array([0.2, 0.4, 0.6])
+        self.assertLess(abs(over - self.read_png("ball.png")).max(), 1.01 / 255)
+
+    def test_camera_options(self):
+        self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")
+        view = ["--size", "41,41", "--output", "out.vti"]
+        # A parallel projection of the unit ball with half a picture of 2 units covers pi / 16 of it.
+        self.succeed(
+            "render", "ball.vtu", "--camera-position", "0,0,5", "--camera-parallel-scale", 2, *view
+        )
+        colors, depth = self.read_vti("out.vti")
+        self.assertAlmostEqual((colors[:, :, 3] > 0).mean(), numpy.pi / 16, delta=0.03)
+        self.assertAlmostEqual(depth[20, 20], 4, delta=0.1)
+        # Looking away there is nothing, which deserves a warning; status 0, for that is the picture.
+        result = self.run_tool(
+            "render", "ball.vtu", "--camera-position", "0,0,5", "--camera-focal-point", "0,0,9", *view
+        )
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("warning: the picture is empty", result.stderr)
+        # From the middle everything is in the picture; the position may start with a minus.
+        self.succeed(
+            "render", "ball.vtu", "--camera-position", "-0.1,0,0", "--camera-view-angle", 90, *view
+        )
+        colors, depth = self.read_vti("out.vti")
+        self.assertTrue((colors[:, :, 3] > 0).all())
+        # A camera turned by its up direction sees the picture turned.
+        self.succeed("render", "ball.vtu", "--camera-position", "3,0,4", *view)
+        upright, _ = self.read_vti("out.vti")
+        self.succeed(
+            "render", "ball.vtu", "--camera-position", "3,0,4", "--camera-view-up", "0,-1,0", *view
+        )
+        turned, _ = self.read_vti("out.vti")
+        self.assertLess(abs(turned[::-1, ::-1] - upright).max(), 1e-3)
+
+    def test_threads_do_not_change_a_bit(self):
+        self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")
+        for threads in (1, 2, 5):
+            self.succeed(
+                "render", "ball.vtu", "--threads", threads, "--output", f"{threads}.vti"
+            )
+        first = self.read_vti("1.vti")
+        for threads in (2, 5):
+            other = self.read_vti(f"{threads}.vti")
+            self.assertTrue((first[0] == other[0]).all())
+            self.assertTrue((first[1] == other[1]).all())
+
+    def test_transfer_function(self):
+        self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")
+        view = ["--size", "40,40", "--output"]
+        self.write("one.json", json.dumps(PRESET))
+        self.write("list.json", json.dumps([PRESET, {"RGBPoints": [0, 0, 0, 0, 1, 0, 0, 0]}]))
+        self.succeed("render", "ball.vtu", "--transfer", "one.json", *view, "one.vti")
+        self.succeed("render", "ball.vtu", "--transfer", "list.json", *view, "list.vti")
+        self.succeed("render", "ball.vtu", *view, "default.vti")
+        one, _ = self.read_vti("one.vti")
+        self.assertTrue((one == self.read_vti("list.vti")[0]).all())
+        self.assertGreater(abs(one - self.read_vti("default.vti")[0]).max(), 0.1)
+        self.assertEqual(abs(one[:, :, 1]).max(), 0, "there is no green in the preset")
+        # Twice the unit distance is half of the optical depth.
+        alphas = []
+        for distance in (1, 2):
+            self.succeed(
+                "render", "ball.vtu", "--opacity-unit-distance", distance, *view, "d.vti"
+            )
+            alphas.append(self.read_vti("d.vti")[0][:, :, 3].astype(float))
+        self.assertLess(abs((1 - alphas[1]) ** 2 - (1 - alphas[0])).max(), 1e-3)
+
+    def test_statistics(self):
+        self.succeed("generate", "ball", "--cells", 6, "--output", "ball.vtu")
+        self.succeed("render", "ball.vtu", "--stats", "stats.json", "--output", "out.png")
+        with open(self.path("stats.json"), encoding="utf-8") as file:
+            statistics = json.load(file)
+        self.assertTrue(statistics)
+        text = self.succeed("render", "ball.vtu", "--output", "out.png", "--stats")
+        for name in statistics:
+            self.assertIn(name, text)
+
+    def test_properties(self):
+        self.succeed("generate", "ball", "--cells", 6, "--output", "ball.vtu")
+        view = ["--camera-position", "0,0,5", "--camera-parallel-scale", 1.2, "--size", "40,40"]
+        self.succeed(
+            "render", "ball.vtu", *view, "--set", "Cropping=1", "--set",
+            "CroppingRegionPlanes=0,2,-2,2,-2,2", "--output", "half.vti",
+        )
+        colors, _ = self.read_vti("half.vti")
+        self.assertEqual(colors[:, :19, 3].max(), 0)
+        self.assertGreater(colors[:, 21:, 3].max(), 0)
+        self.succeed(
+            "render", "ball.vtu", *view, "--set", "ImageSampleDistance=2", "--output", "coarse.png"
+        )
+        self.assertEqual(self.read_png("coarse.png").shape, (40, 40, 3))
+
+
+@unittest.skipUnless(os.environ.get("TETRALUX_DATA"), "TETRALUX_DATA is not set")
+class RealData(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.data = os.path.abspath(os.environ["TETRALUX_DATA"])
+
+    def test_every_format(self):
+        fin = os.path.join(self.data, "bluntfin{}.bin")
+        for arguments, words in [
+            ([fin.format("xyz") + "," + fin.format("q")], ["187395", "Density", "zero volume"]),
+            ([fin.format("xyz"), "--plot3d-q", fin.format("q")], ["187395", "Density", "Pressure"]),
+            ([os.path.join(self.data, "disk_out_ref.ex2")], ["7472", "Temp", "AsH3"]),
+            ([os.path.join(self.data, "can.vtu")], ["cell array EQPS", "vtkHexahedron"]),
+            ([os.path.join(self.data, "neghip.slc")], [str(5 * 63**3)]),
+            ([os.path.join(self.data, "headsq", "quarter.nhdr")], [str(5 * 63 * 63 * 92)]),
+        ]:
+            with self.subTest(arguments=arguments):
+                text = self.succeed("info", *arguments)
+                for word in words:
+                    self.assertIn(word, text)
+
+    def test_pictures(self):
+        fin = os.path.join(self.data, "bluntfin{}.bin")
+        for arguments in [
+            [fin.format("xyz") + "," + fin.format("q"), "--array", "Density"],
+            [os.path.join(self.data, "disk_out_ref.ex2"), "--array", "V", "--component", "2"],
+            [os.path.join(self.data, "can.vtu"), "--array", "EQPS"],
+            [os.path.join(self.data, "neghip.slc")],
+        ]:
+            with self.subTest(arguments=arguments):
+                self.succeed("render", *arguments, "--size", "64,64", "--output", "out.png")
+
+
+if __name__ == "__main__":
+    tool.main()

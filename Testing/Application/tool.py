@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the tool in a folder of its own, for the tests of the command line."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOL = os.path.abspath(sys.argv[1])
+
+
+class ToolTest(unittest.TestCase):
+    """A test with an empty folder to work in."""
+
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = self.scratch.name
+        self.addCleanup(self.scratch.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def files(self):
+        return set(os.listdir(self.folder))
+
+    def run_tool(self, *arguments):
+        return subprocess.run(
+            [TOOL, *map(str, arguments)],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+
+    def succeed(self, *arguments):
+        """Runs the tool, which must succeed without a word on standard error."""
+        result = self.run_tool(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
+        return result.stdout
+
+    def fail(self, status, *arguments, says):
+        """Runs the tool, which must fail with a status and one line that has all words, and leave
+        every file as it is."""
+        before = self.files()
+        result = self.run_tool(*arguments)
+        where = " ".join(map(str, arguments)) + ": " + result.stderr
+        self.assertEqual(result.returncode, status, where)
+        lines = result.stderr.splitlines()
+        self.assertEqual(len(lines), 1, where)
+        self.assertTrue(lines[0].startswith("tetralux: "), where)
+        for word in [says] if isinstance(says, str) else says:
+            self.assertIn(word, lines[0])
+        self.assertEqual(result.stdout, "", where)
+        self.assertEqual(self.files(), before, where)
+
+
+def main():
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
