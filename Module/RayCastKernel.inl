@@ -839,11 +839,11 @@ inline void WalkRays(const KernelInput& in, const Rays<Real>& rays, unsigned act
     const Mask8 done = (radiance.Transmittance <= Float8(in.MinimumTransmittance)) | (end <= z1);
     const unsigned doneBits = Bits(done) & running;
     const Mask8 outside = Int8(0) > cell;
-    const unsigned outsideBits = Bits(outside) & running;
+    const unsigned outsideBits = Bits(outside);
     if ((doneBits | outsideBits) != 0)
     {
+      starting = running & outsideBits & ~doneBits;
       running &= ~(doneBits | outsideBits);
-      starting = outsideBits & ~doneBits;
       std::int32_t exits[Width];
       Store(exits, cell);
       for (int lane = 0; lane < Width; ++lane)
@@ -862,10 +862,9 @@ inline void WalkRays(const KernelInput& in, const Rays<Real>& rays, unsigned act
           }
         }
       }
-      // What a lane at rest loads must exist.
-      const Mask8 rest = MaskFromBits(doneBits | outsideBits);
-      cell = Select(rest, Int8(0), cell);
-      point = Select(rest, Int8(0), point);
+      // Lanes at rest go on from cell to cell without effect; what they load must exist.
+      cell = Select(outside, Int8(0), cell);
+      point = Select(outside, Int8(0), point);
     }
   }
 }

@@ -29,20 +29,18 @@ struct InstructionSet
   RayCastKernels Kernels;
 };
 
-/// The best instruction set of this processor; asked once.
-const InstructionSet& GetInstructionSet()
+/// The best instruction set of this processor.
+InstructionSet GetInstructionSet(bool portable)
 {
-  static const InstructionSet chosen = []() -> InstructionSet
-  {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    {
-      return { "AVX2", GetRayCastKernelsAvx2() };
-    }
+  static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (avx2 && !portable)
+  {
+    return { "AVX2", GetRayCastKernelsAvx2() };
+  }
 #endif
-    return { "generic", GetRayCastKernelsGeneric() };
-  }();
-  return chosen;
+  static_cast<void>(portable);
+  return { "generic", GetRayCastKernelsGeneric() };
 }
 
 /// A CrossingBuffer that owns its memory.
@@ -295,7 +293,7 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   in.Colors = colors.data();
   in.Depths = depths.data();
 
-  const InstructionSet& set = GetInstructionSet();
+  const InstructionSet set = GetInstructionSet(options.PortableKernels);
   const RayCastKernel kernel = this->ScalarsOfCells
     ? (statistics.DoublePrecision ? set.Kernels.CellDouble : set.Kernels.CellFloat)
     : (statistics.DoublePrecision ? set.Kernels.PointDouble : set.Kernels.PointFloat);

@@ -38,6 +38,10 @@ struct RayCastOptions
 
   int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
 
+  /// Use the kernels that run on any processor even where there are faster ones; the pictures
+  /// differ by rounding. For tests of those kernels.
+  bool PortableKernels = false;
+
   /// Called now and then, by the calling thread only, with the share that is done, 0..1; returns
   /// false to abort. May be empty.
   std::function<bool(double)> Progress;

@@ -22,7 +22,7 @@
 #define TETRALUX_AVX2 0
 #endif
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) // a minute instead of ten to compile
 #define TETRALUX_INLINE inline __attribute__((always_inline))
 #else
 #define TETRALUX_INLINE inline
