@@ -225,9 +225,9 @@ public:
 
   ///@{
   /**
-   * Of the last mesh: cells of types that can't be rendered; tetrahedra without volume, duplicated
-   * or with points that are no numbers; tetrahedra left empty because they touch a scalar that is
-   * not finite.
+   * Of the last mesh: cells of types that can't be rendered; tetrahedra taken out because they are
+   * duplicated, repeat a point or have one that is no number; tetrahedra left empty because they
+   * touch a scalar that is not finite.
    */
   vtkIdType GetNumberOfSkippedCells();
   vtkIdType GetNumberOfRemovedCells();

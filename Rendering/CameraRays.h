@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_CameraRays_h
+#define tetralux_CameraRays_h
+
+#include "RayGrid.h"
+#include "RayLimits.h"
+
+class vtkRenderer;
+
+namespace tetralux
+{
+
+/// A rectangle of pixels of the window, from its lower left.
+struct PixelRectangle
+{
+  int X = 0;
+  int Y = 0;
+  int Width = 0;
+  int Height = 0;
+};
+
+/// The rays of a renderer's camera through what the window shows of its viewport: any projection
+/// that vtkCamera can make, since they are taken from its matrices. All is computed relative to the
+/// camera's position, so that a scene far from the origin loses no accuracy.
+class CameraRays
+{
+public:
+  /// sampleDistance: pixels from ray to ray. Throws std::invalid_argument, with one line, where the
+  /// camera's matrices have no inverse.
+  CameraRays(vtkRenderer* renderer, double sampleDistance);
+
+  /// What the window shows of the viewport; empty where Width or Height is 0.
+  const PixelRectangle& GetVisible() const { return this->Visible; }
+
+  /// The rays, from the camera's eye or, in a parallel projection, the plane through it. Its
+  /// MeshFromWorld is the identity.
+  const RayGrid& GetGrid() const { return this->Grid; }
+
+  /// Adds the near and the far plane.
+  void AddClippingRange(RayLimits& limits) const;
+
+  /// Distance in world units from the start of ray (i, j) to where the depth buffer (0..1) has this
+  /// value.
+  double GetDistance(int i, int j, double depth) const;
+
+private:
+  /// Position of a ray in normalized device coordinates.
+  void GetDevicePoint(double i, double j, double& x, double& y) const;
+
+  PixelRectangle Visible;
+  int LowerLeft[2] = { 0, 0 }; ///< of the viewport, may be outside of the window
+  int ViewportSize[2] = { 0, 0 };
+  RayGrid Grid;
+  double Position[3] = { 0, 0, 0 };
+  double DeviceFromWorld[16]; ///< rows; world relative to Position
+  double WorldFromDevice[16];
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_TransferFunctionFromProperty_h
+#define tetralux_TransferFunctionFromProperty_h
+
+#include "TetraluxRenderingModule.h"
+#include "TransferFunction.h"
+
+class vtkVolumeProperty;
+
+namespace tetralux
+{
+
+struct PropertyTransferFunction
+{
+  TransferFunction Function;
+
+  /// Error of a colour channel that approximating the property adds, 0 where it is piecewise linear.
+  double Error = 0;
+};
+
+/// Colour and scalar opacity of a property's component 0 as VTK's functions define them, with
+/// attenuation = opacity / ScalarOpacityUnitDistance (opacities below 0 count as 0).
+///
+/// Nodes are at the exact scalars of the property's nodes; steps (duplicated nodes, sharpness 1,
+/// clamping off, colours above and below the range) stay steps. Where VTK's function is not linear
+/// between nodes - other colour spaces than RGB, sharpness, logarithmic scale - nodes are added until
+/// it is, as far as maximumError allows (of a premultiplied channel, more than 0) on rays through
+/// the volume of at most longestPath world units. At a step's own scalar the value from larger
+/// scalars counts, where VTK takes the one from smaller scalars.
+///
+/// Throws std::invalid_argument, with one line, where the unit distance is not positive or a function
+/// has values that are not finite.
+TETRALUXRENDERING_EXPORT PropertyTransferFunction TransferFunctionFromProperty(
+  vtkVolumeProperty* property, double maximumError, double longestPath);
+
+} // namespace tetralux
+
+#endif
