@@ -1011,7 +1011,7 @@ TEST(Reference, GrazingFindsSilhouettesAndOnlyThem)
     MakeLinearFunction({ { 0, 1, 0, 0.2, 0.6 }, { 0.5, 0, 1, 0, 2 }, { 1, 1, 1, 0, 1 } });
   const int size = 32;
   const double pixel = 1.5 / size;
-  const double center = pixel * (size / 2 - 0.5 + 5e-4); // column 0's centre is at x = -5e-4 pixel
+  const double center = pixel * (size / 2.0 - 0.5 + 5e-4); // column 0 is at x = 5e-4 pixel
   const RayGrid grid =
     MakeParallelGrid({ center, 0.7, 3 }, { center, 0.7, 0 }, { 0, 1, 0 }, 0.75, size, size);
   const ReferenceImage image = box.Render(smooth, grid);
