@@ -85,7 +85,7 @@ check_core_statically() {
 }
 
 require "setup" Examples/setup.sh test
-require "configure" cmake --preset release
+require "configure" cmake --preset release -DTETRALUX_BUILD_TESTING=ON -DTETRALUX_WRAP_PYTHON=ON
 require "build" cmake --build --preset release
 run_tests release build
 
