@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders a sphere without a display: consumer OUTPUT.png
+// Renders a grid of wedges as a volume, without a display: consumer OUTPUT.png
 #include "vtkHeadlessRenderWindow.h"
+#include "vtkTetrahedraRayCastMapper.h"
 
-#include "vtkActor.h"
+#include "vtkCellType.h"
+#include "vtkCellTypeSource.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkNew.h"
 #include "vtkPNGWriter.h"
-#include "vtkPolyDataMapper.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkRenderer.h"
-#include "vtkSphereSource.h"
+#include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 #include "vtkWindowToImageFilter.h"
 
 #include <iostream>
@@ -20,14 +24,32 @@ int main(int argc, char* argv[])
     return 2;
   }
 
-  vtkNew<vtkSphereSource> sphere;
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
+  // A cube of 8 units; its point array is the distance to the centre, 0 to 7.
+  vtkNew<vtkCellTypeSource> source;
+  source->SetCellType(VTK_WEDGE);
+  source->SetBlocksDimensions(8, 8, 8);
+
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectScalarArray("DistanceToCenter");
+
+  vtkNew<vtkColorTransferFunction> color;
+  color->AddRGBPoint(0, 1.0, 0.9, 0.3);
+  color->AddRGBPoint(4, 0.9, 0.2, 0.1);
+  color->AddRGBPoint(7, 0.2, 0.4, 1.0);
+  vtkNew<vtkPiecewiseFunction> opacity;
+  opacity->AddPoint(0, 1.0);
+  opacity->AddPoint(4, 0.2);
+  opacity->AddPoint(7, 0.0);
+
+  vtkNew<vtkVolume> volume;
+  volume->SetMapper(mapper);
+  volume->GetProperty()->SetColor(color);
+  volume->GetProperty()->SetScalarOpacity(opacity);
 
   vtkNew<vtkRenderer> renderer;
-  renderer->AddActor(actor);
+  renderer->AddVolume(volume);
   vtkNew<vtkHeadlessRenderWindow> window;
   window->SetSize(400, 300);
   window->AddRenderer(renderer);
