@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MessageCapture.h"
 
+#include "vtkLogger.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 #include <mutex>
-#include <set>
+#include <vector>
 
 namespace
 {
@@ -57,15 +59,15 @@ public:
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     const std::string line = StripDecoration(text);
-    if (this->Warnings.insert(line).second)
+    if (std::find(this->Warnings.begin(), this->Warnings.end(), line) == this->Warnings.end())
     {
-      std::cerr << "tetralux: warning: " << line << std::endl;
+      this->Warnings.push_back(line);
     }
   }
 
   std::mutex Mutex;
   std::string Error;
-  std::set<std::string> Warnings;
+  std::vector<std::string> Warnings;
 };
 
 vtkStandardNewMacro(MessageCapture::Window);
@@ -74,6 +76,8 @@ MessageCapture::MessageCapture()
   : Previous(vtkOutputWindow::GetInstance())
   , Current(Window::New())
 {
+  // VTK's logger prints every message as well, past the output window.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   this->Previous->Register(nullptr);
   vtkOutputWindow::SetInstance(this->Current);
 }
@@ -89,4 +93,13 @@ std::string MessageCapture::GetError() const
 {
   const std::lock_guard<std::mutex> lock(this->Current->Mutex);
   return this->Current->Error;
+}
+
+void MessageCapture::PrintWarnings() const
+{
+  const std::lock_guard<std::mutex> lock(this->Current->Mutex);
+  for (const std::string& warning : this->Current->Warnings)
+  {
+    std::cerr << "tetralux: warning: " << warning << "\n";
+  }
 }

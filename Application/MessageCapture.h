@@ -6,8 +6,8 @@
 
 #include <string>
 
-/// Keeps what VTK would print while it lives, so that the tool can say it in one line of its own.
-/// Warnings are printed as such, each once. Captures do not nest.
+/// Keeps what VTK would print while it lives, so that the tool can say it in lines of its own.
+/// Captures do not nest.
 class MessageCapture
 {
 public:
@@ -18,6 +18,9 @@ public:
 
   /// The first error since the construction, as one line without VTK's decoration; empty: none.
   std::string GetError() const;
+
+  /// Prints each different warning since the construction as one line on standard error.
+  void PrintWarnings() const;
 
 private:
   class Window;

@@ -51,6 +51,15 @@ Reader MakeLegacyReader(const std::string& fileName)
 
 Reader MakeExodusReader(const std::string& fileName)
 {
+  // Exodus files are NetCDF, in its classic form or over HDF5. The library prints many lines of its
+  // own about any other file.
+  char magic[4] = {};
+  std::ifstream(fileName, std::ios::binary).read(magic, sizeof(magic));
+  const std::string begin(magic, sizeof(magic));
+  if (begin.compare(0, 3, "CDF") != 0 && begin != "\x89HDF")
+  {
+    throw WorkError("cannot read '" + fileName + "': it is no Exodus file");
+  }
   auto reader = vtkSmartPointer<vtkExodusIIReader>::New();
   reader->SetFileName(fileName.c_str());
   reader->UpdateInformation();
@@ -197,5 +206,6 @@ vtkSmartPointer<vtkDataObject> ReadMesh(
   {
     throw WorkError("cannot read '" + name + "': there is nothing in it");
   }
+  messages.PrintWarnings();
   return data;
 }

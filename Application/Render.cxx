@@ -17,6 +17,7 @@
 
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
+#include "vtkCullerCollection.h"
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
 #include "vtkImageData.h"
@@ -102,6 +103,18 @@ bool IsEmpty(vtkImageData* image)
   return std::all_of(pixels.begin(), pixels.end(), [](const auto& pixel) { return pixel[3] == 0; });
 }
 
+/// A picture of nothing, because there is nothing that can be rendered, is a failure.
+void CheckRendered(const std::string& input, const nlohmann::ordered_json& statistics)
+{
+  if (statistics.at("tables").at("tetrahedra") == 0)
+  {
+    const auto skipped = statistics.at("input").at("skipped_cell_types").get<std::string>();
+    throw WorkError("'" + input + "': none of its " + statistics.at("input").at("cells").dump() +
+      " cells can be rendered as a volume" +
+      (skipped.empty() ? "" : "; not supported: " + skipped));
+  }
+}
+
 void PrintStatistics(const nlohmann::ordered_json& value, const std::string& indent)
 {
   for (const auto& [name, member] : value.items())
@@ -119,10 +132,10 @@ void PrintStatistics(const nlohmann::ordered_json& value, const std::string& ind
   }
 }
 
-void WriteStatistics(const std::string& statistics, AtomicFile& file)
+void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicFile& file)
 {
   std::ofstream stream(file.GetTemporaryName());
-  stream << statistics << "\n";
+  stream << statistics.dump(2) << "\n";
   stream.close();
   if (!stream)
   {
@@ -130,20 +143,51 @@ void WriteStatistics(const std::string& statistics, AtomicFile& file)
   }
 }
 
-void WritePicture(vtkRenderWindow* window, vtkImageData* image, const AtomicFile& output)
+/// The picture over the background, rounded to 8 bit once. The frame buffer of a window has 8 bit
+/// already before its background is added.
+vtkSmartPointer<vtkImageData> PutOverBackground(
+  vtkImageData* image, const RenderOptions::Vector& background)
 {
-  if (GetExtension(output.GetName()) == ".vti")
+  auto result = vtkSmartPointer<vtkImageData>::New();
+  result->SetDimensions(image->GetDimensions());
+  result->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  const auto colors = vtk::DataArrayTupleRange<4>(image->GetPointData()->GetArray("RGBA"));
+  auto pixels = vtk::DataArrayTupleRange<3>(result->GetPointData()->GetScalars());
+  for (vtkIdType i = 0; i < colors.size(); ++i)
   {
-    WriteXml(image, output.GetTemporaryName(), output.GetName());
-    return;
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      const double value = colors[i][channel] + (1 - colors[i][3]) * background[channel];
+      pixels[i][channel] = std::lround(255 * std::clamp(value, 0.0, 1.0));
+    }
   }
+  return result;
+}
+
+/// The picture as the window shows it.
+vtkSmartPointer<vtkImageData> CaptureWindow(vtkRenderWindow* window)
+{
   vtkNew<vtkWindowToImageFilter> reader;
   reader->SetInput(window);
   reader->ShouldRerenderOff();
   reader->ReadFrontBufferOff();
   reader->SetInputBufferTypeToRGB();
   reader->Update();
-  WritePng(reader->GetOutput(), output.GetTemporaryName(), output.GetName());
+  return reader->GetOutput();
+}
+
+void WritePicture(const RenderOptions& options, vtkRenderWindow* window, vtkImageData* image,
+  const AtomicFile& output)
+{
+  if (GetExtension(output.GetName()) == ".vti")
+  {
+    WriteXml(image, output.GetTemporaryName(), output.GetName());
+    return;
+  }
+  const int* dimensions = image->GetDimensions();
+  const bool oneRayPerPixel = dimensions[0] == options.Width && dimensions[1] == options.Height;
+  WritePng(oneRayPerPixel ? PutOverBackground(image, options.Background) : CaptureWindow(window),
+    output.GetTemporaryName(), output.GetName());
 }
 
 } // namespace
@@ -195,9 +239,11 @@ void RenderPicture(const RenderOptions& options)
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(options.Background.data());
   renderer->AddVolume(volume);
+  renderer->GetCullers()->RemoveAllItems(); // what is out of sight gives a picture, too
   window->AddRenderer(renderer);
   PlaceCamera(options, bounds, renderer);
 
+  nlohmann::ordered_json statistics;
   {
     const MessageCapture messages;
     ProgressLine progress("rendering");
@@ -208,6 +254,9 @@ void RenderPicture(const RenderOptions& options)
     {
       throw WorkError("'" + options.Input + "': " + messages.GetError());
     }
+    statistics = nlohmann::ordered_json::parse(mapper->GetStatistics());
+    CheckRendered(options.Input, statistics);
+    messages.PrintWarnings();
   }
   vtkImageData* image = mapper->GetOutputImage();
   if (IsEmpty(image))
@@ -216,8 +265,7 @@ void RenderPicture(const RenderOptions& options)
                  "transparent\n";
   }
 
-  const std::string statistics = mapper->GetStatistics();
-  WritePicture(window, image, output);
+  WritePicture(options, window, image, output);
   if (statisticsOutput)
   {
     WriteStatistics(statistics, *statisticsOutput);
@@ -226,6 +274,6 @@ void RenderPicture(const RenderOptions& options)
   output.Commit();
   if (options.PrintStatistics)
   {
-    PrintStatistics(nlohmann::ordered_json::parse(statistics), "");
+    PrintStatistics(statistics, "");
   }
 }

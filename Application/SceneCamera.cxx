@@ -34,6 +34,37 @@ bool IsAlong(const double direction[3], const double up[3])
   return vtkMath::Norm(cross) <= SmallestUpSine * vtkMath::Norm(direction) * vtkMath::Norm(up);
 }
 
+/// Part of the picture that a default view leaves free on either side.
+constexpr double PictureMargin = 0.05;
+
+/// How far behind its focal point the camera must be, in the direction that it has, to see all
+/// corners of a box.
+double GetFittingDistance(
+  vtkCamera* camera, const vtkBoundingBox& box, const RenderOptions& options)
+{
+  const double halfAngle = vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle());
+  const double tangentY = (1 - PictureMargin) * std::tan(halfAngle);
+  const double tangentX = tangentY * options.Width / options.Height;
+  double forward[3], up[3], right[3], focalPoint[3];
+  camera->GetDirectionOfProjection(forward);
+  camera->OrthogonalizeViewUp();
+  camera->GetViewUp(up);
+  vtkMath::Cross(forward, up, right);
+  camera->GetFocalPoint(focalPoint);
+  double distance = 0;
+  for (int i = 0; i < 8; ++i)
+  {
+    double corner[3];
+    box.GetCorner(i, corner);
+    vtkMath::Subtract(corner, focalPoint, corner);
+    const double acrossX = std::abs(vtkMath::Dot(corner, right));
+    const double acrossY = std::abs(vtkMath::Dot(corner, up));
+    distance = std::max(
+      distance, std::max(acrossX / tangentX, acrossY / tangentY) - vtkMath::Dot(corner, forward));
+  }
+  return distance > 0 ? distance : 1;
+}
+
 } // namespace
 
 void CheckCamera(const RenderOptions& options)
@@ -80,13 +111,9 @@ void PlaceCamera(const RenderOptions& options, const double bounds[6], vtkRender
     camera->SetViewUp(0, 1, 0);
     camera->Azimuth(DefaultAzimuth);
     camera->Elevation(DefaultElevation);
-    // Far enough for the angle, and for the width of an upright picture.
-    const double halfAngle = vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle());
-    const double aspect = static_cast<double>(options.Width) / options.Height;
-    const double halfNarrow = std::atan(std::tan(halfAngle) * std::min(1.0, aspect));
+    const double distance = GetFittingDistance(camera, box, options);
     double direction[3];
     camera->GetDirectionOfProjection(direction);
-    const double distance = radius / std::sin(halfNarrow);
     camera->SetPosition(focalPoint[0] - distance * direction[0],
       focalPoint[1] - distance * direction[1], focalPoint[2] - distance * direction[2]);
   }

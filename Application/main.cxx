@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -133,13 +134,16 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
   AddOption(command, "--size", "Pixels of the picture; default: 512,512",
     [&options](const std::string& option, const std::string& text)
     {
-      const std::size_t comma = text.find(',');
-      if (comma == std::string::npos)
+      const std::vector<double> size = ParseNumbers(option, text, 2, "W,H");
+      if (std::any_of(size.begin(), size.end(),
+            [](double pixels)
+            { return pixels < 1 || pixels > MaximumSize || pixels != std::floor(pixels); }))
       {
-        throw UsageError(option + ": '" + text + "' is not W,H");
+        throw UsageError(option + ": '" + text + "' is not W,H, each an integer from 1 to " +
+          std::to_string(MaximumSize));
       }
-      options.Width = ParseInteger(option, text.substr(0, comma), 1, MaximumSize);
-      options.Height = ParseInteger(option, text.substr(comma + 1), 1, MaximumSize);
+      options.Width = static_cast<int>(size[0]);
+      options.Height = static_cast<int>(size[1]);
     })
     ->type_name("W,H");
   AddOption(command, "--background", "Colour behind a .png, each from 0 to 1; default: 0,0,0",

@@ -21,15 +21,15 @@ class WrongUsage(ToolTest):
         self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
 
     def render_fails(self, *arguments, says):
-        self.fail(2, "render", "ball.vtu", "--output", "out.png", *arguments, says=says)
+        self.expect_failure(2, "render", "ball.vtu", "--output", "out.png", *arguments, says=says)
 
     def test_commands(self):
-        self.fail(2, says="--help")
-        self.fail(2, "rendr", says="--help")
-        self.fail(2, "render", says=["IN", "required", "tetralux render --help"])
-        self.fail(2, "render", "ball.vtu", says=["--output", "required"])
-        self.fail(2, "info", says=["IN", "required"])
-        self.fail(2, "info", "ball.vtu", "--frobnicate", says="--frobnicate")
+        self.expect_failure(2, says="--help")
+        self.expect_failure(2, "rendr", says="--help")
+        self.expect_failure(2, "render", says=["IN", "required", "tetralux render --help"])
+        self.expect_failure(2, "render", "ball.vtu", says=["--output", "required"])
+        self.expect_failure(2, "info", says=["IN", "required"])
+        self.expect_failure(2, "info", "ball.vtu", "--frobnicate", says="--frobnicate")
 
     def test_unknown_options(self):
         self.render_fails("--frobnicate", says=["--frobnicate", "tetralux render --help"])
@@ -42,10 +42,10 @@ class WrongUsage(ToolTest):
     def test_numbers(self):
         for option, text, right in [
             ("--size", "512", "W,H"),
-            ("--size", "512,", "integer from 1"),
-            ("--size", "0,5", "integer from 1"),
-            ("--size", "5,1e9", "integer from 1"),
-            ("--size", "5,5,5", "integer from 1"),
+            ("--size", "512,", "W,H"),
+            ("--size", "0,5", "W,H"),
+            ("--size", "5,1e9", "W,H"),
+            ("--size", "5,5,5", "W,H"),
             ("--background", "0,0", "R,G,B"),
             ("--background", "0,0,2", "from 0 to 1"),
             ("--background", "a,b,c", "R,G,B"),
@@ -68,8 +68,7 @@ class WrongUsage(ToolTest):
             ("--component", "-1", "magnitude"),
         ]:
             with self.subTest(option=option, text=text):
-                self.render_fails(option, text, says=[option, f"'{text}'" if text else "''", right]
-                    if right != "0,0,0" else [option, right])
+                self.render_fails(option, text, says=[option, text, right])
 
     def test_camera(self):
         self.render_fails(
@@ -90,15 +89,15 @@ class WrongUsage(ToolTest):
         self.render_fails("--set", "CroppingRegionPlanes=1,2", says="XMIN,XMAX")
 
     def test_output_names(self):
-        self.fail(2, "render", "ball.vtu", "--output", "out.jpg", says=[".png", ".vti"])
-        self.fail(2, "render", "ball.vtu", "--output", "out", says=[".png", ".vti"])
+        self.expect_failure(2, "render", "ball.vtu", "--output", "out.jpg", says=[".png", ".vti"])
+        self.expect_failure(2, "render", "ball.vtu", "--output", "out", says=[".png", ".vti"])
         self.render_fails("--stats", "out.txt", says=["--stats", ".json"])
 
     def test_generate(self):
-        self.fail(2, "generate", says="--list")
-        self.fail(2, "generate", "ball", says="--output")
-        self.fail(2, "generate", "ball", "--output", "x.vtk", says=".vtu")
-        self.fail(2, "generate", "bal", "--output", "x.vtu", says=["'bal'", "ball"])
+        self.expect_failure(2, "generate", says="--list")
+        self.expect_failure(2, "generate", "ball", says="--output")
+        self.expect_failure(2, "generate", "ball", "--output", "x.vtk", says=".vtu")
+        self.expect_failure(2, "generate", "bal", "--output", "x.vtu", says=["'bal'", "ball"])
         for arguments, says in [
             (("--cels", 3), ["'cels'", "cells"]),
             (("--cells", "many"), ["--cells", "'many'"]),
@@ -107,7 +106,7 @@ class WrongUsage(ToolTest):
             (("7",), "'7'"),
         ]:
             with self.subTest(arguments=arguments):
-                self.fail(2, "generate", "ball", "--output", "x.vtu", *arguments, says=says)
+                self.expect_failure(2, "generate", "ball", "--output", "x.vtu", *arguments, says=says)
 
 
 class FailedWork(ToolTest):
@@ -116,7 +115,7 @@ class FailedWork(ToolTest):
         self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
 
     def render_fails(self, *arguments, says):
-        self.fail(1, "render", "ball.vtu", "--output", "out.png", *arguments, says=says)
+        self.expect_failure(1, "render", "ball.vtu", "--output", "out.png", *arguments, says=says)
 
     def test_inputs(self):
         os.mkdir(self.path("folder.vtu"))
@@ -147,10 +146,10 @@ class FailedWork(ToolTest):
         ]:
             for command in (("info", name), ("render", name, "--output", "out.vti")):
                 with self.subTest(command=command):
-                    self.fail(1, *command, says=[f"'{name}'", says])
-        self.fail(1, "info", "missing.bin,q.bin", says="'missing.bin'")
-        self.fail(1, "info", "broken.bin,missing.bin", says="'missing.bin'")
-        self.fail(1, "info", "broken.bin", "--plot3d-q", "missing.bin", says="'missing.bin'")
+                    self.expect_failure(1, *command, says=[f"'{name}'", says])
+        self.expect_failure(1, "info", "missing.bin,q.bin", says="'missing.bin'")
+        self.expect_failure(1, "info", "broken.bin,missing.bin", says="'missing.bin'")
+        self.expect_failure(1, "info", "broken.bin", "--plot3d-q", "missing.bin", says="'missing.bin'")
 
     def test_arrays(self):
         self.render_fails("--array", "Temp", says=["'Temp'", "Field"])
@@ -182,13 +181,13 @@ class FailedWork(ToolTest):
         self.write_grid("lagrange.vtu", VTK_LAGRANGE_HEXAHEDRON, 8)
         for name, says in [
             ("noarrays.vtu", "no arrays"),
-            ("nothing.vtu", "nothing.vtu"),
+            ("nothing.vtu", "no finite values"),
             ("nan.vtu", "no finite values"),
-            ("flat.vtu", "flat.vtu"),
-            ("lagrange.vtu", "lagrange.vtu"),
+            ("flat.vtu", "none of its 1 cells"),
+            ("lagrange.vtu", "1 vtkLagrangeHexahedron"),
         ]:
             with self.subTest(name=name):
-                self.fail(1, "render", name, "--output", "out.png", says=says)
+                self.expect_failure(1, "render", name, "--output", "out.png", says=says)
 
     def test_transfer_functions(self):
         self.render_fails("--transfer", "missing.json", says="'missing.json'")
@@ -218,9 +217,9 @@ class FailedWork(ToolTest):
             ("ball.vtu/out.png", "Not a directory"),
         ]:
             with self.subTest(output=output):
-                self.fail(1, "render", "ball.vtu", "--output", output, says=[output, says])
+                self.expect_failure(1, "render", "ball.vtu", "--output", output, says=[output, says])
         self.render_fails("--stats", "missing/stats.json", says="missing/stats.json")
-        self.fail(1, "generate", "ball", "--output", "missing/x.vtu", says="missing/x.vtu")
+        self.expect_failure(1, "generate", "ball", "--output", "missing/x.vtu", says="missing/x.vtu")
 
     def test_a_failure_keeps_an_older_output(self):
         self.write("out.png", "older")

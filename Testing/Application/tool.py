@@ -46,7 +46,7 @@ class ToolTest(unittest.TestCase):
         self.assertEqual(result.stderr, "")
         return result.stdout
 
-    def fail(self, status, *arguments, says):
+    def expect_failure(self, status, *arguments, says):
         """Runs the tool, which must fail with a status and one line that has all words, and leave
         every file as it is."""
         before = self.files()
