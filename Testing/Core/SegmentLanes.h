@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_SegmentLanes_h
+#define tetralux_SegmentLanes_h
+
+#include <vector>
+
+namespace tetralux
+{
+
+/// The functions of SegmentIntegral.h as compiled for one instruction set: a call computes eight
+/// lanes, from arrays of eight to arrays of eight.
+struct SegmentLanes
+{
+  using Function = void (*)(const float* x, float* result);
+
+  const char* Name;
+  Function ExpMinus;
+  Function Erfcx;
+  Function Dawson;
+  void (*IntegrateConstant)(const float* depth, float* opacity, float* transmittance);
+  void (*IntegrateSegment)(
+    const float* d0, const float* d1, float* front, float* back, float* transmittance);
+};
+
+/// Those of every instruction set that this processor has.
+std::vector<SegmentLanes> GetSegmentLanes();
+
+} // namespace tetralux
+
+#endif

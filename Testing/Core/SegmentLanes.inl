@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Compiled once for each instruction set, with the options that the kernels are compiled with.
+#include "SegmentIntegral.h"
+#include "SegmentLanes.h"
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+SegmentLanes MakeSegmentLanes(const char* name)
+{
+  SegmentLanes lanes{};
+  lanes.Name = name;
+  lanes.ExpMinus = [](const float* x, float* result) { Store(result, ExpMinus(LoadFloat8(x))); };
+  lanes.Erfcx = [](const float* x, float* result) { Store(result, Erfcx(LoadFloat8(x))); };
+  lanes.Dawson = [](const float* x, float* result) { Store(result, Dawson(LoadFloat8(x))); };
+  lanes.IntegrateConstant = [](const float* depth, float* opacity, float* transmittance)
+  {
+    Float8 o, t;
+    IntegrateConstant(LoadFloat8(depth), o, t);
+    Store(opacity, o);
+    Store(transmittance, t);
+  };
+  lanes.IntegrateSegment =
+    [](const float* d0, const float* d1, float* front, float* back, float* transmittance)
+  {
+    const SegmentWeights w = IntegrateSegment(LoadFloat8(d0), LoadFloat8(d1));
+    Store(front, w.Front);
+    Store(back, w.Back);
+    Store(transmittance, w.Transmittance);
+  };
+  return lanes;
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SegmentLanes.inl"
+
+namespace tetralux
+{
+
+SegmentLanes GetSegmentLanesAvx2() { return TETRALUX_ISA::MakeSegmentLanes("AVX2"); }
+
+} // namespace tetralux
