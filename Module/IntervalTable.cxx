@@ -77,7 +77,8 @@ IntervalTable MakeIntervalTable(const TransferFunction& function)
   table.Scale = 0.5 * last - 0.5 * first;
   if (!(table.Scale > 0))
   {
-    table.Scale = std::max(std::abs(first), std::numeric_limits<double>::min());
+    // One node: any scale near that of the scalars, which are not known here.
+    table.Scale = first != 0 ? std::abs(first) : 1;
   }
   const auto map = [&table](double s)
   { return static_cast<float>((s - table.Offset) / table.Scale); };

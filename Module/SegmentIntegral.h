@@ -72,7 +72,7 @@ TETRALUX_INLINE Float8 Erfcx(Float8 x)
 }
 
 /// Dawson's function, exp(-x^2) times the integral of exp(t^2) from 0 to x, for x >= 0; relative
-/// error 7e-7: x / (1 + 2 x^2) times a rational function of (x^2 - 5) / (x^2 + 5), fitted by
+/// error 8e-7: x / (1 + 2 x^2) times a rational function of (x^2 - 5) / (x^2 + 5), fitted by
 /// iteratively reweighted least squares over [0, infinity).
 TETRALUX_INLINE Float8 Dawson(Float8 x)
 {

@@ -42,14 +42,14 @@ void WalkMesh::FillCoordinates()
   auto& table = this->GetPointTable<Real>();
   const std::int64_t n = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
   table.resize(n);
-  const double scale = 1 / this->Radius;
 #pragma omp parallel for schedule(static)
   for (std::int64_t p = 0; p < n; ++p)
   {
+    // Divided: where the radius is not a normal number, its inverse is infinite.
     const double* x = &this->Mesh.Points[3 * p];
-    table[p] = { static_cast<Real>((x[0] - this->Center[0]) * scale),
-      static_cast<Real>((x[1] - this->Center[1]) * scale),
-      static_cast<Real>((x[2] - this->Center[2]) * scale), 0 };
+    table[p] = { static_cast<Real>((x[0] - this->Center[0]) / this->Radius),
+      static_cast<Real>((x[1] - this->Center[1]) / this->Radius),
+      static_cast<Real>((x[2] - this->Center[2]) / this->Radius), 0 };
   }
 }
 
@@ -76,8 +76,9 @@ WalkMesh::WalkMesh(TetrahedralMesh mesh)
     double radius = 0;
     for (int a = 0; a < 3; ++a)
     {
-      this->Center[a] = lo[a] + 0.5 * (hi[a] - lo[a]);
-      radius = std::hypot(radius, 0.5 * (hi[a] - lo[a]));
+      // Halved before they are added, so that no sum overflows.
+      this->Center[a] = 0.5 * lo[a] + 0.5 * hi[a];
+      radius = std::hypot(radius, 0.5 * hi[a] - 0.5 * lo[a]);
     }
     this->Radius = radius > 0 ? radius : 1;
   }
