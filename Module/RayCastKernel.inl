@@ -649,294 +649,387 @@ TETRALUX_INLINE void IntegratePieces(
   }
 }
 
-/// Walks eight rays through all their paths, between Begin and End.
+/// Eight rays of neighbouring pixels on their way through the mesh.
+///
+/// The rays that are in the mesh take one cell each in every step.
 template <class Real, bool CellData>
-inline void WalkRays(const KernelInput& in, const Rays<Real>& rays, unsigned activeBits,
-  Double8 beginDouble, Double8 endDouble, const CrossingBuffer& buffer,
-  const PacketCrossings& crossings, Radiance<Real>& radiance, KernelCounts& counts)
+class Packet
 {
+public:
   using V = typename LanesOf<Real>::Type;
-  V begin, end;
-  if constexpr (sizeof(Real) == sizeof(float))
+
+  Packet(const KernelInput& in, CrossingBuffer& buffer, KernelCounts& counts)
+    : In(in)
+    , Buffer(buffer)
+    , Counts(counts)
   {
-    begin = ToFloat(beginDouble);
-    end = ToFloat(endDouble);
   }
-  else
+
+  /// Casts the rays of the pixels from (x, y), those of them below (x1, y1).
+  void Cast(int x, int y, int x1, int y1)
   {
-    begin = beginDouble;
-    end = endDouble;
+    this->PixelX = x;
+    this->PixelY = y;
+    this->Inside = 0;
+    for (int i = 0; i < Width; ++i)
+    {
+      this->Inside |= static_cast<unsigned>(x + i % 4 < x1 && y + i / 4 < y1) << i;
+    }
+    Double8 origin[3], direction[3];
+    this->Ray = MakeRays<Real>(this->In, x, y, origin, direction);
+    this->Limits = LimitRays(this->In, x, y, this->Ray.Start, origin, direction);
+    this->Part = 0;
+    this->Result = Radiance<Real>();
+    this->BeginPart();
+    while (this->Running)
+    {
+      this->Walk();
+      this->Integrate();
+    }
+    this->WritePixels();
   }
-  double beginOf[Width], endOf[Width];
-  Store(beginOf, beginDouble);
-  Store(endOf, endDouble);
 
-  // The next crossing to start from, for each ray; -1 where there is none.
-  int cursor[Width];
-  const auto nextEntry = [&](int lane, std::int32_t& entryId)
+private:
+  /// From the face a b c of each ray's cell to the one that the fourth point makes with two of them.
+  TETRALUX_INLINE void Walk()
   {
-    Crossing* list = buffer.Crossings + static_cast<std::int64_t>(lane) * buffer.Capacity;
-    int& k = cursor[lane];
-    const int n = crossings.Count[lane];
-    while (k < n && list[k].Entry < 0)
-    {
-      ++k;
-    }
-    if (k == n || list[k].Distance > endOf[lane])
-    {
-      return false;
-    }
-    entryId = list[k].Entry;
-    list[k].Entry = -1;
-    return true;
-  };
-
-  Corner<Real> a, b, c;
-  V wa = Real(1), wb = Real(1), wc = Real(1);
-  V z0 = Real(0), s0 = Real(0);
-  std::int32_t startCell[Width], startPoint[Width], startCorner[3][Width];
-  for (int lane = 0; lane < Width; ++lane)
-  {
-    cursor[lane] = 0;
-    startCell[lane] = startPoint[lane] = 0;
-    startCorner[0][lane] = startCorner[1][lane] = startCorner[2][lane] = 0;
-  }
-  a = b = c = LoadCorner<Real>(rays, in.Points, Int8(0));
-  Int8 cell = 0;
-  Int8 point = 0;
-  unsigned running = 0;
-  unsigned starting = activeBits;
-
-  // A path visits no cell twice; a ray has at most as many paths as crossings. So the walk ends by
-  // itself, and this bound is a last resort against tables that were damaged.
-  std::int64_t stepsLeft = in.NumberOfCells * (1 + static_cast<std::int64_t>(buffer.Capacity));
-
-  while ((running | starting) != 0 && stepsLeft-- > 0)
-  {
-    if (starting)
-    {
-      for (int lane = 0; lane < Width; ++lane)
-      {
-        if (!((starting >> lane) & 1u))
-        {
-          continue;
-        }
-        std::int32_t entryId;
-        if (!nextEntry(lane, entryId))
-        {
-          starting &= ~(1u << lane);
-          continue;
-        }
-        const WalkEntry& entry = in.Entries[entryId];
-        for (int k = 0; k < 3; ++k)
-        {
-          startCorner[k][lane] = entry.Points[k];
-        }
-        startCell[lane] = entry.Cell;
-        startPoint[lane] = entry.Opposite;
-        ++counts.Paths;
-      }
-      if (starting)
-      {
-        const Mask8 start = MaskFromBits(starting);
-        const Corner<Real> p = LoadCorner<Real>(rays, in.Points, LoadInt8(startCorner[0]));
-        const Corner<Real> q = LoadCorner<Real>(rays, in.Points, LoadInt8(startCorner[1]));
-        const Corner<Real> r = LoadCorner<Real>(rays, in.Points, LoadInt8(startCorner[2]));
-        const TriangleHit<Real> t = TestTriangle(p, q, r);
-        // Counter-clockwise from here on: a step replaces one corner and keeps the others' places.
-        a = Select(start, p, a);
-        b = Select(start, Select(t.Clockwise, r, q), b);
-        c = Select(start, Select(t.Clockwise, q, r), c);
-        wa = Select(start, Abs(t.BC), wa);
-        wb = Select(start, Abs(Select(t.Clockwise, t.AB, t.CA)), wb);
-        wc = Select(start, Abs(Select(t.Clockwise, t.CA, t.AB)), wc);
-        const V sum = wa + wb + wc;
-        z0 = Select(start, Interpolate(wa, wb, wc, a.Z, b.Z, c.Z, sum), z0);
-        s0 = Select(start, Interpolate(wa, wb, wc, a.S, b.S, c.S, sum), s0);
-        cell = Select(start, LoadInt8(startCell), cell);
-        point = Select(start, LoadInt8(startPoint), point);
-        running |= starting;
-        starting = 0;
-      }
-      if (running == 0)
-      {
-        break;
-      }
-    }
-
-    // One cell for each ray: from the face a b c to the one that p makes with two of them.
-    const Corner<Real> p = LoadCorner<Real>(rays, in.Points, point);
-    const V pa = Det(p, a);
-    const V pb = Det(p, b);
-    const V pc = Det(p, c);
+    const Corner<Real> p = LoadCorner<Real>(this->Ray, this->In.Points, this->Point);
+    const V pa = Det(p, this->A);
+    const V pb = Det(p, this->B);
+    const V pc = Det(p, this->C);
     const V zero = Real(0);
     Mask8 aSide = zero < pa;
     Mask8 bSide = zero < pb;
     Mask8 cSide = zero < pc;
     if (Any((pa == zero) | (pb == zero) | (pc == zero)))
     {
-      aSide = IsPositive(pa, p, a);
-      bSide = IsPositive(pb, p, b);
-      cSide = IsPositive(pc, p, c);
+      aSide = IsPositive(pa, p, this->A);
+      bSide = IsPositive(pb, p, this->B);
+      cSide = IsPositive(pc, p, this->C);
     }
     const Mask8 dropA = AndNot(bSide, cSide);
     const Mask8 dropB = AndNot(cSide, aSide);
     const Mask8 keepC = dropA | dropB;
 
-    // det(p, x) is the weight of the corner across; the replaced corner keeps its weight for p.
-    const Int8 dropped = Select(dropA, a.Id, Select(dropB, b.Id, c.Id));
-    const V newA = Select(dropA, wa, Abs(Select(dropB, pc, pb)));
-    const V newB = Select(dropB, wb, Abs(Select(dropA, pc, pa)));
-    wc = Select(keepC, Abs(Select(dropA, pb, pa)), wc);
-    wa = newA;
-    wb = newB;
-    a = Select(dropA, p, a);
-    b = Select(dropB, p, b);
-    c = Select(keepC, c, p);
-
     // The exit face is opposite to the dropped point, whose place among the cell's ascending ids
     // is the number of smaller ones.
-    const Int8 face = Ones(dropped > a.Id) + Ones(dropped > b.Id) + Ones(dropped > c.Id);
-    const Int8 cellBefore = cell;
-    GatherPairs(
-      reinterpret_cast<const std::int32_t*>(in.Faces), ShiftLeft(cell, 2) + face, cell, point);
+    const Int8 dropped = Select(dropA, this->A.Id, Select(dropB, this->B.Id, this->C.Id));
+    this->A.Id = Select(dropA, p.Id, this->A.Id);
+    this->B.Id = Select(dropB, p.Id, this->B.Id);
+    this->C.Id = Select(keepC, this->C.Id, p.Id);
+    const Int8 face =
+      Ones(dropped > this->A.Id) + Ones(dropped > this->B.Id) + Ones(dropped > this->C.Id);
+    this->CellBefore = this->Cell;
+    GatherPairs(reinterpret_cast<const std::int32_t*>(this->In.Faces),
+      ShiftLeft(this->Cell, 2) + face, this->Cell, this->Point);
 
-    const V sum = wa + wb + wc;
-    const V z1 = Interpolate(wa, wb, wc, a.Z, b.Z, c.Z, sum);
-    const V s1 = CellData ? zero : Interpolate(wa, wb, wc, a.S, b.S, c.S, sum);
+    // det(p, x) is the weight of the corner across; the replaced corner keeps its weight for p.
+    const V wa = Select(dropA, this->WA, Abs(Select(dropB, pc, pb)));
+    const V wb = Select(dropB, this->WB, Abs(Select(dropA, pc, pa)));
+    this->WC = Select(keepC, Abs(Select(dropA, pb, pa)), this->WC);
+    this->WA = wa;
+    this->WB = wb;
+    Replace(this->A, dropA, p);
+    Replace(this->B, dropB, p);
+    Replace(this->C, AndNot(MaskFromBits(0xff), keepC), p);
+  }
 
-    Mask8 valid = MaskFromBits(running) & (z0 < z1);
+  /// The integral over the cells of the last Walk, and what follows for rays at their end.
+  TETRALUX_INLINE void Integrate()
+  {
+    const V z0 = this->Z;
+    const V s0 = this->S;
+    this->Interpolate();
+    const V z1 = this->Z;
+    const V s1 = this->S;
+    Mask8 valid = MaskFromBits(this->Running) & (z0 < z1);
     V zFrom = z0;
     V zTo = z1;
     V sFrom = s0;
     V sTo = s1;
-    if (Any((z0 < begin) | (end < z1)))
+    if (Any((z0 < this->Near) | (this->Far < z1)))
     {
-      zFrom = Max(z0, begin);
-      zTo = Min(z1, end);
+      zFrom = Max(z0, this->Near);
+      zTo = Min(z1, this->Far);
       valid = valid & (zFrom < zTo);
       if constexpr (!CellData)
       {
         const V slope = (s1 - s0) / (z1 - z0);
-        sFrom = Select(z0 < begin, Fma(zFrom - z0, slope, s0), s0);
-        sTo = Select(end < z1, Fma(zTo - z0, slope, s0), s1);
+        sFrom = Select(z0 < this->Near, Fma(zFrom - z0, slope, s0), s0);
+        sTo = Select(this->Far < z1, Fma(zTo - z0, slope, s0), s1);
       }
     }
     if constexpr (CellData)
     {
-      IntegrateCell<Real>(in, radiance, valid, zFrom, zTo, cellBefore);
+      IntegrateCell<Real>(this->In, this->Result, valid, zFrom, zTo, this->CellBefore);
     }
     else
     {
-      IntegratePieces<Real>(in, radiance, valid, zFrom, sFrom, zTo, sTo);
+      IntegratePieces<Real>(this->In, this->Result, valid, zFrom, sFrom, zTo, sTo);
     }
-    z0 = z1;
-    s0 = s1;
-    ++counts.Steps;
-    counts.Segments += __builtin_popcount(running);
+    ++this->Counts.Steps;
+    this->Counts.Segments += __builtin_popcount(this->Running);
 
     // Rays that are opaque or past their end are done; rays that left the mesh may enter again.
-    const Mask8 done = (radiance.Transmittance <= Float8(in.MinimumTransmittance)) | (end <= z1);
-    const unsigned doneBits = Bits(done) & running;
-    const Mask8 outside = Int8(0) > cell;
+    const Mask8 done = this->IsOpaque() | (this->Far <= z1);
+    const Mask8 outside = Int8(0) > this->Cell;
+    const unsigned doneBits = Bits(done) & this->Running;
     const unsigned outsideBits = Bits(outside);
     if ((doneBits | outsideBits) != 0)
     {
-      starting = running & outsideBits & ~doneBits;
-      running &= ~(doneBits | outsideBits);
-      std::int32_t exits[Width];
-      Store(exits, cell);
-      for (int lane = 0; lane < Width; ++lane)
-      {
-        if (!((starting >> lane) & 1u))
-        {
-          continue;
-        }
-        Crossing* list = buffer.Crossings + static_cast<std::int64_t>(lane) * buffer.Capacity;
-        for (int k = cursor[lane]; k < crossings.Count[lane]; ++k)
-        {
-          if (list[k].Entry == ~exits[lane])
-          {
-            list[k].Entry = -1;
-            break;
-          }
-        }
-      }
-      // Lanes at rest go on from cell to cell without effect; what they load must exist.
-      cell = Select(outside, Int8(0), cell);
-      point = Select(outside, Int8(0), point);
+      this->Leave(outside, outsideBits, doneBits);
     }
   }
-}
+
+  static TETRALUX_INLINE void Replace(Corner<Real>& corner, Mask8 m, const Corner<Real>& p)
+  {
+    corner.X = Select(m, p.X, corner.X);
+    corner.Y = Select(m, p.Y, corner.Y);
+    corner.Z = Select(m, p.Z, corner.Z);
+    corner.S = Select(m, p.S, corner.S);
+  }
+
+  TETRALUX_INLINE Mask8 IsOpaque() const
+  {
+    return this->Result.Transmittance <= Float8(this->In.MinimumTransmittance);
+  }
+
+  /// Distance and scalar where each ray goes through its triangle.
+  TETRALUX_INLINE void Interpolate()
+  {
+    const V sum = this->WA + this->WB + this->WC;
+    const auto at = [&](V a, V b, V c)
+    { return Fma(this->WA, a, Fma(this->WB, b, this->WC * c)) / sum; };
+    this->Z = at(this->A.Z, this->B.Z, this->C.Z);
+    if constexpr (!CellData)
+    {
+      this->S = at(this->A.S, this->B.S, this->C.S);
+    }
+  }
+
+  Crossing* GetCrossings(int lane) const
+  {
+    return this->Buffer.Crossings + static_cast<std::int64_t>(lane) * this->Buffer.Capacity;
+  }
+
+  /// Starts the next part of the rays that has anything in it, if there is one.
+  void BeginPart()
+  {
+    for (; this->Part < this->Limits.Count; ++this->Part)
+    {
+      const Double8 begin = this->Limits.Begin[this->Part];
+      const Double8 end = this->Limits.End[this->Part];
+      const unsigned active = this->Inside & Bits(begin < end) & ~Bits(this->IsOpaque());
+      // Walking strikes crossings off, so each part of the rays finds them anew.
+      while (
+        !FindCrossings(this->In, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings))
+      {
+      }
+      unsigned hit = 0;
+      for (int i = 0; i < Width; ++i)
+      {
+        this->Cursor[i] = 0;
+        hit |= static_cast<unsigned>(this->Crossings.Count[i] > 0) << i;
+      }
+      Store(this->FarOf, end);
+      if constexpr (sizeof(Real) == sizeof(float))
+      {
+        this->Near = ToFloat(begin);
+        this->Far = ToFloat(end);
+      }
+      else
+      {
+        this->Near = begin;
+        this->Far = end;
+      }
+      // Lanes without a ray rest in any cell; lanes with one are put where they start.
+      this->Cell = 0;
+      this->Point = 0;
+      this->Running = 0;
+      if (active & hit)
+      {
+        this->A = this->B = this->C = LoadCorner<Real>(this->Ray, this->In.Points, Int8(0));
+        this->WA = this->WB = this->WC = Real(1);
+        this->Z = this->S = Real(0);
+        this->Enter(active & hit);
+      }
+      if (this->Running)
+      {
+        return;
+      }
+    }
+  }
+
+  /// The nearest crossing of a ray that was not walked from or to yet; -1 where there is none.
+  std::int32_t TakeEntry(int lane)
+  {
+    Crossing* list = this->GetCrossings(lane);
+    int& k = this->Cursor[lane];
+    const int n = this->Crossings.Count[lane];
+    while (k < n && list[k].Entry < 0)
+    {
+      ++k;
+    }
+    if (k == n || list[k].Distance > this->FarOf[lane])
+    {
+      return -1;
+    }
+    const std::int32_t entry = list[k].Entry;
+    list[k].Entry = -1;
+    return entry;
+  }
+
+  /// Puts the rays of some lanes at their next entry into the mesh, if they have one.
+  void Enter(unsigned lanes)
+  {
+    std::int32_t cells[Width] = {}, opposites[Width] = {}, corners[3][Width] = {};
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      if (!((lanes >> lane) & 1u))
+      {
+        continue;
+      }
+      const std::int32_t entryId = this->TakeEntry(lane);
+      if (entryId < 0)
+      {
+        lanes &= ~(1u << lane);
+        continue;
+      }
+      const WalkEntry& entry = this->In.Entries[entryId];
+      for (int k = 0; k < 3; ++k)
+      {
+        corners[k][lane] = entry.Points[k];
+      }
+      cells[lane] = entry.Cell;
+      opposites[lane] = entry.Opposite;
+      ++this->Counts.Paths;
+    }
+    if (lanes == 0)
+    {
+      return;
+    }
+    const Mask8 start = MaskFromBits(lanes);
+    const Corner<Real> p = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[0]));
+    const Corner<Real> q = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[1]));
+    const Corner<Real> r = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[2]));
+    const TriangleHit<Real> t = TestTriangle(p, q, r);
+    // Counter-clockwise from here on: a step replaces one corner and keeps the others' places.
+    this->A = Select(start, p, this->A);
+    this->B = Select(start, Select(t.Clockwise, r, q), this->B);
+    this->C = Select(start, Select(t.Clockwise, q, r), this->C);
+    this->WA = Select(start, Abs(t.BC), this->WA);
+    this->WB = Select(start, Abs(Select(t.Clockwise, t.AB, t.CA)), this->WB);
+    this->WC = Select(start, Abs(Select(t.Clockwise, t.CA, t.AB)), this->WC);
+    this->Cell = Select(start, LoadInt8(cells), this->Cell);
+    this->Point = Select(start, LoadInt8(opposites), this->Point);
+    this->Interpolate();
+    this->Running |= lanes;
+  }
+
+  /// Ends or re-enters the rays that left the mesh, ends those that are done.
+  void Leave(Mask8 outside, unsigned outsideBits, unsigned doneBits)
+  {
+    const unsigned leaving = this->Running & outsideBits & ~doneBits;
+    this->Running &= ~(doneBits | outsideBits);
+    std::int32_t exits[Width];
+    Store(exits, this->Cell);
+    // Lanes at rest go on from cell to cell without effect; what they load must exist.
+    this->Cell = Select(outside, Int8(0), this->Cell);
+    this->Point = Select(outside, Int8(0), this->Point);
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      if (!((leaving >> lane) & 1u))
+      {
+        continue;
+      }
+      Crossing* list = this->GetCrossings(lane);
+      for (int k = this->Cursor[lane]; k < this->Crossings.Count[lane]; ++k)
+      {
+        if (list[k].Entry == ~exits[lane])
+        {
+          list[k].Entry = -1;
+          break;
+        }
+      }
+    }
+    if (leaving)
+    {
+      this->Enter(leaving);
+    }
+    if (this->Running == 0)
+    {
+      ++this->Part;
+      this->BeginPart();
+    }
+  }
+
+  void WritePixels()
+  {
+    float red[Width], green[Width], blue[Width], transmittance[Width];
+    Real first[Width];
+    double start[Width];
+    Store(red, this->Result.Red);
+    Store(green, this->Result.Green);
+    Store(blue, this->Result.Blue);
+    Store(transmittance, this->Result.Transmittance);
+    Store(first, this->Result.First);
+    Store(start, this->Ray.Start);
+    for (int i = 0; i < Width; ++i)
+    {
+      if (!((this->Inside >> i) & 1u))
+      {
+        continue;
+      }
+      const std::int64_t pixel =
+        static_cast<std::int64_t>(this->PixelY + i / 4) * this->In.Grid->Width + this->PixelX +
+        i % 4;
+      float* color = this->In.Colors + 4 * pixel;
+      color[0] = red[i];
+      color[1] = green[i];
+      color[2] = blue[i];
+      color[3] = 1.f - transmittance[i];
+      const bool contributed = first[i] < std::numeric_limits<Real>::infinity();
+      this->In.Depths[pixel] =
+        contributed ? static_cast<float>(start[i] + static_cast<double>(first[i])) : -1.f;
+    }
+  }
+
+  const KernelInput& In;
+  CrossingBuffer& Buffer;
+  KernelCounts& Counts;
+
+  // The rays and what is left to do for them.
+  int PixelX, PixelY;
+  unsigned Inside;      ///< lanes with a pixel
+  unsigned Running = 0; ///< lanes whose ray is in the mesh
+  Rays<Real> Ray;
+  Intervals Limits;
+  int Part; ///< of the limits
+  double FarOf[Width];
+  PacketCrossings Crossings;
+  int Cursor[Width]; ///< first crossing of each ray that may still be an entry
+
+  // Where the rays are: in a cell, on the triangle A B C through which they entered it.
+  V Near, Far; ///< ends of the part
+  Corner<Real> A, B, C;
+  V WA, WB, WC; ///< weights of the corners at the ray, twice the areas across; not normalised
+  V Z, S;       ///< distance and scalar there
+  Int8 Cell, CellBefore;
+  Int8 Point; ///< the cell's fourth point
+
+  Radiance<Real> Result;
+};
 
 template <class Real, bool CellData>
 void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuffer& buffer,
   KernelCounts& counts)
 {
+  Packet<Real, CellData> packet(in, buffer, counts);
   for (int y = y0; y < y1; y += 2)
   {
     for (int x = x0; x < x1; x += 4)
     {
-      unsigned activeBits = 0;
-      for (int i = 0; i < Width; ++i)
-      {
-        activeBits |= static_cast<unsigned>(x + i % 4 < x1 && y + i / 4 < y1) << i;
-      }
-      const unsigned inside = activeBits;
-      Double8 origin[3], direction[3];
-      const Rays<Real> rays = MakeRays<Real>(in, x, y, origin, direction);
-      const Intervals limits = LimitRays(in, x, y, rays.Start, origin, direction);
-
-      Radiance<Real> radiance;
-      for (int part = 0; part < limits.Count; ++part)
-      {
-        const Mask8 some = limits.Begin[part] < limits.End[part];
-        activeBits = inside & Bits(some);
-        // Walking strikes crossings off, so each part of the rays finds them anew.
-        PacketCrossings crossings;
-        while (!FindCrossings(in, rays, MaskFromBits(activeBits), buffer, crossings))
-        {
-        }
-        unsigned hitBits = 0;
-        for (int i = 0; i < Width; ++i)
-        {
-          hitBits |= static_cast<unsigned>(crossings.Count[i] > 0) << i;
-        }
-        const Mask8 clear = Float8(in.MinimumTransmittance) < radiance.Transmittance;
-        activeBits &= hitBits & Bits(clear);
-        if (activeBits)
-        {
-          WalkRays<Real, CellData>(in, rays, activeBits, limits.Begin[part], limits.End[part],
-            buffer, crossings, radiance, counts);
-        }
-      }
-
-      float red[Width], green[Width], blue[Width], transmittance[Width];
-      Real first[Width];
-      double start[Width];
-      Store(red, radiance.Red);
-      Store(green, radiance.Green);
-      Store(blue, radiance.Blue);
-      Store(transmittance, radiance.Transmittance);
-      Store(first, radiance.First);
-      Store(start, rays.Start);
-      for (int i = 0; i < Width; ++i)
-      {
-        if (!((inside >> i) & 1u))
-        {
-          continue;
-        }
-        const std::int64_t pixel =
-          static_cast<std::int64_t>(y + i / 4) * in.Grid->Width + x + i % 4;
-        float* color = in.Colors + 4 * pixel;
-        color[0] = red[i];
-        color[1] = green[i];
-        color[2] = blue[i];
-        color[3] = 1.f - transmittance[i];
-        const bool contributed = first[i] < std::numeric_limits<Real>::infinity();
-        in.Depths[pixel] =
-          contributed ? static_cast<float>(start[i] + static_cast<double>(first[i])) : -1.f;
-      }
+      packet.Cast(x, y, x1, y1);
     }
   }
 }

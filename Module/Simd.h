@@ -274,17 +274,19 @@ TETRALUX_INLINE Double8 DifferenceOfProducts(Double8 a, Double8 b, Double8 c, Do
   return difference + error;
 }
 
+// Gathers: indices are below 2^29, so that four times an index fits 32 bits, where extending it to
+// an address and scaling it by 8 are free.
+
 /// Four consecutive floats from base + 4 * index of each lane, transposed.
 TETRALUX_INLINE void GatherRows(
   const float* base, Int8 index, Float8& x, Float8& y, Float8& z, Float8& s)
 {
-  alignas(32) std::int32_t i[Width];
-  Store(i, index);
-  const auto row = [&](int a, int b)
-  {
-    return _mm256_insertf128_ps(
-      _mm256_castps128_ps256(_mm_load_ps(base + 4 * std::int64_t{ i[a] })),
-      _mm_load_ps(base + 4 * std::int64_t{ i[b] }), 1);
+  alignas(32) std::uint32_t i[Width];
+  Store(reinterpret_cast<std::int32_t*>(i), ShiftLeft(index, 1));
+  const auto at = [&](int lane)
+  { return reinterpret_cast<const float*>(reinterpret_cast<const double*>(base) + i[lane]); };
+  const auto row = [&](int a, int b) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(at(a))), _mm_load_ps(at(b)), 1);
   };
   const __m256 r0 = row(0, 4), r1 = row(1, 5), r2 = row(2, 6), r3 = row(3, 7);
   const __m256 t0 = _mm256_unpacklo_ps(r0, r1), t1 = _mm256_unpackhi_ps(r0, r1);
@@ -309,35 +311,28 @@ TETRALUX_INLINE void TransposeRows(
 TETRALUX_INLINE void GatherRows(
   const double* base, Int8 index, Double8& x, Double8& y, Double8& z, Double8& s)
 {
-  alignas(32) std::int32_t i[Width];
-  Store(i, index);
+  alignas(32) std::uint32_t i[Width];
+  Store(reinterpret_cast<std::int32_t*>(i), ShiftLeft(index, 2));
   const double* row[Width];
   for (int lane = 0; lane < Width; ++lane)
   {
-    row[lane] = base + 4 * std::int64_t{ i[lane] };
+    row[lane] = base + i[lane];
   }
   TransposeRows(row, x.lo, y.lo, z.lo, s.lo);
   TransposeRows(row + 4, x.hi, y.hi, z.hi, s.hi);
 }
-/// Two consecutive integers from base + 2 * index of each lane.
+/// Two consecutive integers from base + 2 * index of each lane; here index is below 2^31.
 TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& first, Int8& second)
 {
-  alignas(32) std::int32_t i[Width];
-  Store(i, index);
-  const auto pair = [&](int a, int b)
-  {
-    return _mm_castpd_ps(
-      _mm_loadh_pd(_mm_load_sd(reinterpret_cast<const double*>(base + 2 * std::int64_t{ i[a] })),
-        reinterpret_cast<const double*>(base + 2 * std::int64_t{ i[b] })));
-  };
-  const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(pair(0, 1)), pair(4, 5), 1);
-  const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(pair(2, 3)), pair(6, 7), 1);
+  alignas(32) std::uint32_t i[Width];
+  Store(reinterpret_cast<std::int32_t*>(i), index);
+  const auto* pairs = reinterpret_cast<const double*>(base);
+  const auto two = [&](int a, int b)
+  { return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(pairs + i[a]), pairs + i[b])); };
+  const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
+  const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
   first.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0)));
   second.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(3, 1, 3, 1)));
-}
-TETRALUX_INLINE Float8 Gather(const float* base, Int8 index)
-{
-  return Float8(_mm256_i32gather_ps(base, index.v, 4));
 }
 
 #else // plain loops
@@ -584,11 +579,6 @@ TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& fir
     second.v[i] = pair[1];
   }
 }
-TETRALUX_INLINE Float8 Gather(const float* base, Int8 index)
-{
-  return Float8::Each([&](int i) { return base[index.v[i]]; });
-}
-
 #endif
 
 /// The lanes that hold a Real.
