@@ -2,8 +2,8 @@
 #ifndef tetralux_CellVolumes_h
 #define tetralux_CellVolumes_h
 
-#include "TetraluxCoreModule.h"
 #include "TetrahedralMesh.h"
+#include "TetraluxCoreModule.h"
 
 #include <cstdint>
 
@@ -13,10 +13,11 @@ namespace tetralux
 /// Volumes and edges of a mesh, in the units of its coordinates.
 struct CellVolumes
 {
-  double Total = 0;               ///< sum of the unsigned volumes
-  std::int64_t NumberOfZero = 0;  ///< not distinguishable from flat: |volume| below its rounding error
+  double Total = 0; ///< sum of the unsigned volumes
+  std::int64_t NumberOfZero =
+    0; ///< not distinguishable from flat: |volume| below its rounding error
   std::int64_t NumberOfInverted = 0; ///< negative volume in VTK's order of a tetrahedron's points
-  double ShortestEdge = 0;        ///< shortest edge that is not of zero length; 0 in an empty mesh
+  double ShortestEdge = 0; ///< shortest edge that is not of zero length; 0 in an empty mesh
   double LongestEdge = 0;
 };
 

@@ -2,8 +2,8 @@
 #ifndef tetralux_FaceNeighbors_h
 #define tetralux_FaceNeighbors_h
 
-#include "TetraluxCoreModule.h"
 #include "Span.h"
+#include "TetraluxCoreModule.h"
 
 #include <cstdint>
 #include <vector>

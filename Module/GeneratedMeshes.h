@@ -2,8 +2,8 @@
 #ifndef tetralux_GeneratedMeshes_h
 #define tetralux_GeneratedMeshes_h
 
-#include "TetraluxCoreModule.h"
 #include "TetrahedralMesh.h"
+#include "TetraluxCoreModule.h"
 
 #include <map>
 #include <string>

@@ -2,8 +2,8 @@
 #ifndef tetralux_MeshCleaning_h
 #define tetralux_MeshCleaning_h
 
-#include "TetraluxCoreModule.h"
 #include "TetrahedralMesh.h"
+#include "TetraluxCoreModule.h"
 
 #include <cstdint>
 

@@ -2,8 +2,8 @@
 #ifndef tetralux_SpatialOrder_h
 #define tetralux_SpatialOrder_h
 
-#include "TetraluxCoreModule.h"
 #include "TetrahedralMesh.h"
+#include "TetraluxCoreModule.h"
 
 namespace tetralux
 {
