@@ -41,7 +41,7 @@ if ((EUID != 0)); then
   as_root=(sudo)
   echo "setup: sudo is asked for to install packages"
 fi
-echo "setup: installing ${missing[*]} (all of them together download about 0.5 GB)"
+echo "setup: installing ${missing[*]} (up to 0.5 GB to download)"
 "${as_root[@]}" apt-get -qq update
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Acquire::Retries=3 \
   install --yes --no-install-recommends "${missing[@]}" </dev/null >/dev/null
