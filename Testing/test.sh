@@ -73,7 +73,8 @@ attribute() {
 }
 
 sources() {
-  find Module Filters Rendering Application Testing Examples -name '*.h' -o -name '*.cxx'
+  find Module Filters Rendering Application Testing Examples \
+    -name '*.h' -o -name '*.cxx' -o -name '*.inl'
 }
 
 check_format() {
