@@ -5,6 +5,7 @@
 #include "CommandErrors.h"
 #include "GeneratedMeshes.h"
 #include "OptionValues.h"
+#include "ProgressLine.h"
 #include "WriteData.h"
 
 #include "vtkCellArray.h"
@@ -94,6 +95,8 @@ void GenerateFile(const GenerateOptions& options)
   }
   const std::map<std::string, double> parameters = ReadParameters(options.Parameters);
   AtomicFile output(options.Output);
+  ProgressLine progress("generating " + options.Name);
+  progress.ShowLabel();
   tetralux::GeneratedMesh generated;
   try
   {

@@ -24,12 +24,12 @@ namespace
 {
 
 /// Width of the column of labels.
-constexpr int LabelWidth = 26;
+constexpr int LabelWidth = 28;
 
 template <class ValueT>
 void PrintRow(const std::string& label, const ValueT& value)
 {
-  std::cout << std::left << std::setw(LabelWidth) << label << value << "\n";
+  std::cout << std::left << std::setw(LabelWidth) << label << " " << value << "\n";
 }
 
 /// Rows of defects and of cells left out appear where there are any.
@@ -96,7 +96,7 @@ void PrintArrays(vtkDataObject* data)
     {
       text += ", " + std::to_string(array.NonFiniteValues) + " values not finite";
     }
-    PrintRow((array.CellData ? "cell array " : "point array ") + array.Name + " ", text);
+    PrintRow(std::string(array.CellData ? "cell" : "point") + " array " + array.Name, text);
   }
 }
 

@@ -12,7 +12,7 @@
 namespace
 {
 
-/// Work that is done sooner shows no line.
+/// Work that is done sooner shows no fraction.
 constexpr std::chrono::milliseconds Patience(500);
 
 } // namespace
@@ -30,7 +30,7 @@ ProgressLine::~ProgressLine()
   {
     object->RemoveObserver(tag);
   }
-  if (this->ShownPercent >= 0)
+  if (this->Shown)
   {
     std::cerr << "\r\x1b[K" << std::flush;
   }
@@ -42,8 +42,18 @@ void ProgressLine::Show(double fraction)
   if (this->IsTerminal && percent != this->ShownPercent &&
     std::chrono::steady_clock::now() - this->Start > Patience)
   {
+    this->Shown = true;
     this->ShownPercent = percent;
     std::cerr << "\r\x1b[K" << this->Label << " " << percent << " %" << std::flush;
+  }
+}
+
+void ProgressLine::ShowLabel()
+{
+  if (this->IsTerminal)
+  {
+    this->Shown = true;
+    std::cerr << "\r\x1b[K" << this->Label << " ..." << std::flush;
   }
 }
 

@@ -19,8 +19,11 @@ public:
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// fraction: 0..1.
+  /// fraction: 0..1. Work that is done within half a second shows no line.
   void Show(double fraction);
+
+  /// For work that can't say how far it is: shows the label at once.
+  void ShowLabel();
 
   /// Shows the fraction that an object hands to its observers of an event, as ProgressEvent, while
   /// this object lives. The object must outlive this one.
@@ -29,6 +32,7 @@ public:
 private:
   std::string Label;
   bool IsTerminal;
+  bool Shown = false;
   int ShownPercent = -1;
   std::chrono::steady_clock::time_point Start;
   std::vector<std::pair<vtkObject*, unsigned long>> Observers; ///< with their tags

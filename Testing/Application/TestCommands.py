@@ -3,6 +3,7 @@
 
 import json
 import os
+import pty
 import unittest
 
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -93,7 +94,7 @@ class Commands(ToolTest):
         self.succeed("generate", "ball", "--cells", 6, "--output", "ball.vtu")
         rows = {}
         for line in self.succeed("info", "ball.vtu").splitlines():
-            rows[line[:26].strip()] = line[26:].strip()
+            rows[line[:28].strip()] = line[28:].strip()
         self.assertEqual(rows["file"], "ball.vtu")
         self.assertEqual(rows["type"], "vtkUnstructuredGrid")
         self.assertEqual(rows["cells"], rows["vtkTetra"])
@@ -151,6 +152,25 @@ class Commands(ToolTest):
         )
         turned, _ = self.read_vti("out.vti")
         self.assertLess(abs(turned[::-1, ::-1] - upright).max(), 1e-3)
+
+    def test_progress_on_a_terminal_only(self):
+        process, terminal = pty.fork()
+        if process == 0:
+            os.execv(tool.TOOL, [tool.TOOL, "generate", "ball", "--output", self.path("ball.vtu")])
+        said = b""
+        while True:
+            try:
+                part = os.read(terminal, 4096)
+            except OSError:  # the tool has closed the terminal
+                break
+            if not part:
+                break
+            said += part
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]), 0)
+        os.close(terminal)
+        self.assertIn(b"generating ball", said)
+        self.assertTrue(said.endswith(b"\r\x1b[K"), "the line is gone at the end")
+        self.succeed("generate", "ball", "--output", "ball.vtu")
 
     def test_threads_do_not_change_a_bit(self):
         self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")
