@@ -602,16 +602,20 @@ TETRALUX_INLINE void IntegratePieces(
       origin = ToDouble(reference);
     }
 
-    // The interval left from the last cell is mostly still the right one, else one of the next.
-    const Mask8 below = valid & (s0 < bottom);
-    const Mask8 above = valid & (head < s0);
+    // The interval left from the last cell is mostly still the right one, else one of the next. A
+    // constant scalar at a node belongs to the interval above it, whatever was seen before; compared
+    // as the node was rounded.
+    const Float8 f0 = ToFloat(s0);
+    const Float8 f1 = ToFloat(s1);
+    const Mask8 below = valid & (f0 < lo);
+    const Mask8 above = valid & ((hi < f0) | ((hi == f0) & (f0 <= f1)));
     if (Any(below | above))
     {
       radiance.Interval = radiance.Interval + Ones(above) - Ones(below);
       continue;
     }
 
-    const Mask8 last = (bottom <= s1) & (s1 <= head);
+    const Mask8 last = (lo <= f1) & (f1 <= hi);
     const Mask8 more = AndNot(valid, last);
     V z = z1;
     V s = s1;
@@ -798,12 +802,13 @@ private:
   TETRALUX_INLINE void Interpolate()
   {
     const V sum = this->WA + this->WB + this->WC;
-    const auto at = [&](V a, V b, V c)
-    { return Fma(this->WA, a, Fma(this->WB, b, this->WC * c)) / sum; };
-    this->Z = at(this->A.Z, this->B.Z, this->C.Z);
+    this->Z =
+      Fma(this->WA, this->A.Z, Fma(this->WB, this->B.Z, this->WC * this->C.Z)) / sum;
     if constexpr (!CellData)
     {
-      this->S = at(this->A.S, this->B.S, this->C.S);
+      // By differences: a constant scalar stays exactly what it is, also next to a step.
+      const V a = this->A.S;
+      this->S = a + Fma(this->WB, this->B.S - a, this->WC * (this->C.S - a)) / sum;
     }
   }
 

@@ -221,11 +221,11 @@ bool ClipByCell(
       return false; // only where products underflow
     }
     t[found] = 0;
-    s[found] = 0;
+    s[found] = scalars[face[0]]; // by differences, so that a constant stays exactly what it is
     for (int i = 0; i < 3; ++i)
     {
       t[found] += area[i] * seen[face[i]].T;
-      s[found] += area[i] / sum * scalars[face[i]];
+      s[found] += area[i] / sum * (scalars[face[i]] - scalars[face[0]]);
     }
     t[found] /= sum;
     ++found;
@@ -498,8 +498,9 @@ public:
       length = static_cast<double>(std::min(end, segmentEnd) - t);
       const double from = static_cast<double>(t - segment.Begin) / segment.Length;
       const double to = from + length / segment.Length;
-      s0 = segment.BeginScalar * (1 - from) + segment.EndScalar * from;
-      s1 = segment.BeginScalar * (1 - to) + segment.EndScalar * to;
+      const double change = segment.EndScalar - segment.BeginScalar;
+      s0 = segment.BeginScalar + change * from;
+      s1 = segment.BeginScalar + change * to;
     }
     this->Length += length;
     const ReferenceSegment part = IntegrateReference(this->Function, s0, s1, length);
