@@ -3,6 +3,7 @@
 
 #include "RayCastKernel.h"
 #include "SegmentIntegral.h"
+#include "VisibleCells.h"
 
 #include <algorithm>
 #include <atomic>
@@ -22,6 +23,14 @@ namespace
 constexpr int TileSize = 16;
 
 constexpr int InitialCrossings = 32;
+
+/// Leaving transparent cells out takes tables of its own; below this share of the cells it is not
+/// tried.
+constexpr double MinimumTransparentShare = 0.1;
+
+/// What finding a way in costs, in cells walked through: leaving transparent cells out saves these
+/// and makes more boundary.
+constexpr double EntryCost = 4;
 
 struct InstructionSet
 {
@@ -86,7 +95,8 @@ void RayCaster::SetMesh(std::shared_ptr<WalkMesh> mesh)
 {
   this->Mesh = std::move(mesh);
   this->Scalars.clear();
-  this->FloatScalarsValid = this->DoubleScalarsValid = this->CellValuesValid = false;
+  this->FloatScalarsValid = this->DoubleScalarsValid = this->CellValuesValid =
+    this->VisibleTablesValid = false;
 }
 
 void RayCaster::SetPointScalars(std::vector<double> scalars)
@@ -110,7 +120,8 @@ void RayCaster::SetScalars(std::vector<double> scalars, bool ofCells)
   }
   this->Scalars = std::move(scalars);
   this->ScalarsOfCells = ofCells;
-  this->FloatScalarsValid = this->DoubleScalarsValid = this->CellValuesValid = false;
+  this->FloatScalarsValid = this->DoubleScalarsValid = this->CellValuesValid =
+    this->VisibleTablesValid = false;
 
   bool allFinite = true;
   bool any = false;
@@ -160,7 +171,7 @@ void RayCaster::SetTransferFunction(const TransferFunction& function)
   }
   this->Function = function;
   this->Table = std::move(table);
-  this->CellValuesValid = false;
+  this->CellValuesValid = this->VisibleTablesValid = false;
 }
 
 double RayCaster::GetLargestMappedScalar() const
@@ -218,6 +229,36 @@ void RayCaster::UpdateCellValues()
   this->CellValuesValid = true;
 }
 
+void RayCaster::UpdateVisibleTables()
+{
+  if (this->VisibleTablesValid)
+  {
+    return;
+  }
+  this->VisibleTables = WalkTables();
+  this->NumberOfTransparentCells = 0;
+  const std::vector<std::int32_t>& cells = this->Mesh->GetMesh().Cells;
+  const std::vector<std::uint8_t> visible =
+    FindVisibleCells(this->Function, cells, this->Scalars, this->ScalarsOfCells);
+  const std::int64_t transparent = std::count(visible.begin(), visible.end(), 0);
+  if (transparent > MinimumTransparentShare * static_cast<double>(visible.size()))
+  {
+    const WalkTables& all = this->Mesh->GetTables();
+    const Span<const WalkPoint<float>> points(
+      this->Mesh->GetPoints<float>(), this->Mesh->GetMesh().GetNumberOfPoints());
+    WalkTables tables = MakeWalkTables(all.Faces, cells, points, visible);
+    const double cellsLess = static_cast<double>(transparent);
+    const double entriesMore =
+      static_cast<double>(tables.Entries.size()) - static_cast<double>(all.Entries.size());
+    if (EntryCost * entriesMore < cellsLess)
+    {
+      this->VisibleTables = std::move(tables);
+      this->NumberOfTransparentCells = transparent;
+    }
+  }
+  this->VisibleTablesValid = true;
+}
+
 RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   const RayCastOptions& options, Span<float> colors, Span<float> depths)
 {
@@ -270,14 +311,17 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
     this->UpdateCellValues();
   }
 
+  this->UpdateVisibleTables();
+
   KernelInput in{};
   in.Points = statistics.DoublePrecision ? static_cast<const void*>(this->Mesh->GetPoints<double>())
                                          : static_cast<const void*>(this->Mesh->GetPoints<float>());
-  in.Faces = this->Mesh->GetFaces();
-  in.Entries = this->Mesh->GetEntries();
-  const BoundaryBvh& bvh = this->Mesh->GetBvh();
-  in.Nodes = bvh.Nodes.empty() ? nullptr : bvh.Nodes.data();
-  in.Triangles = bvh.Triangles.data();
+  const WalkTables& tables =
+    this->NumberOfTransparentCells > 0 ? this->VisibleTables : this->Mesh->GetTables();
+  in.Faces = tables.Faces.data();
+  in.Entries = tables.Entries.data();
+  in.Nodes = tables.Bvh.Nodes.empty() ? nullptr : tables.Bvh.Nodes.data();
+  in.Triangles = tables.Bvh.Triangles.data();
   in.NumberOfCells = this->Mesh->GetNumberOfCells();
   std::copy_n(this->Mesh->GetCenter(), 3, in.Center);
   in.Radius = this->Mesh->GetRadius();
@@ -363,6 +407,7 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   statistics.Rays = static_cast<std::int64_t>(pixels);
   statistics.Segments = counts.Segments;
   statistics.Paths = counts.Paths;
+  statistics.TransparentCells = this->NumberOfTransparentCells;
   statistics.LaneUse = counts.Steps
     ? static_cast<double>(counts.Segments) / (8. * static_cast<double>(counts.Steps))
     : 0;

@@ -56,6 +56,7 @@ struct RayCastStatistics
   std::int64_t Rays = 0;
   std::int64_t Segments = 0;   ///< cells walked through, over all rays
   std::int64_t Paths = 0;      ///< entries into the mesh, over all rays
+  std::int64_t TransparentCells = 0; ///< left out of the walk; 0 where that would not pay
   double LaneUse = 0;          ///< share of vector lanes that carried a ray, 0..1
   double ErrorEstimate = 0;    ///< sum of the three below
   double TerminationError = 0; ///< at most, by ending rays early
@@ -106,6 +107,7 @@ private:
   double GetLargestMappedScalar() const;
   void UpdatePointScalars(bool doublePrecision);
   void UpdateCellValues();
+  void UpdateVisibleTables();
 
   std::shared_ptr<WalkMesh> Mesh;
   std::vector<double> Scalars;
@@ -115,10 +117,13 @@ private:
   TransferFunction Function;
   IntervalTable Table;
   std::vector<CellValue> CellValues;
+  WalkTables VisibleTables; ///< empty where rays are walked through all cells
+  std::int64_t NumberOfTransparentCells = 0;
   /// Which tables hold the scalars as mapped by Table.
   bool FloatScalarsValid = false;
   bool DoubleScalarsValid = false;
   bool CellValuesValid = false;
+  bool VisibleTablesValid = false;
 };
 
 } // namespace tetralux

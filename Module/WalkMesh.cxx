@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WalkMesh.h"
 
+#include "FaceNeighbors.h"
 #include "SpatialOrder.h"
 
 #include <algorithm>
@@ -9,15 +10,6 @@
 
 namespace tetralux
 {
-namespace
-{
-
-/// Margin of the boundary's boxes, in radii: covers the rounding of a single precision projection
-/// of a box (three products and sums of numbers up to 1, each rounded by 2^-24) eight times over.
-constexpr float BoxMargin = 1.f / (1 << 19);
-
-} // namespace
-
 template <>
 std::vector<WalkPoint<float>>& WalkMesh::GetPointTable<float>()
 {
@@ -89,7 +81,7 @@ WalkMesh::WalkMesh(TetrahedralMesh mesh)
   this->NumberOfComponents = neighbors.NumberOfComponents;
 
   const std::int64_t numberOfFaces = static_cast<std::int64_t>(neighbors.Neighbors.size());
-  this->Faces.resize(numberOfFaces);
+  std::vector<WalkFace> faces(numberOfFaces);
 #pragma omp parallel for schedule(static)
   for (std::int64_t f = 0; f < numberOfFaces; ++f)
   {
@@ -97,33 +89,9 @@ WalkMesh::WalkMesh(TetrahedralMesh mesh)
     const std::int32_t point = cell < 0
       ? 0
       : this->Mesh.Cells[4 * static_cast<std::int64_t>(cell) + neighbors.NeighborFaces[f]];
-    this->Faces[f] = { cell, point };
+    faces[f] = { cell, point };
   }
-
-  const std::size_t numberOfEntries = neighbors.BoundaryFaces.size();
-  this->Entries.resize(numberOfEntries);
-  std::vector<std::int32_t> triangles(3 * numberOfEntries);
-  for (std::size_t b = 0; b < numberOfEntries; ++b)
-  {
-    const std::int32_t cell = neighbors.BoundaryFaces[b] / 4;
-    const int face = neighbors.BoundaryFaces[b] % 4;
-    const std::int32_t* points = &this->Mesh.Cells[4 * static_cast<std::int64_t>(cell)];
-    WalkEntry& entry = this->Entries[b];
-    int corner = 0;
-    for (int i = 0; i < 4; ++i)
-    {
-      if (i != face)
-      {
-        triangles[3 * b + corner] = points[i];
-        entry.Points[corner++] = points[i];
-      }
-    }
-    entry.Cell = cell;
-    entry.Opposite = points[face];
-  }
-  const Span<const float> coordinates(
-    reinterpret_cast<const float*>(this->FloatPoints.data()), 4 * this->FloatPoints.size());
-  this->Bvh = BuildBoundaryBvh(coordinates, triangles, BoxMargin);
+  this->Tables = MakeWalkTables(std::move(faces), this->Mesh.Cells, this->FloatPoints);
 }
 
 template <class Real>
@@ -149,9 +117,7 @@ void WalkMesh::SetPointScalars(Span<const double> scalars, double offset, double
 std::size_t WalkMesh::GetTableSize() const
 {
   return this->FloatPoints.size() * sizeof(WalkPoint<float>) +
-    this->DoublePoints.size() * sizeof(WalkPoint<double>) + this->Faces.size() * sizeof(WalkFace) +
-    this->Entries.size() * sizeof(WalkEntry) + this->Bvh.Nodes.size() * sizeof(BoundaryBvh::Node) +
-    this->Bvh.Triangles.size() * sizeof(std::int32_t);
+    this->DoublePoints.size() * sizeof(WalkPoint<double>) + this->Tables.GetSize();
 }
 
 template const WalkPoint<float>* WalkMesh::GetPoints<float>() const;

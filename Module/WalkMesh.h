@@ -2,41 +2,17 @@
 #ifndef tetralux_WalkMesh_h
 #define tetralux_WalkMesh_h
 
-#include "BoundaryBvh.h"
-#include "FaceNeighbors.h"
 #include "MeshCleaning.h"
 #include "Span.h"
 #include "TetrahedralMesh.h"
 #include "TetraluxCoreModule.h"
+#include "WalkTables.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace tetralux
 {
-
-/// A point as the walk reads it: in one load. Coordinates relative to the mesh's centre, in units
-/// of its radius; the scalar as SetPointScalars was asked for.
-template <class Real>
-struct alignas(4 * sizeof(Real)) WalkPoint
-{
-  Real X, Y, Z, S;
-};
-
-/// What lies behind one face of a cell, in one load of eight bytes.
-struct WalkFace
-{
-  std::int32_t Cell;  ///< the cell behind (a_{t,i} of the paper), or ~b at boundary face b
-  std::int32_t Point; ///< that cell's point opposite to the face; 0 at the boundary
-};
-
-/// A boundary face and the cell it belongs to. Points ascending.
-struct WalkEntry
-{
-  std::int32_t Points[3];
-  std::int32_t Cell;
-  std::int32_t Opposite; ///< the cell's fourth point
-};
 
 /// The tables that a ray is walked through, built once for a mesh: 32 bytes a tetrahedron for the
 /// topology and 16 a point for single precision; double precision costs 32 more a point, and only
@@ -65,7 +41,7 @@ public:
   std::int64_t GetNumberOfComponents() const { return this->NumberOfComponents; }
   std::int32_t GetNumberOfBoundaryFaces() const
   {
-    return static_cast<std::int32_t>(this->Entries.size());
+    return static_cast<std::int32_t>(this->Tables.Entries.size());
   }
 
   /// A table's coordinates are (x - Center) / Radius: at most 1 in length. Radius is 1 for an empty
@@ -84,9 +60,11 @@ public:
 
   template <class Real>
   const WalkPoint<Real>* GetPoints() const;
-  const WalkFace* GetFaces() const { return this->Faces.data(); }
-  const WalkEntry* GetEntries() const { return this->Entries.data(); }
-  const BoundaryBvh& GetBvh() const { return this->Bvh; }
+  /// The topology of all cells.
+  const WalkTables& GetTables() const { return this->Tables; }
+  const WalkFace* GetFaces() const { return this->Tables.Faces.data(); }
+  const WalkEntry* GetEntries() const { return this->Tables.Entries.data(); }
+  const BoundaryBvh& GetBvh() const { return this->Tables.Bvh; }
 
 private:
   template <class Real>
@@ -102,9 +80,7 @@ private:
   double Radius = 1;
   std::vector<WalkPoint<float>> FloatPoints;
   std::vector<WalkPoint<double>> DoublePoints;
-  std::vector<WalkFace> Faces;
-  std::vector<WalkEntry> Entries;
-  BoundaryBvh Bvh;
+  WalkTables Tables;
 };
 
 } // namespace tetralux

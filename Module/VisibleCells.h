@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_VisibleCells_h
+#define tetralux_VisibleCells_h
+
+#include "Span.h"
+#include "TetraluxCoreModule.h"
+#include "TransferFunction.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tetralux
+{
+
+/// For each cell 1 where the transfer function gives it any attenuation, 0 where it is fully
+/// transparent or touches a scalar that is not finite.
+/// cells: four point ids each. scalars: one for each point, or for each cell. Parallel.
+TETRALUXCORE_EXPORT std::vector<std::uint8_t> FindVisibleCells(const TransferFunction& function,
+  Span<const std::int32_t> cells, Span<const double> scalars, bool scalarsOfCells);
+
+} // namespace tetralux
+
+#endif
