@@ -111,6 +111,10 @@ void RayCaster::SetCellScalars(std::vector<double> scalars)
 
 void RayCaster::SetScalars(std::vector<double> scalars, bool ofCells)
 {
+  if (!this->Mesh)
+  {
+    throw std::invalid_argument("the mesh must be set before its scalars");
+  }
   const TetrahedralMesh& mesh = this->Mesh->GetMesh();
   const std::size_t expected = ofCells ? mesh.GetNumberOfCells() : mesh.GetNumberOfPoints();
   if (scalars.size() != expected)
