@@ -132,8 +132,7 @@ CameraRays::CameraRays(vtkRenderer* renderer, double sampleDistance)
 
   // Parallel rays start on the plane z = 0 of the view.
   const double* plane = &viewFromWorld[8];
-  const double slope =
-    plane[0] * direction[0] + plane[1] * direction[1] + plane[2] * direction[2];
+  const double slope = plane[0] * direction[0] + plane[1] * direction[1] + plane[2] * direction[2];
   const auto onPlane = [&](const Vector4& point, double offset, int c)
   {
     const double height =
@@ -186,10 +185,10 @@ double CameraRays::GetDistance(int i, int j, double depth) const
   double length = 0;
   for (int c = 0; c < 3; ++c)
   {
-    const double origin = this->Grid.Origin[c] - this->Position[c] +
-      i * this->Grid.OriginStepX[c] + j * this->Grid.OriginStepY[c];
-    const double direction = this->Grid.Direction[c] + i * this->Grid.DirectionStepX[c] +
-      j * this->Grid.DirectionStepY[c];
+    const double origin = this->Grid.Origin[c] - this->Position[c] + i * this->Grid.OriginStepX[c] +
+      j * this->Grid.OriginStepY[c];
+    const double direction =
+      this->Grid.Direction[c] + i * this->Grid.DirectionStepX[c] + j * this->Grid.DirectionStepY[c];
     along += (point[c] / point[3] - origin) * direction;
     length = std::hypot(length, direction);
   }

@@ -19,10 +19,7 @@ namespace tetralux
 
 ImageCompositor::ImageCompositor() = default;
 
-ImageCompositor::~ImageCompositor()
-{
-  this->ReleaseGraphicsResources(this->Window);
-}
+ImageCompositor::~ImageCompositor() { this->ReleaseGraphicsResources(this->Window); }
 
 void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
   const float* colors, int width, int height)

@@ -34,7 +34,7 @@ private:
   struct Member
   {
     std::string Name;
-    std::string Text;        ///< already JSON, unless it is an object
+    std::string Text;               ///< already JSON, unless it is an object
     std::vector<JsonObject> Object; ///< one or none
   };
   std::vector<Member> Members;

@@ -3,6 +3,7 @@
 
 #include "vtkColorTransferFunction.h"
 #include "vtkPiecewiseFunction.h"
+#include "vtkSmartPointer.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -34,6 +35,54 @@ constexpr int MaximumHalvings = 24;
 /// curves meet that line in the middle.
 constexpr int TestsPerInterval = 7;
 
+/// Whether VTK interpolates between the logarithms of scalars.
+bool IsLogarithmic(vtkColorTransferFunction* function)
+{
+  return function->GetScale() == VTK_CTF_LOG10 && function->GetRange()[0] > 0;
+}
+
+/// Colours taken of each interval in the one colour space that VTK searches a path through the space
+/// for: at every call, for a tenth of a second.
+constexpr int SearchedColors = 1024;
+
+/// A function with linear intervals that goes through SearchedColors colours of each interval. Paths
+/// begin and end near the colours of the nodes, not at them.
+vtkSmartPointer<vtkColorTransferFunction> SearchOnce(vtkColorTransferFunction* function)
+{
+  auto result = vtkSmartPointer<vtkColorTransferFunction>::New();
+  result->DeepCopy(function);
+  result->RemoveAllPoints();
+  result->SetColorSpaceToRGB();
+  result->SetScaleToLinear();
+  result->AllowDuplicateScalarsOn();
+  const bool logarithmic = IsLogarithmic(function);
+  std::vector<double> colors(3 * (SearchedColors + 1));
+  double previous = 0;
+  for (int i = 0; i < function->GetSize(); ++i)
+  {
+    double node[6];
+    function->GetNodeValue(i, node);
+    if (i > 0 && previous < node[0])
+    {
+      function->GetTable(previous, node[0], SearchedColors + 1, colors.data());
+      result->AddRGBPoint(previous, colors[3], colors[4], colors[5]);
+      for (int k = 1; k <= SearchedColors; ++k)
+      {
+        const double t = static_cast<double>(k) / SearchedColors;
+        const double scalar = logarithmic ? previous * std::pow(node[0] / previous, t)
+                                          : previous + t * (node[0] - previous);
+        result->AddRGBPoint(scalar, colors[3 * k], colors[3 * k + 1], colors[3 * k + 2]);
+      }
+    }
+    if (i == 0 || i == function->GetSize() - 1)
+    {
+      result->AddRGBPoint(node[0], node[1], node[2], node[3]); // seen outside of the range
+    }
+    previous = node[0];
+  }
+  return result;
+}
+
 /// A property's functions, evaluated as VTK does.
 class PropertyFunctions
 {
@@ -49,6 +98,10 @@ public:
       throw std::invalid_argument("ScalarOpacityUnitDistance is " +
         std::to_string(this->UnitDistance) + ", it must be a positive number");
     }
+    if (this->Color && this->Color->GetColorSpace() == VTK_CTF_LAB_CIEDE2000)
+    {
+      this->Color = SearchOnce(this->Color);
+    }
   }
 
   Value Evaluate(double scalar) const
@@ -56,7 +109,10 @@ public:
     Value value;
     if (this->Color)
     {
-      this->Color->GetTable(scalar, scalar, 1, value.Color);
+      // There is no logarithm below 0: it is below the range, too.
+      const double below = (1 - LimitOffset) * this->Color->GetRange()[0];
+      const double x = IsLogarithmic(this->Color) ? std::max(scalar, below) : scalar;
+      this->Color->GetTable(x, x, 1, value.Color);
     }
     else
     {
@@ -82,18 +138,25 @@ public:
   {
     const double offset = LimitOffset * std::min(std::abs(neighbour - scalar), std::abs(scalar));
     const double next = std::nextafter(scalar, neighbour);
-    const Value beyond = this->Evaluate(neighbour > scalar ? std::max(scalar + offset, next)
-                                                           : std::min(scalar - offset, next));
+    const double x =
+      neighbour > scalar ? std::max(scalar + offset, next) : std::min(scalar - offset, next);
+    const Value beyond = this->Evaluate(x);
     const Value at = this->Evaluate(scalar);
     const Value far = this->Evaluate(neighbour);
-    const auto steps = [](double a, double b, double c)
-    { return std::abs(a - b) > SmallestStep * std::max({ std::abs(a), std::abs(b), std::abs(c) }); };
-    return steps(at.Color[0], beyond.Color[0], far.Color[0]) ||
-        steps(at.Color[1], beyond.Color[1], far.Color[1]) ||
-        steps(at.Color[2], beyond.Color[2], far.Color[2]) ||
-        steps(at.Attenuation, beyond.Attenuation, far.Attenuation)
-      ? beyond
-      : at;
+    // Where an interval has but few numbers, a slope goes a good way from one to the next.
+    const double share = SmallestStep + 4 * (x - scalar) / (neighbour - scalar);
+    const auto choose = [share](double a, double b, double c)
+    {
+      const double size = std::max({ std::abs(a), std::abs(b), std::abs(c) });
+      return std::abs(a - b) > share * size ? b : a;
+    };
+    Value limit;
+    for (int c = 0; c < 3; ++c)
+    {
+      limit.Color[c] = choose(at.Color[c], beyond.Color[c], far.Color[c]);
+    }
+    limit.Attenuation = choose(at.Attenuation, beyond.Attenuation, far.Attenuation);
+    return limit;
   }
 
   /// Where the functions may bend or step, ascending, each once; at least one.
@@ -103,7 +166,7 @@ public:
     AddBreaks<4>(this->Opacity, this->Opacity->GetUseLogScale(), breaks);
     if (this->Color)
     {
-      AddBreaks<6>(this->Color, this->Color->GetScale() == VTK_CTF_LOG10, breaks);
+      AddBreaks<6>(this->Color.Get(), IsLogarithmic(this->Color), breaks);
     }
     else
     {
@@ -154,7 +217,7 @@ private:
   }
 
   vtkPiecewiseFunction* Opacity;
-  vtkColorTransferFunction* Color;
+  vtkSmartPointer<vtkColorTransferFunction> Color;
   vtkPiecewiseFunction* Grey;
   double UnitDistance;
 };
@@ -210,10 +273,9 @@ bool Subdivide(const PropertyFunctions& functions, const Tolerance& tolerance, d
   bool linear = true;
   for (int i = 1; i <= TestsPerInterval && linear; ++i)
   {
-    const double t = static_cast<double>(i) / (TestsPerInterval + 1);
-    const double x = x0 + t * (x1 - x0);
+    const double x = x0 + (x1 - x0) * i / (TestsPerInterval + 1);
     linear = x <= x0 || x1 <= x ||
-      tolerance.Accepts(functions.Evaluate(x), Interpolate(value0, value1, t));
+      tolerance.Accepts(functions.Evaluate(x), Interpolate(value0, value1, (x - x0) / (x1 - x0)));
   }
   const double middle = x0 + 0.5 * (x1 - x0);
   if (linear || halvings == MaximumHalvings || middle <= x0 || x1 <= middle)

@@ -28,6 +28,9 @@ struct PropertyTransferFunction
 /// the volume of at most longestPath world units. At a step's own scalar the value from larger
 /// scalars counts, where VTK takes the one from smaller scalars.
 ///
+/// The colour space LabCIEDE2000 costs a tenth of a second an interval, and is represented by 1024
+/// colours of each, whose error is not known.
+///
 /// Throws std::invalid_argument, with one line, where the unit distance is not positive or a function
 /// has values that are not finite.
 TETRALUXRENDERING_EXPORT PropertyTransferFunction TransferFunctionFromProperty(

@@ -264,8 +264,8 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareMesh(vtkDataObject* input)
     return;
   }
   const Stopwatch intakeStopwatch;
-  tetralux::TetrahedraIntake intake = tetralux::TakeInTetrahedra(input,
-    [this](double fraction) { return this->Continue(vtkCommand::ProgressEvent, fraction); });
+  tetralux::TetrahedraIntake intake = tetralux::TakeInTetrahedra(
+    input, [this](double fraction) { return this->Continue(vtkCommand::ProgressEvent, fraction); });
   if (intake.Aborted)
   {
     throw Abort();
@@ -413,7 +413,7 @@ void vtkTetrahedraRayCastMapper::Internals::Cast(
   options.NumberOfThreads = this->Self->NumberOfThreads;
   options.Arithmetic = this->Self->Precision == SINGLE_PRECISION ? tetralux::Precision::Single
     : this->Self->Precision == DOUBLE_PRECISION                  ? tetralux::Precision::Double
-                                                : tetralux::Precision::Automatic;
+                                                                 : tetralux::Precision::Automatic;
   options.Progress = [this](double fraction)
   { return this->Continue(vtkCommand::VolumeMapperRenderProgressEvent, fraction); };
 
@@ -421,8 +421,8 @@ void vtkTetrahedraRayCastMapper::Internals::Cast(
   this->Image->SetDimensions(grid.Width, grid.Height, 1);
   this->Last.Size[0] = grid.Width;
   this->Last.Size[1] = grid.Height;
-  this->Last.Rays = this->Caster.Cast(
-    grid, limits, options, this->GetArray("RGBA", 4), this->GetArray("Depth", 1));
+  this->Last.Rays =
+    this->Caster.Cast(grid, limits, options, this->GetArray("RGBA", 4), this->GetArray("Depth", 1));
   this->Image->GetPointData()->SetActiveScalars("RGBA");
   this->Last.CastSeconds = stopwatch.GetSeconds();
   this->ErrorEstimate = this->Last.Rays.ErrorEstimate + this->FunctionError;
@@ -709,22 +709,13 @@ double* vtkTetrahedraRayCastMapper::GetBounds()
 }
 
 //------------------------------------------------------------------------------------------------
-vtkImageData* vtkTetrahedraRayCastMapper::GetOutputImage()
-{
-  return this->Private->Image;
-}
+vtkImageData* vtkTetrahedraRayCastMapper::GetOutputImage() { return this->Private->Image; }
 
 //------------------------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::GetStatistics()
-{
-  return this->Private->Statistics;
-}
+std::string vtkTetrahedraRayCastMapper::GetStatistics() { return this->Private->Statistics; }
 
 //------------------------------------------------------------------------------------------------
-double vtkTetrahedraRayCastMapper::GetErrorEstimate()
-{
-  return this->Private->ErrorEstimate;
-}
+double vtkTetrahedraRayCastMapper::GetErrorEstimate() { return this->Private->ErrorEstimate; }
 
 //------------------------------------------------------------------------------------------------
 vtkIdType vtkTetrahedraRayCastMapper::GetNumberOfSkippedCells()

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RayCastScene.h"
+
+#include "ReferenceRenderer.h"
+#include "ReferenceScenes.h"
+
+#include "vtkCellType.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+
+#include <cmath>
+#include <iostream>
+
+namespace
+{
+
+/// Per channel, absolute.
+constexpr double ColorTolerance = 1e-4;
+
+/// Of a distance, in sizes of the box: where a ray enters is found in single precision.
+constexpr double DepthTolerance = 1e-5;
+
+} // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
+  const tetralux::TetrahedralMesh& mesh, const std::vector<double>& scalars)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("Field");
+  for (std::size_t p = 0; p < mesh.GetNumberOfPoints(); ++p)
+  {
+    points->InsertNextPoint(&mesh.Points[3 * p]);
+    array->InsertNextValue(scalars[p]);
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->SetScalars(array);
+  grid->AllocateExact(mesh.GetNumberOfCells(), mesh.Cells.size());
+  for (std::size_t cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
+  {
+    vtkIdType ids[4];
+    std::copy_n(&mesh.Cells[4 * cell], 4, ids);
+    grid->InsertNextCell(VTK_TETRA, 4, ids);
+  }
+  return grid;
+}
+
+std::vector<double> MakeField(
+  const tetralux::TetrahedralMesh& mesh, const Vector& lower, double size)
+{
+  std::vector<double> field;
+  for (std::size_t p = 0; p < mesh.GetNumberOfPoints(); ++p)
+  {
+    const double x = (mesh.Points[3 * p] - lower[0]) / size;
+    const double y = (mesh.Points[3 * p + 1] - lower[1]) / size;
+    const double z = (mesh.Points[3 * p + 2] - lower[2]) / size;
+    field.push_back(std::sin(5 * x + 2 * y) * std::cos(4 * y - 3 * z));
+  }
+  return field;
+}
+
+RayCastScene::RayCastScene(int width, int height, const Vector& lower, double size)
+  : Lower(lower)
+  , Size(size)
+{
+  this->Mesh =
+    tetralux::MakeBox(5, 4, 3, lower, { lower[0] + size, lower[1] + size, lower[2] + size }, 0.15);
+  this->Scalars = MakeField(this->Mesh, lower, size);
+  this->Grid = MakeGrid(this->Mesh, this->Scalars);
+  this->Mapper->SetInputData(this->Grid);
+  // Pictures do not depend on how fast the machine is.
+  this->Mapper->AutoAdjustSampleDistancesOff();
+
+  // Scalar, red, green, blue, opacity.
+  const std::vector<std::array<double, 5>> nodes = { { -0.9, 0.1, 0.2, 0.9, 0.05 },
+    { -0.2, 0.2, 0.9, 0.5, 0.3 }, { 0.1, 1, 0.9, 0.1, 0.1 }, { 0.7, 1, 0.2, 0, 0.9 } };
+  const double unitDistance = 0.25 * size;
+  std::vector<std::array<double, 5>> linear;
+  for (const auto& node : nodes)
+  {
+    this->Color->AddRGBPoint(node[0], node[1], node[2], node[3]);
+    this->Opacity->AddPoint(node[0], node[4]);
+    linear.push_back({ node[0], node[1], node[2], node[3], node[4] / unitDistance });
+  }
+  this->Function = tetralux::MakeLinearFunction(linear);
+  this->Volume->SetMapper(this->Mapper);
+  this->Volume->GetProperty()->SetColor(this->Color);
+  this->Volume->GetProperty()->SetScalarOpacity(this->Opacity);
+  this->Volume->GetProperty()->SetScalarOpacityUnitDistance(unitDistance);
+
+  this->Renderer->AddVolume(this->Volume);
+  this->Window->SetMultiSamples(0);
+  this->Window->SetSize(width, height);
+  this->Window->AddRenderer(this->Renderer);
+  this->SetCamera({ 1.9, 1.4, 2.6 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0 });
+}
+
+Vector RayCastScene::ToWorld(const Vector& x) const
+{
+  return { this->Lower[0] + this->Size * x[0], this->Lower[1] + this->Size * x[1],
+    this->Lower[2] + this->Size * x[2] };
+}
+
+void RayCastScene::SetCamera(const Vector& position, const Vector& focalPoint, const Vector& viewUp,
+  double nearDistance, double farDistance)
+{
+  this->Position = this->ToWorld(position);
+  this->FocalPoint = this->ToWorld(focalPoint);
+  this->ViewUp = viewUp;
+  this->NearDistance = nearDistance * this->Size;
+  this->FarDistance = farDistance * this->Size;
+  vtkCamera* camera = this->Renderer->GetActiveCamera();
+  camera->SetPosition(this->Position.data());
+  camera->SetFocalPoint(this->FocalPoint.data());
+  camera->SetViewUp(viewUp.data());
+  camera->SetViewAngle(this->ViewAngle);
+  camera->SetParallelProjection(this->Parallel);
+  camera->SetParallelScale(this->ParallelScale * this->Size);
+  camera->SetClippingRange(this->NearDistance, this->FarDistance);
+}
+
+tetralux::RayGrid RayCastScene::MakeReferenceRays(int width, int height) const
+{
+  return this->Parallel ? tetralux::MakeParallelGrid(this->Position, this->FocalPoint, this->ViewUp,
+                            this->ParallelScale * this->Size, width, height)
+                        : tetralux::MakePerspectiveGrid(this->Position, this->FocalPoint,
+                            this->ViewUp, this->ViewAngle, width, height);
+}
+
+tetralux::RayLimits RayCastScene::MakeReferenceLimits() const
+{
+  tetralux::RayLimits limits;
+  tetralux::AddClippingRange(
+    limits, this->Position, this->FocalPoint, this->NearDistance, this->FarDistance);
+  return limits;
+}
+
+const float* RayCastScene::GetColors() const
+{
+  return vtkFloatArray::SafeDownCast(
+    this->Mapper->GetOutputImage()->GetPointData()->GetArray("RGBA"))
+    ->GetPointer(0);
+}
+
+const float* RayCastScene::GetDepths() const
+{
+  return vtkFloatArray::SafeDownCast(
+    this->Mapper->GetOutputImage()->GetPointData()->GetArray("Depth"))
+    ->GetPointer(0);
+}
+
+void RayCastScene::ExpectReference()
+{
+  const int* size = this->Window->GetActualSize();
+  this->ExpectReference(this->MakeReferenceRays(size[0], size[1]), this->MakeReferenceLimits());
+}
+
+void RayCastScene::ExpectReference(const tetralux::RayGrid& rays, const tetralux::RayLimits& limits)
+{
+  this->Window->Render();
+  const int* dimensions = this->Mapper->GetOutputImage()->GetDimensions();
+  ASSERT_EQ(dimensions[0], rays.Width);
+  ASSERT_EQ(dimensions[1], rays.Height);
+
+  const tetralux::ReferenceMesh mesh{ this->Mesh.Points, this->Mesh.Cells, this->Scalars,
+    this->CellScalars };
+  const tetralux::ReferenceImage reference =
+    tetralux::RenderReference(mesh, this->Function, rays, limits);
+  const std::vector<double> grazing =
+    tetralux::MeasureGrazing(mesh, this->Function, rays, limits, reference);
+  const std::size_t pixels = reference.Depth.size();
+  const tetralux::ImageComparison comparison =
+    tetralux::CompareWithReference({ this->GetColors(), 4 * pixels }, reference.Rgba, grazing);
+  std::cout << comparison;
+
+  // The scene is there, most of it is compared, and it is right.
+  EXPECT_GT(comparison.Covered.NumberOfPixels, pixels / 20);
+  EXPECT_GT(comparison.Ungrazed.NumberOfPixels, 0.7 * comparison.Covered.NumberOfPixels);
+  EXPECT_LE(comparison.Ungrazed.Maximum, ColorTolerance);
+  EXPECT_LE(this->Mapper->GetErrorEstimate(), ColorTolerance);
+
+  double largestDepthError = 0;
+  std::size_t unequal = 0;
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+  {
+    if (grazing[pixel] <= tetralux::GrazingThreshold)
+    {
+      const double depth = this->GetDepths()[pixel];
+      unequal += (depth == -1) != (reference.Depth[pixel] == -1);
+      largestDepthError =
+        std::max(largestDepthError, std::abs(depth - reference.Depth[pixel]) / this->Size);
+    }
+  }
+  EXPECT_EQ(unequal, 0u);
+  EXPECT_LE(largestDepthError, DepthTolerance);
+}

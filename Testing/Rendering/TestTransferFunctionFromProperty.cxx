@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A property's functions become nodes that agree with VTK's own evaluation at any scalar.
+#include "TransferFunctionFromProperty.h"
+
+#include "IntervalTable.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkNew.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkVolumeProperty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace
+{
+
+constexpr double MaximumError = 1e-5;
+constexpr double LongestPath = 8;
+constexpr double UnitDistance = 0.5;
+
+class TransferFunctionFromProperty : public testing::Test
+{
+protected:
+  TransferFunctionFromProperty()
+  {
+    this->Opacity->AddPoint(-3, 0.2);
+    this->Opacity->AddPoint(7, 0.8);
+    this->Color->AddRGBPoint(0.3, 0.9, 0.1, 0.2);
+    this->Color->AddRGBPoint(1.7, 0.1, 0.3, 0.8);
+    this->Color->AddRGBPoint(4, 0.2, 0.9, 0.4);
+    this->Property->SetColor(this->Color);
+    this->Property->SetScalarOpacity(this->Opacity);
+    this->Property->SetScalarOpacityUnitDistance(UnitDistance);
+  }
+
+  // Gives node i of the colours a midpoint and a sharpness.
+  void Shape(int i, double midpoint, double sharpness)
+  {
+    double node[6];
+    this->Color->GetNodeValue(i, node);
+    node[4] = midpoint;
+    node[5] = sharpness;
+    this->Color->SetNodeValue(i, node);
+  }
+
+  // Compares with VTK at random scalars around all nodes; returns the number of nodes.
+  std::size_t ExpectAgreement(bool exact, double smallestScalar = -5)
+  {
+    const tetralux::PropertyTransferFunction result =
+      tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath);
+    EXPECT_EQ(result.Error, exact ? 0 : MaximumError);
+    // Limits at steps are taken at a distance of 1e-9 of the intervals.
+    const double tolerance = exact ? 3e-9 : MaximumError / 2;
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> scalars(smallestScalar, 9);
+    double largestColorError = 0;
+    double largestOpacityError = 0;
+    for (int i = 0; i < 20000; ++i)
+    {
+      const double s = scalars(random);
+      const tetralux::TransferFunction::Value value = tetralux::Evaluate(result.Function, s);
+      double color[3];
+      if (this->Property->GetColorChannels() == 3)
+      {
+        this->Color->GetColor(s, color);
+      }
+      else
+      {
+        color[0] = color[1] = color[2] = this->Property->GetGrayTransferFunction()->GetValue(s);
+      }
+      for (int c = 0; c < 3; ++c)
+      {
+        largestColorError = std::max(largestColorError, std::abs(value.Color[c] - color[c]));
+      }
+      const double opacity = std::max(0., this->Opacity->GetValue(s));
+      largestOpacityError = std::max(largestOpacityError,
+        (std::abs(value.Attenuation * UnitDistance - opacity) - (exact ? 0 : tolerance * opacity)));
+    }
+    EXPECT_LE(largestColorError, 1.05 * tolerance); // tested at some points of each interval only
+    EXPECT_LE(largestOpacityError, exact ? tolerance : tolerance * UnitDistance / LongestPath);
+    return result.Function.Nodes.size();
+  }
+
+  vtkNew<vtkPiecewiseFunction> Opacity;
+  vtkNew<vtkColorTransferFunction> Color;
+  vtkNew<vtkVolumeProperty> Property;
+};
+
+TEST_F(TransferFunctionFromProperty, LinearFunctionsKeepTheirNodes)
+{
+  EXPECT_EQ(this->ExpectAgreement(true), 5u);
+  const tetralux::TransferFunction function =
+    tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath).Function;
+  const double scalars[] = { -3, 0.3, 1.7, 4, 7 };
+  for (int i = 0; i < 5; ++i)
+  {
+    EXPECT_EQ(function.Nodes[i].Scalar, scalars[i]);
+  }
+  EXPECT_EQ(function.Nodes[1].Left.Color[0], 0.9);
+  EXPECT_EQ(function.Nodes[1].Right.Color[0], 0.9);
+  EXPECT_EQ(function.Nodes[4].Left.Attenuation, 1.6);
+}
+
+TEST_F(TransferFunctionFromProperty, ZeroStaysZero)
+{
+  this->Opacity->RemoveAllPoints();
+  this->Opacity->AddPoint(0, 0);
+  this->Opacity->AddPoint(1, 0);
+  this->Opacity->AddPoint(2, 1);
+  const tetralux::TransferFunction function =
+    tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath).Function;
+  for (const tetralux::TransferFunction::Node& node : function.Nodes)
+  {
+    EXPECT_EQ(node.Left.Attenuation == 0, node.Scalar <= 1);
+    EXPECT_EQ(node.Right.Attenuation == 0, node.Scalar <= 1);
+  }
+}
+
+TEST_F(TransferFunctionFromProperty, ColorSpaces)
+{
+  this->Color->SetColorSpaceToHSV();
+  this->Color->HSVWrapOn();
+  EXPECT_GT(this->ExpectAgreement(false), 20u);
+  this->Color->HSVWrapOff();
+  this->ExpectAgreement(false);
+  this->Color->SetColorSpaceToLab();
+  this->ExpectAgreement(false);
+  this->Color->SetColorSpaceToDiverging();
+  this->ExpectAgreement(false);
+  this->Color->SetColorSpaceToStep();
+  EXPECT_LE(this->ExpectAgreement(true), 8u);
+}
+
+// Too slow for as many comparisons.
+TEST_F(TransferFunctionFromProperty, SearchedColorSpace)
+{
+  this->Color->SetColorSpaceToLabCIEDE2000();
+  const tetralux::TransferFunction function =
+    tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath).Function;
+  for (const double s : { -1., 0.77, 1.23456, 1.6, 2.5, 3.21, 5. })
+  {
+    double color[3];
+    this->Color->GetColor(s, color);
+    for (int c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(tetralux::Evaluate(function, s).Color[c], color[c], 1e-3);
+    }
+  }
+}
+
+TEST_F(TransferFunctionFromProperty, LogarithmicColors)
+{
+  this->Color->SetScaleToLog10();
+  this->ExpectAgreement(false, 1e-3); // VTK has no colour where there is no logarithm
+  this->Shape(1, 0.2, 1);             // a step, on the logarithmic scale
+  this->ExpectAgreement(false, 1e-3);
+  const tetralux::TransferFunction function =
+    tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath).Function;
+  EXPECT_EQ(tetralux::Evaluate(function, -4).Color[0], 0.9);
+}
+
+TEST_F(TransferFunctionFromProperty, LogarithmicOpacity)
+{
+  this->Opacity->RemoveAllPoints();
+  this->Opacity->AddPoint(0.01, 0.05);
+  this->Opacity->AddPoint(7, 0.8);
+  this->Opacity->UseLogScaleOn();
+  this->ExpectAgreement(false);
+}
+
+TEST_F(TransferFunctionFromProperty, MidpointsAndSharpness)
+{
+  this->Shape(0, 0.3, 0); // a kink
+  EXPECT_EQ(this->ExpectAgreement(true), 6u);
+  this->Shape(1, 0.6, 1); // a step
+  EXPECT_EQ(this->ExpectAgreement(true), 7u);
+  this->Shape(1, 0.6, 0.4); // a curve
+  this->ExpectAgreement(false);
+
+  this->Opacity->AddPoint(1, 0.4, 0.2, 0);
+  this->Opacity->AddPoint(3, 0, 0.7, 0.5);
+  this->Opacity->AddPoint(5, 0.5, 0.5, 1);
+  this->ExpectAgreement(false);
+}
+
+TEST_F(TransferFunctionFromProperty, StepsAtDuplicatedScalars)
+{
+  this->Color->AllowDuplicateScalarsOn();
+  this->Opacity->AllowDuplicateScalarsOn();
+  this->Color->AddRGBPoint(1.7, 1, 1, 0);
+  this->Opacity->AddPoint(2, 0.9);
+  this->Opacity->AddPoint(2, 0.1);
+  EXPECT_EQ(this->ExpectAgreement(true), 6u);
+}
+
+TEST_F(TransferFunctionFromProperty, OutsideOfTheRange)
+{
+  this->Color->ClampingOff();
+  EXPECT_EQ(this->ExpectAgreement(true), 5u);
+  this->Color->ClampingOn();
+  this->Color->UseBelowRangeColorOn();
+  this->Color->SetBelowRangeColor(1, 0.5, 0.25);
+  this->Color->UseAboveRangeColorOn();
+  this->Color->SetAboveRangeColor(0.25, 0.5, 1);
+  this->ExpectAgreement(true);
+  this->Opacity->ClampingOff();
+  this->ExpectAgreement(true);
+
+  const tetralux::TransferFunction function =
+    tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath).Function;
+  EXPECT_EQ(function.Nodes.front().Left.Attenuation, 0);
+  EXPECT_EQ(function.Nodes.back().Right.Attenuation, 0);
+}
+
+TEST_F(TransferFunctionFromProperty, Grey)
+{
+  vtkNew<vtkPiecewiseFunction> grey;
+  grey->AddPoint(-1, 0.2);
+  grey->AddPoint(2, 0.9, 0.3, 0.3);
+  grey->AddPoint(3, 0.1);
+  this->Property->SetColor(grey);
+  this->ExpectAgreement(false);
+}
+
+TEST_F(TransferFunctionFromProperty, NegativeOpacityIsNone)
+{
+  this->Opacity->AddPoint(0, -0.5);
+  this->ExpectAgreement(false);
+}
+
+TEST_F(TransferFunctionFromProperty, FunctionsWithoutNodesAreBlack)
+{
+  this->Color->RemoveAllPoints();
+  this->Opacity->RemoveAllPoints();
+  EXPECT_EQ(this->ExpectAgreement(true), 1u);
+}
+
+TEST_F(TransferFunctionFromProperty, LargeScalars)
+{
+  this->Color->RemoveAllPoints();
+  this->Opacity->RemoveAllPoints();
+  this->Color->AddRGBPoint(1e12, 1, 0, 0);
+  this->Color->AddRGBPoint(1e12 + 1, 0, 0, 1);
+  this->Opacity->AddPoint(1e12 + 0.5, 0);
+  this->Opacity->AddPoint(1e12 + 2, 1);
+  const tetralux::PropertyTransferFunction result =
+    tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath);
+  EXPECT_EQ(result.Error, 0);
+  ASSERT_EQ(result.Function.Nodes.size(), 4u);
+  EXPECT_NEAR(result.Function.Nodes[1].Left.Color[0], 0.5, 1e-12);
+}
+
+TEST_F(TransferFunctionFromProperty, RefusesWhatMakesNoSense)
+{
+  for (const double distance : { 0., -1., std::numeric_limits<double>::quiet_NaN() })
+  {
+    this->Property->SetScalarOpacityUnitDistance(distance);
+    EXPECT_THROW(tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath),
+      std::invalid_argument);
+  }
+  this->Property->SetScalarOpacityUnitDistance(1);
+  this->Opacity->AddPoint(2, std::numeric_limits<double>::infinity());
+  EXPECT_THROW(tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath),
+    std::invalid_argument);
+}
+
+} // namespace
