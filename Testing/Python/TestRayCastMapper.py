@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The ray cast mapper from Python: created by name, a cube's opacity as its optical depth says."""
+
+import json
+import math
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import (
+    vtkImageData,
+    vtkMultiBlockDataSet,
+    vtkPiecewiseFunction,
+)
+from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkRenderer, vtkVolume
+
+import tetralux
+
+
+def make_cube():
+    cube = vtkImageData()
+    cube.SetDimensions(4, 4, 4)
+    cube.SetSpacing(1 / 3, 1 / 3, 1 / 3)
+    array = vtkDoubleArray()
+    array.SetName("Constant")
+    array.SetNumberOfTuples(64)
+    array.Fill(2.5)
+    cube.GetPointData().SetScalars(array)
+    return cube
+
+
+mapper = tetralux.vtkTetrahedraRayCastMapper()
+assert mapper.IsA("vtkUnstructuredGridVolumeMapper")
+assert mapper.GetStatistics() == "{}"
+cube = make_cube()
+mapper.SetInputData(cube)
+assert mapper.GetBounds() == (0, 1, 0, 1, 0, 1)
+
+color = vtkColorTransferFunction()
+color.AddRGBPoint(0, 0, 1, 0.25)
+color.AddRGBPoint(5, 1, 1, 0.25)  # at 2.5: one half, 1, 0.25
+opacity = vtkPiecewiseFunction()
+opacity.AddPoint(0, 0)
+opacity.AddPoint(10, 1)  # at 2.5: 0.25
+volume = vtkVolume()
+volume.SetMapper(mapper)
+volume.GetProperty().SetColor(color)
+volume.GetProperty().SetScalarOpacity(opacity)
+volume.GetProperty().SetScalarOpacityUnitDistance(0.2)
+
+# Twice as high as the cube, and seen along z.
+renderer = vtkRenderer()
+renderer.AddVolume(volume)
+camera = renderer.GetActiveCamera()
+camera.ParallelProjectionOn()
+camera.SetParallelScale(1)
+camera.SetPosition(0.5, 0.5, 4)
+camera.SetFocalPoint(0.5, 0.5, 0)
+camera.SetClippingRange(0.1, 10)
+window = tetralux.vtkHeadlessRenderWindow()
+window.SetSize(120, 80)
+window.AddRenderer(renderer)
+
+
+def render():
+    window.Render()
+    image = mapper.GetOutputImage()
+    width, height, _ = image.GetDimensions()
+    points = image.GetPointData()
+    rgba = vtk_to_numpy(points.GetArray("RGBA")).reshape(height, width, 4)
+    depth = vtk_to_numpy(points.GetArray("Depth")).reshape(height, width)
+    return rgba.copy(), depth.copy(), json.loads(mapper.GetStatistics())
+
+
+def check(thickness):
+    rgba, depth, statistics = render()
+    assert rgba.shape == (80, 120, 4) and rgba.dtype == numpy.float32
+    alpha = 1 - math.exp(-0.25 / 0.2 * thickness)
+    inside = numpy.zeros((80, 120), bool)
+    inside[20:60, 40:80] = True
+    expected = alpha * numpy.array([0.5, 1, 0.25, 1])
+    assert numpy.abs(rgba[inside] - expected).max() < mapper.GetMaximumError()
+    assert (rgba[~inside] == 0).all()
+    assert numpy.abs(depth[inside] - 3).max() < 1e-5
+    assert (depth[~inside] == -1).all()
+    assert statistics["error"]["estimate"] == float(f"{mapper.GetErrorEstimate():.9g}")
+    assert mapper.GetErrorEstimate() <= mapper.GetMaximumError()
+    return statistics
+
+
+statistics = check(thickness=1)
+assert statistics["rebuilt"] == ["mesh", "scalars", "transfer function"]
+assert statistics["tables"]["tetrahedra"] == 5 * 27
+assert statistics["rays"]["width"] == 120 and statistics["rays"]["rays"] == 120 * 80
+assert "cropping" in statistics["left_out"]
+assert check(thickness=1)["rebuilt"] == []
+
+mapper.CroppingOn()
+mapper.SetCroppingRegionPlanes(-1, 2, -1, 2, 0.4, 2)
+assert "cropping" not in check(thickness=0.6)["left_out"]
+mapper.CroppingOff()
+
+# The same in a block of a composite.
+blocks = vtkMultiBlockDataSet()
+blocks.SetBlock(1, cube)
+mapper.SetInputData(blocks)
+assert mapper.GetBounds() == (0, 1, 0, 1, 0, 1)
+check(thickness=1)
+
+for name, value in (
+    ("MaximumError", 1e-3),
+    ("NumberOfThreads", 1),
+    ("Precision", mapper.DOUBLE_PRECISION),
+    ("VectorMode", mapper.MAGNITUDE),
+    ("AutoAdjustSampleDistances", 0),
+    ("IntermixIntersectingGeometry", 0),
+):
+    getattr(mapper, "Set" + name)(value)
+    assert getattr(mapper, "Get" + name)() == value
+statistics = check(thickness=1)
+assert statistics["rays"]["threads"] == 1 and statistics["rays"]["precision"] == "double"
