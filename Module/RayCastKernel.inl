@@ -746,21 +746,29 @@ private:
     this->Interpolate();
     const V z1 = this->Z;
     const V s1 = this->S;
-    Mask8 valid = MaskFromBits(this->Running) & (z0 < z1);
+    const Mask8 running = MaskFromBits(this->Running);
+    Mask8 valid = AndNot(running, z0 == z1);
     V zFrom = z0;
     V zTo = z1;
     V sFrom = s0;
     V sTo = s1;
-    if (Any((z0 < this->Near) | (this->Far < z1)))
+    const Mask8 backward = z1 < z0;
+    if (Any(running & (backward | (z0 < this->Near) | (this->Far < z1))))
     {
-      zFrom = Max(z0, this->Near);
-      zTo = Min(z1, this->Far);
+      // An inverted cell among others is walked from its far side to its near one; it is seen as
+      // any other cell.
+      const V zNear = Min(z0, z1);
+      const V zFar = Max(z0, z1);
+      zFrom = Max(zNear, this->Near);
+      zTo = Min(zFar, this->Far);
       valid = valid & (zFrom < zTo);
       if constexpr (!CellData)
       {
-        const V slope = (s1 - s0) / (z1 - z0);
-        sFrom = Select(z0 < this->Near, Fma(zFrom - z0, slope, s0), s0);
-        sTo = Select(this->Far < z1, Fma(zTo - z0, slope, s0), s1);
+        const V sNear = Select(backward, s1, s0);
+        const V sFar = Select(backward, s0, s1);
+        const V slope = (sFar - sNear) / (zFar - zNear);
+        sFrom = Select(zNear < this->Near, Fma(zFrom - zNear, slope, sNear), sNear);
+        sTo = Select(this->Far < zFar, Fma(zTo - zNear, slope, sNear), sFar);
       }
     }
     if constexpr (CellData)
@@ -802,8 +810,7 @@ private:
   TETRALUX_INLINE void Interpolate()
   {
     const V sum = this->WA + this->WB + this->WC;
-    this->Z =
-      Fma(this->WA, this->A.Z, Fma(this->WB, this->B.Z, this->WC * this->C.Z)) / sum;
+    this->Z = Fma(this->WA, this->A.Z, Fma(this->WB, this->B.Z, this->WC * this->C.Z)) / sum;
     if constexpr (!CellData)
     {
       // By differences: a constant scalar stays exactly what it is, also next to a step.
