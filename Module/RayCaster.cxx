@@ -74,6 +74,11 @@ struct OwningCrossingBuffer : CrossingBuffer
   }
 };
 
+/// World radii of meshes for which single precision does: distances are multiplied by weights up to
+/// 2^84, areas of triangles as the kernels scale them. Beyond, products overflow or lose digits.
+constexpr double SmallestSingleRadius = 1e-25;
+constexpr double LargestSingleRadius = 1e12;
+
 /// Radius of the mesh in the world: its longest extent, since MeshFromWorld may stretch.
 double GetWorldRadius(const WalkMesh& mesh, const RayGrid& grid)
 {
@@ -86,7 +91,7 @@ double GetWorldRadius(const WalkMesh& mesh, const RayGrid& grid)
       grid.MeshFromWorld[0][column], grid.MeshFromWorld[1][column], grid.MeshFromWorld[2][column]);
     shortest = column == 0 ? length : std::min(shortest, length);
   }
-  return shortest > 0 ? mesh.GetRadius() / shortest : mesh.GetRadius();
+  return shortest > 0 && std::isfinite(shortest) ? mesh.GetRadius() / shortest : mesh.GetRadius();
 }
 
 } // namespace
@@ -189,8 +194,13 @@ double RayCaster::EstimateGeometryError(
 {
   constexpr double FaceRounding = 1. / (1 << 23);
   constexpr double ScalarRounding = 1. / (1 << 24);
-  return worldRadius * FaceRounding * (table.MaximumAttenuation + table.AttenuationVariation) +
-    ScalarRounding * largestScalar * table.AttenuationVariation * worldRadius;
+  const double faces = FaceRounding * (table.MaximumAttenuation + table.AttenuationVariation);
+  // Scalars do not matter to a constant, however large they are.
+  const double scalars = table.AttenuationVariation > 0
+    ? ScalarRounding * largestScalar * table.AttenuationVariation
+    : 0;
+  const double error = faces + scalars;
+  return error > 0 ? worldRadius * error : 0;
 }
 
 void RayCaster::UpdatePointScalars(bool doublePrecision)
@@ -283,10 +293,12 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   }
 
   RayCastStatistics statistics;
-  const double geometryError = EstimateGeometryError(
-    this->Table, GetWorldRadius(*this->Mesh, grid), this->GetLargestMappedScalar());
+  const double worldRadius = GetWorldRadius(*this->Mesh, grid);
+  const double geometryError =
+    EstimateGeometryError(this->Table, worldRadius, this->GetLargestMappedScalar());
   // Half of the error may come from ending rays early, a quarter from rounding.
   statistics.DoublePrecision = options.Arithmetic == Precision::Double ||
+    !(SmallestSingleRadius <= worldRadius && worldRadius <= LargestSingleRadius) ||
     (options.Arithmetic == Precision::Automatic && geometryError > 0.25 * options.MaximumError);
   statistics.TerminationError = 0.5 * options.MaximumError;
   statistics.IntegralError = SegmentWeightError;

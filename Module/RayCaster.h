@@ -24,7 +24,7 @@ namespace tetralux
 enum class Precision
 {
   Automatic, ///< single where EstimateGeometryError stays within the error that is asked for
-  Single,
+  Single,    ///< single; double all the same where the mesh's world radius is beyond its range
   Double
 };
 
