@@ -268,6 +268,8 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareMesh(vtkDataObject* input)
     input, [this](double fraction) { return this->Continue(vtkCommand::ProgressEvent, fraction); });
   if (intake.Aborted)
   {
+    this->Image->Initialize();
+    this->Last.Rays.Aborted = true;
     throw Abort();
   }
   if (!intake.Error.empty())

@@ -80,6 +80,22 @@ std::string GetStatistic(vtkTetrahedraRayCastMapper* mapper, const std::string& 
   return text.back() == ',' ? text.substr(0, text.size() - 1) : text;
 }
 
+// Voxels that fill the box, five tetrahedra each.
+vtkSmartPointer<vtkImageData> MakeImage()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(5, 4, 3);
+  image->SetSpacing(0.25, 1. / 3, 0.5);
+  vtkNew<vtkDoubleArray> field;
+  field->SetName("Field");
+  for (vtkIdType p = 0; p < image->GetNumberOfPoints(); ++p)
+  {
+    field->InsertNextValue(std::sin(static_cast<double>(p)));
+  }
+  image->GetPointData()->SetScalars(field);
+  return image;
+}
+
 std::string RenderAndGetRebuilt(RayCastScene& scene)
 {
   scene.Window->Render();
@@ -345,6 +361,51 @@ TEST(RayCastMapperBehavior, AbortedFramesAreNotDrawn)
   scene.Window->Render();
   EXPECT_EQ(events, 1);
   EXPECT_EQ(GetStatistic(scene.Mapper, "aborted"), "true");
+
+  // Nothing but the background.
+  vtkNew<vtkWindowToImageFilter> grab;
+  grab->SetInput(scene.Window);
+  grab->ShouldRerenderOff();
+  grab->ReadFrontBufferOff();
+  grab->Update();
+  for (int c = 0; c < 3; ++c)
+  {
+    double range[2];
+    grab->GetOutput()->GetPointData()->GetScalars()->GetRange(range, c);
+    EXPECT_EQ(range[0], c == 2 ? 255 : 0);
+    EXPECT_EQ(range[1], c == 2 ? 255 : 0);
+  }
+}
+
+TEST(RayCastMapperBehavior, AbortedWhileTheMeshIsBuilt)
+{
+  RayCastScene scene;
+  const vtkSmartPointer<vtkImageData> image = MakeImage();
+  scene.Mapper->SetInputData(image);
+  int events = 0;
+  int casts = 0;
+  const Observer progress(scene.Mapper, vtkCommand::ProgressEvent,
+    [&](const char*)
+    {
+      // The pipeline's own update reports twice.
+      if (++events == 3)
+      {
+        scene.Window->SetAbortRender(1);
+      }
+    });
+  const Observer casting(
+    scene.Mapper, vtkCommand::VolumeMapperRenderProgressEvent, [&](const char*) { ++casts; });
+  scene.Mapper->SetNumberOfThreads(1); // which reports every tile
+  scene.Window->Render();
+  EXPECT_EQ(events, 3);
+  EXPECT_EQ(casts, 0);
+  EXPECT_EQ(scene.Mapper->GetOutputImage()->GetNumberOfPoints(), 0);
+
+  // The next frame is complete.
+  scene.Window->Render();
+  EXPECT_GT(casts, 0);
+  EXPECT_EQ(GetStatistic(scene.Mapper, "tetrahedra"), "120");
+  EXPECT_EQ(GetStatistic(scene.Mapper, "aborted"), "false");
 }
 
 TEST(RayCastMapperBehavior, ReportsProgress)
@@ -489,16 +550,7 @@ TEST(RayCastMapperBehavior, Composites)
 TEST(RayCastMapperBehavior, ImageData)
 {
   RayCastScene scene;
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(5, 4, 3);
-  image->SetSpacing(0.25, 1. / 3, 0.5);
-  vtkNew<vtkDoubleArray> field;
-  field->SetName("Field");
-  for (vtkIdType p = 0; p < image->GetNumberOfPoints(); ++p)
-  {
-    field->InsertNextValue(std::sin(static_cast<double>(p)));
-  }
-  image->GetPointData()->SetScalars(field);
+  const vtkSmartPointer<vtkImageData> image = MakeImage();
   scene.Mapper->SetInputData(image);
   scene.Window->Render();
   EXPECT_EQ(GetStatistic(scene.Mapper, "tetrahedra"), std::to_string(5 * 4 * 3 * 2));
