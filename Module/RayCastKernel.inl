@@ -140,10 +140,12 @@ TETRALUX_INLINE Mask8 IsPositive(V det, const Corner<Real>& a, const Corner<Real
   return (V(Real(0)) < det) | ((det == V(Real(0))) & TieIsPositive(a, b));
 }
 
+/// A value between three by weights whose sum is 1, that of a left out. By differences: a constant
+/// stays exactly what it is, also next to a step of the transfer function.
 template <class V>
-TETRALUX_INLINE V Interpolate(V wa, V wb, V wc, V a, V b, V c, V sum)
+TETRALUX_INLINE V Blend(V wb, V wc, V a, V b, V c)
 {
-  return Fma(wa, a, Fma(wb, b, wc * c)) / sum;
+  return Fma(wb, b - a, Fma(wc, c - a, a));
 }
 
 /// Which rays go through a triangle, and where.
@@ -470,9 +472,9 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
         continue;
       }
       Real z[Width];
-      Store(z,
-        Interpolate(
-          t.BC, t.CA, t.AB, corners[0].Z, corners[1].Z, corners[2].Z, t.BC + t.CA + t.AB));
+      const auto scale = typename LanesOf<Real>::Type(Real(1)) / (t.BC + t.CA + t.AB);
+      Store(
+        z, Blend(t.CA * scale, t.AB * scale, corners[0].Z, corners[1].Z, corners[2].Z));
       for (int lane = 0; bits != 0; ++lane, bits >>= 1)
       {
         if (!(bits & 1u))
@@ -809,13 +811,14 @@ private:
   /// Distance and scalar where each ray goes through its triangle.
   TETRALUX_INLINE void Interpolate()
   {
-    const V sum = this->WA + this->WB + this->WC;
-    this->Z = Fma(this->WA, this->A.Z, Fma(this->WB, this->B.Z, this->WC * this->C.Z)) / sum;
+    // Weights are areas as large as 2^84: made shares first, so that no product overflows.
+    const V scale = V(Real(1)) / (this->WA + this->WB + this->WC);
+    const V b = this->WB * scale;
+    const V c = this->WC * scale;
+    this->Z = Blend(b, c, this->A.Z, this->B.Z, this->C.Z);
     if constexpr (!CellData)
     {
-      // By differences: a constant scalar stays exactly what it is, also next to a step.
-      const V a = this->A.S;
-      this->S = a + Fma(this->WB, this->B.S - a, this->WC * (this->C.S - a)) / sum;
+      this->S = Blend(b, c, this->A.S, this->B.S, this->C.S);
     }
   }
 

@@ -74,10 +74,10 @@ struct OwningCrossingBuffer : CrossingBuffer
   }
 };
 
-/// World radii of meshes for which single precision does: distances are multiplied by weights up to
-/// 2^84, areas of triangles as the kernels scale them. Beyond, products overflow or lose digits.
-constexpr double SmallestSingleRadius = 1e-25;
-constexpr double LargestSingleRadius = 1e12;
+/// World radii of meshes for which single precision does: distances inside keep all their digits, as
+/// do their products with attenuations that make them visible.
+constexpr double SmallestSingleRadius = 1e-30;
+constexpr double LargestSingleRadius = 1e30;
 
 /// Radius of the mesh in the world: its longest extent, since MeshFromWorld may stretch.
 double GetWorldRadius(const WalkMesh& mesh, const RayGrid& grid)
