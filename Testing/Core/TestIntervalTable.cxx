@@ -181,8 +181,8 @@ TEST(IntervalTable, OneNodeIsAConstant)
 TEST(IntervalTable, NodesThatRoundToOneFloatMakeAStep)
 {
   // The needle is narrower than single precision resolves; nothing divides by zero.
-  const TransferFunction function = MakeLinearFunction({ { 0, 0, 0, 0, 1 },
-    { 0.75, 0, 0, 0, 2 }, { 0.75 + 1e-12, 0, 0, 0, 5 }, { 1, 0, 0, 0, 3 } });
+  const TransferFunction function = MakeLinearFunction(
+    { { 0, 0, 0, 0, 1 }, { 0.75, 0, 0, 0, 2 }, { 0.75 + 1e-12, 0, 0, 0, 5 }, { 1, 0, 0, 0, 3 } });
   const IntervalTable table = MakeIntervalTable(function);
   for (const IntervalTable::Interval& interval : table.Intervals)
   {
@@ -222,8 +222,7 @@ TEST(IntervalTable, RefusesBadFunctionsInOneLine)
   }
   for (const double color : { NaN, -Infinity })
   {
-    EXPECT_EQ(
-      GetError(MakeLinearFunction({ { 0, 0, 0, 0, 0 }, { 1, 0, 0, color, 0 } })), value);
+    EXPECT_EQ(GetError(MakeLinearFunction({ { 0, 0, 0, 0, 0 }, { 1, 0, 0, color, 0 } })), value);
   }
 }
 

@@ -113,8 +113,8 @@ double MeasureError(SegmentLanes::Function function, const std::vector<float>& a
     {
       const long double expected = precise(arguments[i + lane]);
       const long double difference = std::abs(result[lane] - expected);
-      largest = std::max(largest, static_cast<double>(expected == 0 ? difference
-                                                                    : difference / expected));
+      largest =
+        std::max(largest, static_cast<double>(expected == 0 ? difference : difference / expected));
       EXPECT_FALSE(std::isnan(result[lane])) << "at " << arguments[i + lane];
     }
   }
@@ -178,8 +178,8 @@ std::vector<Ends> MakeEnds(int count)
   std::uniform_real_distribution<double> unit(0, 1);
   const auto draw = [&](double& front, double& back)
   {
-    const double exponent = unit(generator) < 0.5 ? 24 * unit(generator) - 12
-                                                  : 3 * unit(generator) - 1.5;
+    const double exponent =
+      unit(generator) < 0.5 ? 24 * unit(generator) - 12 : 3 * unit(generator) - 1.5;
     const double depth = std::pow(10, exponent);
     double share = 0.5; // of the front end
     switch (generator() % 6)
@@ -249,8 +249,8 @@ TEST(SegmentIntegral, WeightsAgreeWithQuadrature)
         ends.Front.data(), ends.Back.data(), front.data(), back.data(), transmittance.data());
       for (int lane = 0; lane < NumberOfLanes; ++lane)
       {
-        SCOPED_TRACE(sets[set].Name + std::string(": ") + std::to_string(ends.Front[lane]) + " to " +
-          std::to_string(ends.Back[lane]));
+        SCOPED_TRACE(sets[set].Name + std::string(": ") + std::to_string(ends.Front[lane]) +
+          " to " + std::to_string(ends.Back[lane]));
         const double alpha = expected[lane].Alpha;
         ASSERT_GE(front[lane], 0.f);
         ASSERT_GE(back[lane], 0.f);
