@@ -54,14 +54,14 @@ struct RayCastStatistics
   std::string InstructionSet;
   int NumberOfThreads = 0;
   std::int64_t Rays = 0;
-  std::int64_t Segments = 0;   ///< cells walked through, over all rays
-  std::int64_t Paths = 0;      ///< entries into the mesh, over all rays
+  std::int64_t Segments = 0;         ///< cells walked through, over all rays
+  std::int64_t Paths = 0;            ///< entries into the mesh, over all rays
   std::int64_t TransparentCells = 0; ///< left out of the walk; 0 where that would not pay
-  double LaneUse = 0;          ///< share of vector lanes that carried a ray, 0..1
-  double ErrorEstimate = 0;    ///< sum of the three below
-  double TerminationError = 0; ///< at most, by ending rays early
-  double IntegralError = 0;    ///< at most, by the weights of segments
-  double GeometryError = 0;    ///< estimated, by rounding coordinates and scalars
+  double LaneUse = 0;                ///< share of vector lanes that carried a ray, 0..1
+  double ErrorEstimate = 0;          ///< sum of the three below
+  double TerminationError = 0;       ///< at most, by ending rays early
+  double IntegralError = 0;          ///< at most, by the weights of segments
+  double GeometryError = 0;          ///< estimated, by rounding coordinates and scalars
 };
 
 /// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of eight rays,
