@@ -8,6 +8,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -311,6 +312,14 @@ void vtkHeadlessRenderWindow::Finalize()
     this->Context.reset();
   }
   this->ContextFailed = false;
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkHeadlessRenderWindow::GetColorBufferSizes(int* rgba)
+{
+  constexpr int Bits = 8;
+  std::fill_n(rgba, 4, Bits);
+  return 4 * Bits;
 }
 
 //------------------------------------------------------------------------------------------------

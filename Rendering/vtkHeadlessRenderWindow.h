@@ -56,6 +56,12 @@ public:
 
   void OpenGLInitContext() override;
 
+  /**
+   * Bits of red, green, blue and alpha in the frame buffers that VTK renders into, and their sum;
+   * there are no others that could be asked. vtkHardwareSelector wants to know.
+   */
+  int GetColorBufferSizes(int* rgba) override;
+
 protected:
   vtkHeadlessRenderWindow();
   ~vtkHeadlessRenderWindow() override;

@@ -172,7 +172,7 @@ private:
   double ChooseSampleDistance(vtkRenderer* renderer, vtkVolume* volume) const;
   void Cast(vtkRenderer* renderer, vtkVolume* volume, const CameraRays& rays);
   tetralux::Span<float> GetArray(const char* name, int components);
-  void WarnOfMesh() const;
+  void WarnOfMesh();
   void WarnOfShade(vtkVolumeProperty* property);
 
   /// Tells how far a stage is, and asks whether to go on.
@@ -193,6 +193,7 @@ private:
   int NumberOfNodes = 0;
   double SecondsPerRay = 0; ///< of the last frame that was cast; 0: none yet
   bool WarnedOfShade = false;
+  std::string MeshWarning; ///< the last one: the next time step may have the same
 
   // The last frame.
   struct Frame
@@ -463,18 +464,26 @@ bool vtkTetrahedraRayCastMapper::Internals::Continue(unsigned long event, double
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::Internals::WarnOfMesh() const
+void vtkTetrahedraRayCastMapper::Internals::WarnOfMesh()
 {
-  if (this->Intake.GetNumberOfSkippedCells() > 0)
-  {
-    vtkWarningWithObjectMacro(
-      this->Self, "cells that can't be rendered: " << this->Intake.DescribeSkippedCells());
-  }
+  std::string warning;
   if (this->Caster.GetMesh()->GetNumberOfCells() == 0)
   {
-    vtkWarningWithObjectMacro(this->Self,
-      "nothing is drawn: of the input's " << this->Intake.NumberOfCells
-                                          << " cells, none can be rendered as a volume");
+    warning = "nothing is drawn: of the input's " + std::to_string(this->Intake.NumberOfCells) +
+      " cells, none can be rendered as a volume";
+  }
+  if (this->Intake.GetNumberOfSkippedCells() > 0)
+  {
+    warning += (warning.empty() ? "" : "; ") + std::string("cells that can't be rendered: ") +
+      this->Intake.DescribeSkippedCells();
+  }
+  if (warning != this->MeshWarning)
+  {
+    this->MeshWarning = warning;
+    if (!warning.empty())
+    {
+      vtkWarningWithObjectMacro(this->Self, << warning);
+    }
   }
 }
 
@@ -620,6 +629,10 @@ vtkTetrahedraRayCastMapper::~vtkTetrahedraRayCastMapper() = default;
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
+  if (renderer->GetSelector())
+  {
+    return;
+  }
   const Stopwatch stopwatch;
   this->InvokeEvent(vtkCommand::VolumeMapperRenderStartEvent);
   std::string error;

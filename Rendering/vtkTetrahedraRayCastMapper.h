@@ -239,7 +239,8 @@ public:
    *
    * Casts and composites. Invokes VolumeMapperRenderStartEvent, VolumeMapperRenderProgressEvent
    * with a double 0..1, and VolumeMapperRenderEndEvent; while the mesh is built, ProgressEvent.
-   * Each time the render window is asked whether to abort: an aborted frame is not drawn.
+   * Each time the render window is asked whether to abort: an aborted frame is not drawn. Draws
+   * nothing where a vtkHardwareSelector looks for what is under the cursor: volumes have no ids.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 

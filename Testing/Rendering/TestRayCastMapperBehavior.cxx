@@ -2,16 +2,24 @@
 // What the mapper rebuilds, how it composites, adjusts, aborts and refuses.
 #include "RayCastScene.h"
 
+#include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkCommand.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkHardwareSelector.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationObjectBaseKey.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPlane.h"
+#include "vtkPlaneSource.h"
 #include "vtkPointData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSelection.h"
+#include "vtkSelectionNode.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkWindowToImageFilter.h"
 #include "vtk_glew.h"
@@ -590,6 +598,32 @@ TEST(RayCastMapperBehavior, SeveralWindows)
   renderElsewhere();
   scene.Window->Render();
   EXPECT_EQ(CopyColors(scene), first);
+}
+
+// A plane behind the volume is found through it.
+TEST(RayCastMapperBehavior, DoesNotDisturbSelection)
+{
+  RayCastScene scene;
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-2, -2, -1);
+  plane->SetPoint1(3, -2, -1);
+  plane->SetPoint2(-2, 3, -1);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(plane->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.Renderer->AddActor(actor);
+  scene.Window->Render();
+  const std::vector<float> before = CopyColors(scene);
+  EXPECT_GT(before[4 * (36 * 96 + 48) + 3], 0.1); // there is volume in the middle
+
+  vtkNew<vtkHardwareSelector> selector;
+  selector->SetRenderer(scene.Renderer);
+  selector->SetArea(47, 35, 49, 37);
+  const auto selection = vtkSmartPointer<vtkSelection>::Take(selector->Select());
+  ASSERT_EQ(selection->GetNumberOfNodes(), 1u);
+  EXPECT_EQ(selection->GetNode(0)->GetProperties()->Get(vtkSelectionNode::PROP()), actor.Get());
+  EXPECT_EQ(CopyColors(scene), before);
 }
 
 TEST(RayCastMapperBehavior, PrintsItself)
