@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the order of points and cells in memory does to ray casting: the order of the source, a
+// random one, and that of OrderSpatially. The packet kernel is run on tables that are built here,
+// since WalkMesh always orders. Prints processor nanoseconds of a segment (a cell that a ray goes
+// through), one thread.
+
+#include "ComparisonMeshes.h"
+#include "FaceNeighbors.h"
+#include "MeshCleaning.h"
+#include "OwnedCrossings.h"
+#include "RayCastKernel.inl"
+#include "SpatialOrder.h"
+#include "WalkTables.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <numeric>
+#include <random>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+constexpr int ImageSize = 512;
+constexpr int TileSize = 16; ///< as in RayCaster.cxx
+constexpr int Runs = 3;
+
+/// A mesh in any order as the kernel reads it.
+struct OrderedMesh
+{
+  std::vector<WalkPoint<float>> Points;
+  WalkTables Tables;
+  double Center[3];
+  double Radius = 0;
+};
+
+OrderedMesh MakeOrderedMesh(TetrahedralMesh mesh, const std::vector<double>& scalars)
+{
+  for (std::size_t t = 0; t < mesh.GetNumberOfCells(); ++t)
+  {
+    std::sort(&mesh.Cells[4 * t], &mesh.Cells[4 * t] + 4);
+  }
+  OrderedMesh result;
+  const std::size_t n = mesh.GetNumberOfPoints();
+  for (int a = 0; a < 3; ++a)
+  {
+    double lo = std::numeric_limits<double>::max();
+    double hi = std::numeric_limits<double>::lowest();
+    for (std::size_t p = 0; p < n; ++p)
+    {
+      lo = std::min(lo, mesh.Points[3 * p + a]);
+      hi = std::max(hi, mesh.Points[3 * p + a]);
+    }
+    result.Center[a] = 0.5 * (lo + hi);
+    result.Radius = std::hypot(result.Radius, 0.5 * (hi - lo));
+  }
+  for (std::size_t p = 0; p < n; ++p)
+  {
+    float x[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      x[a] = static_cast<float>((mesh.Points[3 * p + a] - result.Center[a]) / result.Radius);
+    }
+    // The medium's scalars are -1..1.
+    result.Points.push_back({ x[0], x[1], x[2], static_cast<float>(2 * scalars[p] - 1) });
+  }
+  const FaceNeighbors neighbors = FindFaceNeighbors(mesh.Cells, n);
+  std::vector<WalkFace> faces;
+  for (std::size_t f = 0; f < neighbors.Neighbors.size(); ++f)
+  {
+    const std::int32_t cell = neighbors.Neighbors[f];
+    const std::size_t behind = 4 * static_cast<std::size_t>(cell) + neighbors.NeighborFaces[f];
+    faces.push_back({ cell, cell < 0 ? 0 : mesh.Cells[behind] });
+  }
+  result.Tables = MakeWalkTables(std::move(faces), mesh.Cells, result.Points);
+  return result;
+}
+
+/// A medium that lets all rays through, in which attenuation and colour change everywhere.
+IntervalTable MakeMedium(double radius)
+{
+  TransferFunction function;
+  for (int k = 0; k < 5; ++k)
+  {
+    const double x = 0.25 * k;
+    const TransferFunction::Value value = { { x, 1 - x, 0.5 }, (0.1 + 0.4 * (k % 2)) / radius };
+    function.Nodes.push_back({ 2 * x - 1, value, value });
+  }
+  return MakeIntervalTable(function);
+}
+
+void Measure(
+  const std::string& name, const TetrahedralMesh& mesh, const std::vector<double>& scalars)
+{
+  const OrderedMesh ordered = MakeOrderedMesh(mesh, scalars);
+  const PerspectiveView view(ordered.Center, ordered.Radius, ImageSize);
+  const IntervalTable medium = MakeMedium(ordered.Radius);
+  std::vector<float> colors(4 * ImageSize * ImageSize), depths(ImageSize * ImageSize);
+  KernelInput in{};
+  in.Points = ordered.Points.data();
+  in.Faces = ordered.Tables.Faces.data();
+  in.Entries = ordered.Tables.Entries.data();
+  in.Nodes = ordered.Tables.Bvh.Nodes.data();
+  in.Triangles = ordered.Tables.Bvh.Triangles.data();
+  in.NumberOfCells = static_cast<std::int64_t>(mesh.GetNumberOfCells());
+  std::copy_n(ordered.Center, 3, in.Center);
+  in.Radius = ordered.Radius;
+  in.Intervals = medium.Intervals.data();
+  in.Grid = &view.Grid;
+  in.Colors = colors.data();
+  in.Depths = depths.data();
+
+  const RayCastKernel kernel = MakeRayCastKernels().PointFloat;
+  OwnedCrossings buffer;
+  std::int64_t segments = 0;
+  const double seconds = MeasureBest(Runs,
+    [&]
+    {
+      KernelCounts counts;
+      for (int y = 0; y < ImageSize; y += TileSize)
+      {
+        for (int x = 0; x < ImageSize; x += TileSize)
+        {
+          kernel(in, x, y, x + TileSize, y + TileSize, buffer, counts);
+        }
+      }
+      segments = counts.Segments;
+    });
+  std::printf("%-36s %11lld %8.1f %8.2f\n", name.c_str(), static_cast<long long>(segments),
+    1e3 * seconds, 1e9 * seconds / static_cast<double>(segments));
+  std::fflush(stdout);
+}
+
+/// Points and cells in random order.
+void Shuffle(ComparisonMesh& mesh)
+{
+  std::mt19937_64 random(1);
+  const std::size_t n = mesh.Mesh.GetNumberOfPoints();
+  std::vector<std::int32_t> place(n);
+  std::iota(place.begin(), place.end(), 0);
+  std::shuffle(place.begin(), place.end(), random);
+  const ComparisonMesh source = mesh;
+  for (std::size_t p = 0; p < n; ++p)
+  {
+    std::copy_n(&source.Mesh.Points[3 * p], 3, &mesh.Mesh.Points[3 * std::size_t(place[p])]);
+    mesh.Scalars[place[p]] = source.Scalars[p];
+  }
+  std::vector<std::size_t> cells(mesh.Mesh.GetNumberOfCells());
+  std::iota(cells.begin(), cells.end(), std::size_t(0));
+  std::shuffle(cells.begin(), cells.end(), random);
+  for (std::size_t t = 0; t < cells.size(); ++t)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      mesh.Mesh.Cells[4 * t + i] = place[source.Mesh.Cells[4 * cells[t] + i]];
+    }
+  }
+}
+
+void MeasureOrders(ComparisonMesh mesh)
+{
+  Measure(mesh.Name + ", as it comes", mesh.Mesh, mesh.Scalars);
+  Shuffle(mesh);
+  Measure(mesh.Name + ", shuffled", mesh.Mesh, mesh.Scalars);
+  RemoveUnusableCells(mesh.Mesh);
+  OrderSpatially(mesh.Mesh);
+  Measure(mesh.Name + ", spatial", mesh.Mesh, MapScalars(mesh.Mesh, mesh.Scalars));
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+int main()
+{
+  using namespace tetralux;
+  try
+  {
+    std::printf(
+      "A picture of 512 x 512, every pixel through the whole mesh\n\n%-36s %11s %8s %8s\n", "",
+      "segments", "ms", "ns each");
+    for (ComparisonMesh& mesh : ReadBluntFin())
+    {
+      TETRALUX_ISA::MeasureOrders(std::move(mesh));
+    }
+    for (const double cells : { 40., 74., 160. })
+    {
+      TETRALUX_ISA::MeasureOrders(MakeComparisonMesh("ball", { { "cells", cells } }));
+    }
+  }
+  catch (const std::exception& e)
+  {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+  return 0;
+}
