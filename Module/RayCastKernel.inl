@@ -166,9 +166,17 @@ TETRALUX_INLINE TriangleHit<Real> TestTriangle(
   t.BC = Det(b, c);
   t.CA = Det(c, a);
   t.AB = Det(a, b);
-  const Mask8 p = IsPositive(t.BC, b, c);
-  const Mask8 q = IsPositive(t.CA, c, a);
-  const Mask8 r = IsPositive(t.AB, a, b);
+  using V = typename LanesOf<Real>::Type;
+  const V zero = Real(0);
+  Mask8 p = zero < t.BC;
+  Mask8 q = zero < t.CA;
+  Mask8 r = zero < t.AB;
+  if (Any((t.BC == zero) | (t.CA == zero) | (t.AB == zero)))
+  {
+    p = IsPositive(t.BC, b, c);
+    q = IsPositive(t.CA, c, a);
+    r = IsPositive(t.AB, a, b);
+  }
   const Mask8 all = MaskFromBits(0xff);
   t.Clockwise = AndNot(all, p | q | r);
   t.Hit = (p & q & r) | t.Clockwise;
@@ -768,9 +776,11 @@ private:
       {
         const V sNear = Select(backward, s1, s0);
         const V sFar = Select(backward, s0, s1);
-        const V slope = (sFar - sNear) / (zFar - zNear);
-        sFrom = Select(zNear < this->Near, Fma(zFrom - zNear, slope, sNear), sNear);
-        sTo = Select(this->Far < zFar, Fma(zTo - zNear, slope, sNear), sFar);
+        // By shares of the cell: a slope may overflow.
+        const V ds = sFar - sNear;
+        const V dz = zFar - zNear;
+        sFrom = Select(zNear < this->Near, Fma((zFrom - zNear) / dz, ds, sNear), sNear);
+        sTo = Select(this->Far < zFar, Fma((zTo - zNear) / dz, ds, sNear), sFar);
       }
     }
     if constexpr (CellData)
