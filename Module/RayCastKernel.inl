@@ -634,8 +634,16 @@ TETRALUX_INLINE void IntegratePieces(
       s = Min(Max(s1, bottom), head);
       z = Select(last, z1, Fma((s - s0) / (s1 - s0), z1 - z0, z0));
     }
-    const Float8 x0 = ToFloat(s0 - origin);
-    const Float8 x1 = ToFloat(s - origin);
+    V x[2] = { s0, s };
+    if constexpr (sizeof(Real) > sizeof(float))
+    {
+      // What was compared as rounded may lie just outside of the interval, where the slope of one
+      // only a few roundings wide leads far.
+      x[0] = Min(Max(s0, bottom), head);
+      x[1] = Min(Max(s, bottom), head);
+    }
+    const Float8 x0 = ToFloat(x[0] - origin);
+    const Float8 x1 = ToFloat(x[1] - origin);
     const Float8 length = Keep(valid, ToFloat(z - z0));
     const Float8 zero = 0.f;
     const Float8 largest = LargestDepth;
