@@ -27,9 +27,9 @@ public:
   ImageCompositor(const ImageCompositor&) = delete;
   ImageCompositor& operator=(const ImageCompositor&) = delete;
 
-  /// colors: width x height x 4 floats, premultiplied, lower row first, stretched over the rectangle
-  /// with linear interpolation where the sizes differ. Leaves OpenGL's state as it was. Throws
-  /// std::runtime_error, with one line, where there is no shader program or no texture.
+  /// colors: width x height x 4 floats, premultiplied, lower row first, stretched over the
+  /// rectangle with linear interpolation where the sizes differ. Leaves OpenGL's state as it was.
+  /// Throws std::runtime_error, with one line, where there is no shader program or no texture.
   void Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
     const float* colors, int width, int height);
 

@@ -14,12 +14,13 @@ namespace tetralux
 {
 
 /// What something was built from: objects and their modification times. Equal signatures mean that
-/// nothing has changed. Pointers are never followed; a new object at an old address has a later time.
+/// nothing has changed. Pointers are never followed; a new object at an old address has a later
+/// time.
 using Signature = std::vector<std::uint64_t>;
 
 /// Of all that tetrahedra depend on: points, cells and ghost flags of each data set, but no other
-/// array. A data set that a pipeline made anew from the same points and cells has the same signature.
-/// Data sets that are none of VTK's grids are changed by anything.
+/// array. A data set that a pipeline made anew from the same points and cells has the same
+/// signature. Data sets that are none of VTK's grids are changed by anything.
 Signature GetMeshSignature(vtkDataObject* input);
 
 /// Of all that scalars depend on beside the mesh: the selected array of each data set.

@@ -41,12 +41,12 @@ bool IsLogarithmic(vtkColorTransferFunction* function)
   return function->GetScale() == VTK_CTF_LOG10 && function->GetRange()[0] > 0;
 }
 
-/// Colours taken of each interval in the one colour space that VTK searches a path through the space
-/// for: at every call, for a tenth of a second.
+/// Colours taken of each interval in the one colour space that VTK searches a path through the
+/// space for: at every call, for a tenth of a second.
 constexpr int SearchedColors = 1024;
 
-/// A function with linear intervals that goes through SearchedColors colours of each interval. Paths
-/// begin and end near the colours of the nodes, not at them.
+/// A function with linear intervals that goes through SearchedColors colours of each interval.
+/// Paths begin and end near the colours of the nodes, not at them.
 vtkSmartPointer<vtkColorTransferFunction> SearchOnce(vtkColorTransferFunction* function)
 {
   auto result = vtkSmartPointer<vtkColorTransferFunction>::New();
@@ -222,8 +222,8 @@ private:
   double UnitDistance;
 };
 
-/// How far an approximation may be off: an error c of the colour is one of at most c in the picture;
-/// an attenuation that is off by a share s, and by a on top, changes an optical depth D by
+/// How far an approximation may be off: an error c of the colour is one of at most c in the
+/// picture; an attenuation that is off by a share s, and by a on top, changes an optical depth D by
 /// s D + a longestPath, and the picture by at most s D exp(-D) + a longestPath < s / 2 + a
 /// longestPath.
 struct Tolerance
@@ -301,7 +301,8 @@ PropertyTransferFunction TransferFunctionFromProperty(
   PropertyTransferFunction result;
   std::vector<TransferFunction::Node>& nodes = result.Function.Nodes;
 
-  // Outside of all nodes functions are constant; a place there that logarithms can be taken of, too.
+  // Outside of all nodes functions are constant; a place there that logarithms can be taken of,
+  // too.
   const double first = breaks.front();
   const double last = breaks.back();
   const auto margin = [](double x) { return x == 0 ? 1 : 1e-6 * std::abs(x); };

@@ -14,7 +14,8 @@ struct PropertyTransferFunction
 {
   TransferFunction Function;
 
-  /// Error of a colour channel that approximating the property adds, 0 where it is piecewise linear.
+  /// Error of a colour channel that approximating the property adds, 0 where it is piecewise
+  /// linear.
   double Error = 0;
 };
 
@@ -23,16 +24,16 @@ struct PropertyTransferFunction
 ///
 /// Nodes are at the exact scalars of the property's nodes; steps (duplicated nodes, sharpness 1,
 /// clamping off, colours above and below the range) stay steps. Where VTK's function is not linear
-/// between nodes - other colour spaces than RGB, sharpness, logarithmic scale - nodes are added until
-/// it is, as far as maximumError allows (of a premultiplied channel, more than 0) on rays through
-/// the volume of at most longestPath world units. At a step's own scalar the value from larger
-/// scalars counts, where VTK takes the one from smaller scalars.
+/// between nodes - other colour spaces than RGB, sharpness, logarithmic scale - nodes are added
+/// until it is, as far as maximumError allows (of a premultiplied channel, more than 0) on rays
+/// through the volume of at most longestPath world units. At a step's own scalar the value from
+/// larger scalars counts, where VTK takes the one from smaller scalars.
 ///
 /// The colour space LabCIEDE2000 costs a tenth of a second an interval, and is represented by 1024
 /// colours of each, whose error is not known.
 ///
-/// Throws std::invalid_argument, with one line, where the unit distance is not positive or a function
-/// has values that are not finite.
+/// Throws std::invalid_argument, with one line, where the unit distance is not positive or a
+/// function has values that are not finite.
 TETRALUXRENDERING_EXPORT PropertyTransferFunction TransferFunctionFromProperty(
   vtkVolumeProperty* property, double maximumError, double longestPath);
 

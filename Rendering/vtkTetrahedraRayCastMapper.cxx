@@ -50,8 +50,8 @@ namespace
 /// no less.
 constexpr double SmallestFunctionError = 1e-7;
 
-/// Share of MaximumError that approximating a property's functions may take: ending rays early takes
-/// a half, rounding a quarter.
+/// Share of MaximumError that approximating a property's functions may take: ending rays early
+/// takes a half, rounding a quarter.
 constexpr double FunctionErrorShare = 0.125;
 
 class Stopwatch

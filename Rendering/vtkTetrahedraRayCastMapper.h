@@ -13,11 +13,11 @@
  * or cell whose scalar is not a finite number leaves the cells that touch it empty.
  *
  * Optical model: attenuation per world unit is the scalar opacity over the property's
- * ScalarOpacityUnitDistance, radiance is the integral of attenuation x colour x exp(-optical depth).
- * That is the model of VTK's own mappers of unstructured grids, not the 1 - (1 - a)^(l / d) of its
- * mappers of image data. The property's colour (RGB in any colour space, or grey), scalar opacity
- * and unit distance of component 0 are used at the exact scalars of their nodes, no table is
- * sampled; Shade and gradient opacity are not used, and one warning says so. BlendMode must be
+ * ScalarOpacityUnitDistance, radiance is the integral of attenuation x colour x exp(-optical
+ * depth). That is the model of VTK's own mappers of unstructured grids, not the 1 - (1 - a)^(l / d)
+ * of its mappers of image data. The property's colour (RGB in any colour space, or grey), scalar
+ * opacity and unit distance of component 0 are used at the exact scalars of their nodes, no table
+ * is sampled; Shade and gradient opacity are not used, and one warning says so. BlendMode must be
  * composite.
  *
  * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
@@ -203,10 +203,10 @@ public:
    * The picture of the last frame as it was cast, before anything was done to it: one point for
    * each ray, bottom row first, over the viewport, or the part of it in the window. Point arrays
    * RGBA, the scalars: four floats, premultiplied, without any background; Depth: a float, distance
-   * along the ray in world units, from the camera or in a parallel projection from the plane through
-   * it, to the first contribution, -1 where there is none. Empty before the first frame and after
-   * one that failed; incomplete after one that was aborted. Belongs to the mapper, which overwrites
-   * it in the next frame.
+   * along the ray in world units, from the camera or in a parallel projection from the plane
+   * through it, to the first contribution, -1 where there is none. Empty before the first frame and
+   * after one that failed; incomplete after one that was aborted. Belongs to the mapper, which
+   * overwrites it in the next frame.
    */
   vtkImageData* GetOutputImage();
 

@@ -34,7 +34,8 @@ void AddClippingPlane(RayCastScene& scene, const Vector& origin, const Vector& n
   scene.Mapper->AddClippingPlane(plane);
 }
 
-// Fills the view with an opaque plane; returns for each ray its distance to it, in exact arithmetic.
+// Fills the view with an opaque plane; returns for each ray its distance to it, in exact
+// arithmetic.
 std::vector<float> AddOpaquePlane(
   RayCastScene& scene, const Vector& center, const Vector& normal, const tetralux::RayGrid& rays)
 {
