@@ -293,8 +293,8 @@ void Register(std::int64_t size)
 int main(int argc, char** argv)
 {
   const std::string largest = std::to_string(LargestSize);
-  const bool withLargest = std::any_of(
-    argv, argv + argc, [&](const char* argument) { return std::strstr(argument, largest.c_str()); });
+  const bool withLargest = std::any_of(argv, argv + argc,
+    [&](const char* argument) { return std::strstr(argument, largest.c_str()); });
   for (std::int64_t size = 10000; size < LargestSize; size *= 10)
   {
     Register(size);

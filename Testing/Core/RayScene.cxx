@@ -100,9 +100,9 @@ std::vector<double> MakeSmoothField(const TetrahedralMesh& mesh)
 TransferFunction MakeColorfulFunction(double largestAttenuation)
 {
   const double k = largestAttenuation;
-  return MakeLinearFunction({ { 0.1, 0, 0, 1, 0 }, { 0.3, 0, 1, 1, 0.1 * k }, { 0.35, 0, 1, 1, 0 },
-    { 0.45, 1, 0, 1, 0 }, { 0.6, 0, 1, 0, 0.5 * k }, { 0.7, 1, 1, 0, 0.05 * k },
-    { 0.95, 1, 0, 0, k } });
+  return MakeLinearFunction(
+    { { 0.1, 0, 0, 1, 0 }, { 0.3, 0, 1, 1, 0.1 * k }, { 0.35, 0, 1, 1, 0 }, { 0.45, 1, 0, 1, 0 },
+      { 0.6, 0, 1, 0, 0.5 * k }, { 0.7, 1, 1, 0, 0.05 * k }, { 0.95, 1, 0, 0, k } });
 }
 
 } // namespace tetralux

@@ -41,17 +41,17 @@ constexpr double KernelDifference = 1e-5;
 
 /// Pixels that a silhouette grazes are no more than this share of those covered, unless a scene puts
 /// them there.
-constexpr double GrazedShare = 0.05;
+constexpr double GrazedShare = 0.01;
 
 /// Largest error of a depth, relative to the largest depth: coordinates are rounded to 2^-24 of the
 /// mesh's radius, and a face met at a slant moves along the ray by more.
-constexpr double DepthError = 1e-4;
+constexpr double DepthError = 1e-5;
 
 /// Pixels whose depth may be off by more: the first contribution of their ray is in a cell that
 /// another one hides only just not.
-constexpr double DepthOutlierShare = 0.01;
+constexpr double DepthOutlierShare = 0.005;
 
-constexpr int ImageSize = 48;
+constexpr int ImageSize = 64;
 
 RayGrid LookAtUnitCube(const Vector& from, int size = ImageSize)
 {
@@ -91,16 +91,12 @@ std::ostream& operator<<(std::ostream& stream, const NamedScene& scene)
 //------------------------------------------------------------------------------------------------
 // Scenes
 
-RayScene Perspective()
-{
-  return MakeBoxScene();
-}
+RayScene Perspective() { return MakeBoxScene(); }
 
 RayScene Parallel()
 {
   RayScene scene = MakeBoxScene();
-  scene.Grid =
-    MakeParallelGrid(Oblique, { 0.5, 0.5, 0.5 }, { 0, 1, 0 }, 0.8, ImageSize, ImageSize);
+  scene.Grid = MakeParallelGrid(Oblique, { 0.5, 0.5, 0.5 }, { 0, 1, 0 }, 0.8, ImageSize, ImageSize);
   return scene;
 }
 
@@ -133,8 +129,7 @@ RayScene AlongGridLines()
   // Pixels of 1/24; a pixel's centre is half a pixel from the image's.
   constexpr double Pixel = 1. / 24;
   const double x = 0.5 + 0.5 * Pixel;
-  scene.Grid = MakeParallelGrid(
-    { x, x, 5 }, { x, x, 0 }, { 0, 1, 0 }, 0.5 * 30 * Pixel, 30, 30);
+  scene.Grid = MakeParallelGrid({ x, x, 5 }, { x, x, 0 }, { 0, 1, 0 }, 0.5 * 30 * Pixel, 30, 30);
   return scene;
 }
 
@@ -165,26 +160,24 @@ RayScene MakeFarAway(double offset, double cell)
   const double size = N * cell;
   const Vector lower = { offset, -offset, 0.5 * offset };
   RayScene scene;
-  scene.Mesh =
-    MakeBox(N, N, N, lower, { lower[0] + size, lower[1] + size, lower[2] + size }, 0.1);
+  scene.Mesh = MakeBox(N, N, N, lower, { lower[0] + size, lower[1] + size, lower[2] + size }, 0.1);
   scene.Scalars = MakeSmoothField(scene.Mesh);
   scene.Function = MakeColorfulFunction(20 / size);
   const Vector middle = { lower[0] + 0.5 * size, lower[1] + 0.5 * size, lower[2] + 0.5 * size };
-  scene.Grid = MakePerspectiveGrid(
-    { middle[0] + 2.6 * size, middle[1] + 1.7 * size, middle[2] + 2.2 * size }, middle, { 0, 1, 0 },
-    30, ImageSize, ImageSize);
+  scene.Grid =
+    MakePerspectiveGrid({ middle[0] + 2.6 * size, middle[1] + 1.7 * size, middle[2] + 2.2 * size },
+      middle, { 0, 1, 0 }, 30, ImageSize, ImageSize);
   return scene;
 }
 
-RayScene FarAway()
-{
-  return MakeFarAway(1e4, 1e-4);
-}
+RayScene FarAway() { return MakeFarAway(1e4, 1e-4); }
 
-RayScene VeryFarAway()
-{
-  return MakeFarAway(1e7, 1e-3);
-}
+RayScene VeryFarAway() { return MakeFarAway(1e7, 1e-3); }
+
+/// As large and as small as generated meshes may be, but for some.
+RayScene HugeWorld() { return MakeFarAway(0, 1e26); }
+
+RayScene TinyWorld() { return MakeFarAway(0, 1e-26); }
 
 /// Layers whose thickness goes from 1e-7 to 0.1, each with the same share in the optical depth.
 RayScene BoundaryLayer()
@@ -205,16 +198,16 @@ RayScene BoundaryLayer()
       0.08 * std::pow(10, -decade) });
   }
   scene.Function = MakeLinearFunction(nodes);
-  scene.Grid = MakePerspectiveGrid(
-    { 1.3, 0.9, -2 }, { 0.5, 0.5, 0.2 }, { 0, 1, 0 }, 35, ImageSize, ImageSize);
+  scene.Grid =
+    MakePerspectiveGrid({ 1.3, 0.9, -2 }, { 0.5, 0.5, 0.2 }, { 0, 1, 0 }, 35, ImageSize, ImageSize);
   return scene;
 }
 
 RayScene BoundaryLayerFromAbove()
 {
   RayScene scene = BoundaryLayer();
-  scene.Grid = MakePerspectiveGrid(
-    { 0.2, 0.9, 4 }, { 0.5, 0.5, 0.2 }, { 0, 1, 0 }, 25, ImageSize, ImageSize);
+  scene.Grid =
+    MakePerspectiveGrid({ 0.2, 0.9, 4 }, { 0.5, 0.5, 0.2 }, { 0, 1, 0 }, 25, ImageSize, ImageSize);
   return scene;
 }
 
@@ -275,15 +268,9 @@ RayScene MakeScaledScalars(double factor)
   return scene;
 }
 
-RayScene TinyScalars()
-{
-  return MakeScaledScalars(1e-30);
-}
+RayScene TinyScalars() { return MakeScaledScalars(1e-30); }
 
-RayScene HugeScalars()
-{
-  return MakeScaledScalars(1e30);
-}
+RayScene HugeScalars() { return MakeScaledScalars(1e30); }
 
 /// Small differences of large scalars.
 RayScene OffsetScalars()
@@ -409,8 +396,7 @@ RayScene Sheared()
   const double worldFromMesh[3][4] = { { 2, 0.7, 0, 10 }, { 0, 0.5, 0.3, -20 },
     { 0.4, 0, -1.5, 5 } };
   const Vector middle = { 11.35, -19.6, 4.45 };
-  scene.Grid = MakePerspectiveGrid(
-    { 16, -16, 12 }, middle, { 0, 1, 0 }, 22, ImageSize, ImageSize);
+  scene.Grid = MakePerspectiveGrid({ 16, -16, 12 }, middle, { 0, 1, 0 }, 22, ImageSize, ImageSize);
   PlaceMesh(scene.Grid, worldFromMesh);
   scene.Limits.Cropping = true;
   scene.Limits.CroppingFlags = 0x7ffe7f7u;
@@ -463,7 +449,7 @@ double GetDepthScale(const ReferenceImage& reference)
   double largest = 0;
   for (const double depth : reference.Depth)
   {
-    largest = std::max(largest, std::abs(depth));
+    largest = std::max(largest, depth == -1 ? 0 : std::abs(depth)); // -1: nothing there
   }
   return largest;
 }
@@ -512,7 +498,8 @@ void CompareWithReference(
   for (std::vector<double>& differences : kernelDifferences)
   {
     RayCastOptions options;
-    options.Arithmetic = &differences == &kernelDifferences[0] ? Precision::Single : Precision::Double;
+    options.Arithmetic =
+      &differences == &kernelDifferences[0] ? Precision::Single : Precision::Double;
     options.MaximumError = 1e-9;
     const RayPicture fast = Cast(caster, scene, options);
     options.PortableKernels = true;
@@ -523,8 +510,8 @@ void CompareWithReference(
       double difference = 0;
       for (std::size_t i = 4 * p; i < 4 * p + 4; ++i)
       {
-        difference = std::max(
-          difference, static_cast<double>(std::abs(fast.Colors[i] - portable.Colors[i])));
+        difference =
+          std::max(difference, static_cast<double>(std::abs(fast.Colors[i] - portable.Colors[i])));
       }
       differences.push_back(difference);
       isOff[p] |= difference > KernelDifference;
@@ -579,14 +566,13 @@ void CompareWithReference(
         depthError = std::max(depthError, difference / depthScale);
       }
     }
-    std::cout << version.str() << ": error " << largest << ", estimate "
-              << statistics.ErrorEstimate << "; depth " << depthError << ", " << depthOutliers
-              << " outliers; " << grazed << " of " << covered << " pixels grazed\n";
+    std::cout << version.str() << ": error " << largest << ", estimate " << statistics.ErrorEstimate
+              << "; depth " << depthError << ", " << depthOutliers << " outliers; " << grazed
+              << " of " << covered << " pixels grazed\n";
     EXPECT_LE(largest, allowed) << "pixel " << worst % scene.Grid.Width << ", "
                                 << worst / scene.Grid.Width;
     EXPECT_LE(static_cast<double>(grazed), largestGrazedShare * static_cast<double>(covered));
-    EXPECT_LE(
-      static_cast<double>(depthOutliers), DepthOutlierShare * static_cast<double>(covered));
+    EXPECT_LE(static_cast<double>(depthOutliers), DepthOutlierShare * static_cast<double>(covered));
   }
 
   for (std::size_t p = 0; p < pixels; ++p)
@@ -610,15 +596,17 @@ TEST_P(RayCasterScenes, AgreesWithReference)
   CompareWithReference(GetParam().Name, GetParam().Make(), GetParam().LargestGrazedShare);
 }
 
-#define SCENE(name) NamedScene{ #name, &name }
-#define GRAZING_SCENE(name, share) NamedScene{ #name, &name, share }
+#define SCENE(name)                                                                                \
+  NamedScene { #name, &name }
+#define GRAZING_SCENE(name, share)                                                                 \
+  NamedScene { #name, &name, share }
 INSTANTIATE_TEST_SUITE_P(RayCaster, RayCasterScenes,
   testing::Values(SCENE(Perspective), SCENE(Parallel), SCENE(Inside), SCENE(InsideOfWholeLines),
     GRAZING_SCENE(AlongGridLines, 0.1), SCENE(AlongDiagonals),
     GRAZING_SCENE(ThroughFacesOfCellScalars, 0.5), SCENE(FarAway), SCENE(VeryFarAway),
-    SCENE(BoundaryLayer), SCENE(BoundaryLayerFromAbove), SCENE(OpticalDepthOfAMillion),
-    SCENE(Steps), SCENE(OneStep), SCENE(Needle), SCENE(TinyScalars), SCENE(HugeScalars),
-    SCENE(OffsetScalars), SCENE(ScalarsBeyondTheFunction), SCENE(ConstantField),
+    SCENE(HugeWorld), SCENE(TinyWorld), SCENE(BoundaryLayer), SCENE(BoundaryLayerFromAbove),
+    SCENE(OpticalDepthOfAMillion), SCENE(Steps), SCENE(OneStep), SCENE(Needle), SCENE(TinyScalars),
+    SCENE(HugeScalars), SCENE(OffsetScalars), SCENE(ScalarsBeyondTheFunction), SCENE(ConstantField),
     SCENE(ConstantFieldAtAStep), SCENE(PlateauAtAStep), SCENE(CellScalars),
     SCENE(MissingPointScalars), SCENE(MissingCellScalars), SCENE(ClippingPlanes),
     SCENE(MaximumDistances), SCENE(Sheared), SCENE(FlatCells)),
@@ -650,7 +638,8 @@ TEST(RayCaster, AgreesWithReferenceForEveryKindOfCropping)
     const double turn = unit(generator);
     scene.Grid = i % 3 == 0
       ? MakeParallelGrid({ 0.511, 0.523, 4 }, { 0.511, 0.523, 0 }, { 0, 1, 0 }, 0.7, 20, 20)
-      : LookAtUnitCube({ 0.5 + 3 * std::cos(6 * turn), 1.7 * turn, 0.5 + 3 * std::sin(6 * turn) }, 20);
+      : LookAtUnitCube(
+          { 0.5 + 3 * std::cos(6 * turn), 1.7 * turn, 0.5 + 3 * std::sin(6 * turn) }, 20);
     std::ostringstream name;
     name << "Cropping " << std::hex << allFlags[i];
     CompareWithReference(name.str(), scene);
@@ -703,8 +692,8 @@ TEST(RayCaster, AgreesWithReferenceForEveryGeneratedMesh)
     {
       node.Scalar = *low + node.Scalar * (*high - *low);
     }
-    scene.Grid = MakePerspectiveGrid({ middle[0] + 1.2 * diagonal, middle[1] + 0.9 * diagonal,
-                                       middle[2] + 1.1 * diagonal },
+    scene.Grid = MakePerspectiveGrid(
+      { middle[0] + 1.2 * diagonal, middle[1] + 0.9 * diagonal, middle[2] + 1.1 * diagonal },
       middle, { 0, 0.1, 1 }, 30, ImageSize, ImageSize);
     CompareWithReference(generator.Name, scene);
   }
@@ -731,9 +720,8 @@ TEST(RayCaster, ManyCrossings)
   scene.Mesh.Cells = std::move(kept);
   scene.Scalars = MakeSmoothField(scene.Mesh);
   scene.Function = MakeColorfulFunction(3);
-  scene.Grid =
-    MakePerspectiveGrid({ -4, 0.52, 0.47 }, { 9, 0.5, 0.5 }, { 0, 1, 0 }, 14, 24, 24);
-  CompareWithReference("ManyCrossings", scene, 0.2);
+  scene.Grid = MakePerspectiveGrid({ -4, 0.52, 0.47 }, { 9, 0.5, 0.5 }, { 0, 1, 0 }, 14, 24, 24);
+  CompareWithReference("ManyCrossings", scene);
 
   // A path begins at one crossing and ends at another.
   scene.Grid = MakeTile(scene.Grid, 12, 12, 1, 1);
@@ -833,9 +821,9 @@ TEST(RayCaster, OpticalDepthIsTheLengthOfAnyRay)
     const double longitude = 7 * unit(generator);
     const double height = 2 * unit(generator) - 1;
     const double around = std::sqrt(1 - height * height);
-    scene.Grid = MakePerspectiveGrid({ 0.5 + distance * around * std::cos(longitude),
-                                       0.5 + distance * around * std::sin(longitude),
-                                       0.5 + distance * height },
+    scene.Grid = MakePerspectiveGrid(
+      { 0.5 + distance * around * std::cos(longitude),
+        0.5 + distance * around * std::sin(longitude), 0.5 + distance * height },
       { 0.5, 0.5, 0.5 }, { 0.3, 0.4, 0.5 }, 40, 96, 96);
     for (const Precision precision : { Precision::Single, Precision::Double })
     {
@@ -844,10 +832,9 @@ TEST(RayCaster, OpticalDepthIsTheLengthOfAnyRay)
       const RayPicture picture = Cast(caster, scene, options);
       for (int p = 0; p < 96 * 96; ++p)
       {
-        const double error =
-          std::abs(GetLength(picture, p) - GetChord(scene.Grid, p % 96, p / 96));
-        ASSERT_LE(error, LengthError) << "camera " << camera << ", pixel " << p << ", "
-                                      << GetName(precision) << " precision";
+        const double error = std::abs(GetLength(picture, p) - GetChord(scene.Grid, p % 96, p / 96));
+        ASSERT_LE(error, LengthError)
+          << "camera " << camera << ", pixel " << p << ", " << GetName(precision) << " precision";
         double& most = largest[precision == Precision::Double];
         most = std::max(most, error);
       }
@@ -875,7 +862,7 @@ TEST(RayCaster, OpticalDepthIsTheLengthOfRaysThroughVerticesEdgesAndFaces)
     {
       // A corner of a cell, the middle of an edge or of a face; seen from another one, from any
       // direction, or along an axis or a diagonal.
-      const auto pickTarget = [&](double (&target)[3])
+      const auto pickTarget = [&](double(&target)[3])
       {
         const std::size_t cell = generator() % scene.Mesh.GetNumberOfCells();
         const int corners = 1 + static_cast<int>(generator() % 3);
@@ -1106,10 +1093,10 @@ TEST(RayCaster, ClearWhereThereIsNothing)
       RayCastOptions options;
       options.Arithmetic = precision;
       const RayPicture picture = Cast(caster, scene, options);
-      EXPECT_TRUE(std::all_of(
-        picture.Colors.begin(), picture.Colors.end(), [](float c) { return c == 0; }));
-      EXPECT_TRUE(std::all_of(
-        picture.Depths.begin(), picture.Depths.end(), [](float d) { return d == -1; }));
+      EXPECT_TRUE(
+        std::all_of(picture.Colors.begin(), picture.Colors.end(), [](float c) { return c == 0; }));
+      EXPECT_TRUE(
+        std::all_of(picture.Depths.begin(), picture.Depths.end(), [](float d) { return d == -1; }));
       EXPECT_FALSE(std::isnan(picture.Statistics.ErrorEstimate));
     }
   };
@@ -1161,8 +1148,7 @@ TEST(RayCaster, ProgressIsToldAndAborts)
     };
     EXPECT_FALSE(Cast(caster, scene, options).Statistics.Aborted);
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
-    EXPECT_TRUE(
-      std::all_of(told.begin(), told.end(), [](double t) { return t > 0 && t <= 1; }));
+    EXPECT_TRUE(std::all_of(told.begin(), told.end(), [](double t) { return t > 0 && t <= 1; }));
     if (threads == 1)
     {
       ASSERT_FALSE(told.empty());
@@ -1212,7 +1198,10 @@ TEST(RayCaster, RefusesWhatDoesNotFitInOneLine)
   RayCaster caster = scene.MakeRayCaster();
   const std::size_t points = caster.GetMesh()->GetMesh().GetNumberOfPoints();
   ASSERT_EQ(points, 64u);
-  EXPECT_EQ(GetError([&] { caster.SetPointScalars({ 1, 2, 3 }); }),
+  EXPECT_EQ(GetError(
+              [&] {
+                caster.SetPointScalars({ 1, 2, 3 });
+              }),
     "3 scalars were given for 64 points");
   EXPECT_EQ(GetError([&] { caster.SetCellScalars(std::vector<double>(64)); }),
     "64 scalars were given for 135 cells");
@@ -1232,12 +1221,12 @@ TEST(RayCaster, RefusesWhatDoesNotFitInOneLine)
   RayCaster bare;
   EXPECT_EQ(GetError([&] { cast(bare); }),
     "a mesh and a transfer function must be set before rays are cast");
-  EXPECT_EQ(GetError([&] { bare.SetPointScalars({ 1 }); }),
-    "the mesh must be set before its scalars");
+  EXPECT_EQ(
+    GetError([&] { bare.SetPointScalars({ 1 }); }), "the mesh must be set before its scalars");
   bare.SetMesh(std::make_shared<WalkMesh>(scene.Mesh));
   bare.SetTransferFunction(scene.Function);
-  EXPECT_EQ(GetError([&] { cast(bare); }),
-    "scalars must be set after the mesh and before rays are cast");
+  EXPECT_EQ(
+    GetError([&] { cast(bare); }), "scalars must be set after the mesh and before rays are cast");
   EXPECT_NE(GetError([&] { bare.SetTransferFunction({}); }), "no error");
 }
 
