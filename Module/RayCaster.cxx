@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <stdexcept>
+#include <thread>
 
 #include <omp.h>
 
@@ -367,6 +369,17 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   std::exception_ptr failure;
   KernelCounts counts;
 
+  // By the calling thread only.
+  const auto report = [&]()
+  {
+    if (omp_get_thread_num() == 0 && options.Progress &&
+      !options.Progress(static_cast<double>(tilesDone) / tiles))
+    {
+      statistics.Aborted = true;
+      stop = true;
+    }
+  };
+
 #pragma omp parallel num_threads(threads)
   {
     KernelCounts own;
@@ -386,13 +399,8 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
           const int y = tile / tilesX * TileSize;
           kernel(in, x, y, std::min(x + TileSize, grid.Width), std::min(y + TileSize, grid.Height),
             buffer, own);
-          const int done = ++tilesDone;
-          if (omp_get_thread_num() == 0 && options.Progress &&
-            !options.Progress(static_cast<double>(done) / tiles))
-          {
-            statistics.Aborted = true;
-            stop = true;
-          }
+          ++tilesDone;
+          report();
         }
         catch (...)
         {
@@ -401,11 +409,18 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
           stop = true;
         }
       }
+      // Tiles go to whoever is free; the calling thread stays to be asked while others finish.
+      while (omp_get_thread_num() == 0 && options.Progress && !stop && tilesDone < tiles)
+      {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        report();
+      }
     }
     catch (...)
     {
 #pragma omp critical(tetralux_cast_failure)
       failure = std::current_exception();
+      stop = true;
     }
 #pragma omp critical(tetralux_cast_counts)
     {
