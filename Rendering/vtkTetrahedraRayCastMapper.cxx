@@ -249,9 +249,12 @@ void vtkTetrahedraRayCastMapper::Internals::DrawFrame(vtkRenderer* renderer, vtk
   this->Cast(renderer, volume, rays);
 
   const Stopwatch compositeStopwatch;
-  this->Compositor.Composite(this->Window, rays.GetVisible(),
-    vtkFloatArray::SafeDownCast(this->Image->GetPointData()->GetArray("RGBA"))->GetPointer(0),
-    this->Last.Size[0], this->Last.Size[1]);
+  if (this->Last.Rays.Paths > 0) // else there is nothing in the picture
+  {
+    this->Compositor.Composite(this->Window, rays.GetVisible(),
+      vtkFloatArray::SafeDownCast(this->Image->GetPointData()->GetArray("RGBA"))->GetPointer(0),
+      this->Last.Size[0], this->Last.Size[1]);
+  }
   this->Last.CompositeSeconds = compositeStopwatch.GetSeconds();
   this->Last.Seconds = stopwatch.GetSeconds();
 }
