@@ -481,8 +481,7 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
       }
       Real z[Width];
       const auto scale = typename LanesOf<Real>::Type(Real(1)) / (t.BC + t.CA + t.AB);
-      Store(
-        z, Blend(t.CA * scale, t.AB * scale, corners[0].Z, corners[1].Z, corners[2].Z));
+      Store(z, Blend(t.CA * scale, t.AB * scale, corners[0].Z, corners[1].Z, corners[2].Z));
       for (int lane = 0; bits != 0; ++lane, bits >>= 1)
       {
         if (!(bits & 1u))

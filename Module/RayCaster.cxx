@@ -26,6 +26,9 @@ constexpr int TileSize = 16;
 
 constexpr int InitialCrossings = 32;
 
+/// Between two reports of progress: short for a user who wants to abort, long for the work.
+constexpr std::chrono::milliseconds ReportInterval(5);
+
 /// Leaving transparent cells out takes tables of its own; below this share of the cells it is not
 /// tried.
 constexpr double MinimumTransparentShare = 0.1;
@@ -369,11 +372,17 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   std::exception_ptr failure;
   KernelCounts counts;
 
-  // By the calling thread only.
+  // By the calling thread only, and not for every tile: who is asked may look at a window's events.
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point nextReport = Clock::now();
   const auto report = [&]()
   {
-    if (omp_get_thread_num() == 0 && options.Progress &&
-      !options.Progress(static_cast<double>(tilesDone) / tiles))
+    if (omp_get_thread_num() != 0 || !options.Progress || Clock::now() < nextReport)
+    {
+      return;
+    }
+    nextReport = Clock::now() + ReportInterval;
+    if (!options.Progress(static_cast<double>(tilesDone) / tiles))
     {
       statistics.Aborted = true;
       stop = true;
@@ -432,6 +441,10 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   if (failure)
   {
     std::rethrow_exception(failure);
+  }
+  if (options.Progress && !statistics.Aborted)
+  {
+    options.Progress(1); // too late to abort
   }
   statistics.InstructionSet = set.Name;
   statistics.NumberOfThreads = threads;

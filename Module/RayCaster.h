@@ -42,8 +42,8 @@ struct RayCastOptions
   /// differ by rounding. For tests of those kernels.
   bool PortableKernels = false;
 
-  /// Called now and then, by the calling thread only, with the share that is done, 0..1; returns
-  /// false to abort. May be empty.
+  /// Called every few milliseconds, by the calling thread only, with the share that is done, 0..1;
+  /// returns false to abort. The last call is with 1, when nothing is left to abort. May be empty.
   std::function<bool(double)> Progress;
 };
 

@@ -78,6 +78,7 @@ def time_mapper(mapper, options):
     renderer = vtkRenderer()
     renderer.AddVolume(volume)
     window = tetralux.vtkHeadlessRenderWindow()
+    window.SetMultiSamples(0)  # there is no geometry to smooth
     window.SetSize(options.size, options.size)
     window.AddRenderer(renderer)
     camera = renderer.GetActiveCamera()
