@@ -6,8 +6,9 @@
         python3 Testing/Benchmarks/frame_time.py [--size 512] [--frames 5] [--parallel]
 
 Renders the NASA blunt fin (187,395 tetrahedra), the best of several frames each, without a
-display. Times are of whole frames, compositing included; a frame of each mapper is rendered
-before any is timed.
+display and without multisampling, which on software OpenGL costs every mapper some 10 ms a frame.
+Times are of whole frames, compositing included; a frame of each mapper is rendered before any is
+timed.
 """
 
 import argparse
