@@ -3,6 +3,7 @@
 #define tetralux_ImageComparison_h
 
 #include "Span.h"
+#include "TetraluxCoreModule.h"
 
 #include <cstddef>
 #include <iosfwd>
@@ -32,11 +33,12 @@ struct ImageComparison
 /// Compares a picture with its reference: four channels for each pixel, premultiplied.
 /// grazing: one for each pixel, from MeasureGrazing, or empty; a pixel above grazingThreshold is
 /// grazed. Throws std::invalid_argument where the sizes differ.
-ImageComparison CompareWithReference(Span<const float> rgba, Span<const double> reference,
-  Span<const double> grazing = {}, double grazingThreshold = 2e-5);
+TETRALUXCORE_EXPORT ImageComparison CompareWithReference(Span<const float> rgba,
+  Span<const double> reference, Span<const double> grazing = {}, double grazingThreshold = 2e-5);
 
 /// One line for each of the two sets.
-std::ostream& operator<<(std::ostream& stream, const ImageComparison& comparison);
+TETRALUXCORE_EXPORT std::ostream& operator<<(
+  std::ostream& stream, const ImageComparison& comparison);
 
 } // namespace tetralux
 
