@@ -80,18 +80,6 @@ void SelectScalars(const ArrayChoice& choice, vtkTetrahedraRayCastMapper* mapper
   mapper->SetVectorComponent(choice.Component);
 }
 
-/// The range for the default colours; that of a constant is widened, so that it gets the middle.
-std::array<double, 2> GetColorRange(const ArrayChoice& choice)
-{
-  std::array<double, 2> range = choice.Range;
-  if (range[0] == range[1])
-  {
-    const double half = std::max(std::abs(range[0]), 1.0) / 2;
-    range = { range[0] - half, range[1] + half };
-  }
-  return range;
-}
-
 bool IsEmpty(vtkImageData* image)
 {
   vtkDataArray* colors = image->GetPointData()->GetArray("RGBA");
@@ -214,7 +202,7 @@ void RenderPicture(const RenderOptions& options)
   const ArrayChoice choice = ChooseArray(data, options.Array, options.Component);
   if (options.TransferFile.empty())
   {
-    MakeDefaultTransferFunction(GetColorRange(choice).data(), functions);
+    MakeDefaultTransferFunction(choice.Range.data(), functions);
   }
   SelectScalars(choice, mapper);
   mapper->SetInputData(data.GetPointer());

@@ -179,6 +179,8 @@ void ReadTransferFunction(const std::string& fileName, ColorAndOpacity& function
 
 void MakeDefaultTransferFunction(const double range[2], ColorAndOpacity& functions)
 {
-  SetCoolToWarm(range, functions.Color);
-  SetRamp(range, functions.Opacity);
+  const double half = range[0] == range[1] ? std::max(std::abs(range[0]), 1.0) / 2 : 0;
+  const double widened[2] = { range[0] - half, range[1] + half };
+  SetCoolToWarm(widened, functions.Color);
+  SetRamp(widened, functions.Opacity);
 }

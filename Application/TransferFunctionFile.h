@@ -23,7 +23,8 @@ struct ColorAndOpacity
 /// Throws WorkError with the file's name.
 void ReadTransferFunction(const std::string& fileName, ColorAndOpacity& functions);
 
-/// ParaView's cool to warm over a range of scalars, with an opacity that rises from 0 to 1.
+/// ParaView's cool to warm over a range of scalars, with an opacity that rises from 0 to 1. A range of
+/// one scalar is widened, so that the scalar gets the middle.
 void MakeDefaultTransferFunction(const double range[2], ColorAndOpacity& functions);
 
 #endif
