@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace tetralux
 {
@@ -61,9 +62,23 @@ double OpticalDepth(const Piece& piece)
   return piece.Length * 0.5 * (piece.Begin.Attenuation + piece.End.Attenuation);
 }
 
-/// The radiance that reaches the begin of the piece is
-/// weights[0] * Begin.Color + weights[1] * End.Color.
-void IntegratePiece(const Piece& piece, double weights[2])
+/// The colour that the piece emits is weights[0] * Begin.Color + weights[1] * End.Color.
+void IntegrateEmission(const Piece& piece, double weights[2])
+{
+  static const GaussLegendre rule;
+  weights[0] = weights[1] = 0;
+  for (int i = 0; i < GaussLegendre::Order; ++i)
+  {
+    const double x = rule.Points[i];
+    const double local = piece.Begin.Attenuation * (1 - x) + piece.End.Attenuation * x;
+    const double emitted = piece.Length * rule.Weights[i] * local;
+    weights[0] += emitted * (1 - x);
+    weights[1] += emitted * x;
+  }
+}
+
+/// What of it reaches the begin of the piece.
+void IntegrateEmissionAbsorption(const Piece& piece, double weights[2])
 {
   static const GaussLegendre rule;
   weights[0] = weights[1] = 0;
@@ -131,8 +146,16 @@ TransferFunction::Value Evaluate(const TransferFunction& function, std::size_t k
 } // namespace
 
 ReferenceSegment IntegrateReference(
-  const TransferFunction& function, double s0, double s1, double length)
+  const TransferFunction& function, double s0, double s1, double length, OpticalModel model)
 {
+  const bool absorbs =
+    model == OpticalModel::EmissionAbsorption || model == OpticalModel::AbsorptionOnly;
+  const bool emits =
+    model == OpticalModel::EmissionAbsorption || model == OpticalModel::EmissionOnly;
+  if (!absorbs && !emits)
+  {
+    throw std::invalid_argument("IntegrateReference: the model is no integral");
+  }
   const auto& nodes = function.Nodes;
   const long double range = static_cast<long double>(s1) - s0;
   ReferenceSegment result;
@@ -170,9 +193,12 @@ ReferenceSegment IntegrateReference(
         result.FirstContribution =
           s0 == s1 ? 0.0 : static_cast<double>((static_cast<long double>(s) - s0) / range);
       }
-      double weights[2];
-      IntegratePiece(piece, weights);
-      const double transmittance = std::exp(-result.OpticalDepth);
+      double weights[2] = { 0, 0 };
+      if (emits)
+      {
+        (absorbs ? IntegrateEmissionAbsorption : IntegrateEmission)(piece, weights);
+      }
+      const double transmittance = absorbs ? std::exp(-result.OpticalDepth) : 1;
       for (int channel = 0; channel < 3; ++channel)
       {
         result.Color[channel] += transmittance *
@@ -187,8 +213,18 @@ ReferenceSegment IntegrateReference(
     s = next;
     k = nextInterval;
   }
-  result.Alpha = -std::expm1(-result.OpticalDepth);
+  result.Alpha = absorbs ? -std::expm1(-result.OpticalDepth) : 0;
   return result;
+}
+
+TransferFunction::Value EvaluateReference(const TransferFunction& function, double s)
+{
+  std::size_t k = 0;
+  while (k < function.Nodes.size() && function.Nodes[k].Scalar <= s)
+  {
+    ++k;
+  }
+  return Evaluate(function, k, s);
 }
 
 } // namespace tetralux

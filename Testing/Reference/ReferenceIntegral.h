@@ -2,6 +2,7 @@
 #ifndef tetralux_ReferenceIntegral_h
 #define tetralux_ReferenceIntegral_h
 
+#include "OpticalModel.h"
 #include "TransferFunction.h"
 
 namespace tetralux
@@ -11,23 +12,27 @@ namespace tetralux
 struct ReferenceSegment
 {
   double Color[3] = { 0, 0, 0 }; ///< red, green, blue, premultiplied
-  double Alpha = 0;              ///< 1 - exp(-OpticalDepth)
-  double OpticalDepth = 0;
+  double Alpha = 0;              ///< 1 - exp(-OpticalDepth); 0 where nothing is absorbed
+  double OpticalDepth = 0;       ///< the integral of the attenuation, whatever the model
 
   /// Where along the segment, 0..1, the first piece with any attenuation begins; -1: nowhere.
   double FirstContribution = -1;
 };
 
-/// Emission and absorption along a segment of a ray over which the scalar goes linearly from s0 to
-/// s1, in front of nothing. length: world units, at least 0.
+/// Emission, absorption or both along a segment of a ray over which the scalar goes linearly from s0
+/// to s1, in front of nothing. length: world units, at least 0. Throws std::invalid_argument for the
+/// models that are no integrals.
 ///
 /// Numerical quadrature, independent of any closed form: split at the nodes of the transfer
 /// function, then at every unit of optical depth, then Gauss-Legendre. The relative error is below
 /// 1e-12 at any optical depth; what lies behind an optical depth of 42 is left out (below 1e-18).
 ///
 /// A constant scalar that equals a node's takes the node's Right value.
-ReferenceSegment IntegrateReference(
-  const TransferFunction& function, double s0, double s1, double length);
+ReferenceSegment IntegrateReference(const TransferFunction& function, double s0, double s1,
+  double length, OpticalModel model = OpticalModel::EmissionAbsorption);
+
+/// The function at a scalar; at a node the Right value.
+TransferFunction::Value EvaluateReference(const TransferFunction& function, double s);
 
 } // namespace tetralux
 

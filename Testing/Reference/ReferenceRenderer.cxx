@@ -2,6 +2,7 @@
 #include "ReferenceRenderer.h"
 
 #include "ReferenceIntegral.h"
+#include "ReferenceShading.h"
 
 #include <algorithm>
 #include <array>
@@ -169,6 +170,7 @@ struct Segment
   double BeginScalar;
   double EndScalar;
   std::int32_t Pixel; ///< in the band
+  std::int32_t Cell;
 };
 
 /// Clips the ray by a cell; false if the ray misses it. Of the four faces a ray passes none or two.
@@ -471,62 +473,103 @@ Intervals ApplyLimits(
   return kept;
 }
 
-/// Front to back over the segments of one pixel.
-class Compositor
+/// The part of a segment that the limits keep.
+struct SegmentPart
 {
-public:
-  Compositor(const TransferFunction& function)
-    : Function(function)
-  {
-  }
-
-  /// Adds the part of the segment that lies in begin..end.
-  void Add(const Segment& segment, Real begin, Real end)
-  {
-    const Real segmentEnd = segment.Begin + segment.Length;
-    if (begin >= segmentEnd || end <= segment.Begin)
-    {
-      return;
-    }
-    Real t = segment.Begin;
-    double length = segment.Length;
-    double s0 = segment.BeginScalar;
-    double s1 = segment.EndScalar;
-    if (begin > segment.Begin || end < segmentEnd)
-    {
-      t = std::max(begin, segment.Begin);
-      length = static_cast<double>(std::min(end, segmentEnd) - t);
-      const double from = static_cast<double>(t - segment.Begin) / segment.Length;
-      const double to = from + length / segment.Length;
-      const double change = segment.EndScalar - segment.BeginScalar;
-      s0 = segment.BeginScalar + change * from;
-      s1 = segment.BeginScalar + change * to;
-    }
-    this->Length += length;
-    const ReferenceSegment part = IntegrateReference(this->Function, s0, s1, length);
-    if (this->OpticalDepth == 0 && part.OpticalDepth > 0)
-    {
-      this->Depth = static_cast<double>(t + part.FirstContribution * length);
-    }
-    const double transmittance = std::exp(-this->OpticalDepth);
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      this->Rgba[channel] += transmittance * part.Color[channel];
-    }
-    this->OpticalDepth += part.OpticalDepth;
-    this->Rgba[3] = -std::expm1(-this->OpticalDepth);
-  }
-
-  double Rgba[4] = { 0, 0, 0, 0 };
-  double Depth = -1;
-  double Length = 0;
-
-private:
-  const TransferFunction& Function;
-  double OpticalDepth = 0;
+  Real Begin; ///< world distance along the ray
+  double Length;
+  double BeginScalar;
+  double EndScalar;
+  std::int32_t Cell;
 };
 
-void Check(const ReferenceMesh& mesh, const TransferFunction& function, const RayGrid& rays,
+/// The part of the segment in begin..end; false if there is none.
+bool CutSegment(const Segment& segment, Real begin, Real end, SegmentPart& part)
+{
+  const Real segmentEnd = segment.Begin + segment.Length;
+  if (begin >= segmentEnd || end <= segment.Begin)
+  {
+    return false;
+  }
+  part = { segment.Begin, segment.Length, segment.BeginScalar, segment.EndScalar, segment.Cell };
+  if (begin > segment.Begin || end < segmentEnd)
+  {
+    part.Begin = std::max(begin, segment.Begin);
+    part.Length = static_cast<double>(std::min(end, segmentEnd) - part.Begin);
+    const double from = static_cast<double>(part.Begin - segment.Begin) / segment.Length;
+    const double to = from + part.Length / segment.Length;
+    const double change = segment.EndScalar - segment.BeginScalar;
+    part.BeginScalar = segment.BeginScalar + change * from;
+    part.EndScalar = segment.BeginScalar + change * to;
+  }
+  return true;
+}
+
+/// What a ray gathers over its parts.
+struct RayResult
+{
+  double Rgba[4] = { 0, 0, 0, 0 };
+  double Depth = -1;
+};
+
+/// Emission and absorption, or one of them, front to back.
+RayResult Integrate(const ReferenceOptics& optics, const std::vector<SegmentPart>& parts)
+{
+  const bool absorbs = optics.Model != OpticalModel::EmissionOnly;
+  RayResult result;
+  double opticalDepth = 0;
+  for (const SegmentPart& part : parts)
+  {
+    const ReferenceSegment segment = IntegrateReference(
+      optics.Function, part.BeginScalar, part.EndScalar, part.Length, optics.Model);
+    if (opticalDepth == 0 && segment.OpticalDepth > 0)
+    {
+      result.Depth = static_cast<double>(part.Begin + segment.FirstContribution * part.Length);
+    }
+    const double transmittance = absorbs ? std::exp(-opticalDepth) : 1;
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      result.Rgba[channel] += transmittance * segment.Color[channel];
+    }
+    opticalDepth += segment.OpticalDepth;
+    result.Rgba[3] = absorbs ? -std::expm1(-opticalDepth) : 0;
+  }
+  return result;
+}
+
+/// The largest scalar, classified.
+RayResult FindMaximum(const ReferenceOptics& optics, const std::vector<SegmentPart>& parts)
+{
+  double largest = -std::numeric_limits<double>::infinity();
+  Real depth = -1;
+  const auto consider = [&](double scalar, Real t)
+  {
+    if (scalar > largest)
+    {
+      largest = scalar;
+      depth = t;
+    }
+  };
+  for (const SegmentPart& part : parts)
+  {
+    consider(part.BeginScalar, part.Begin);
+    consider(part.EndScalar, part.Begin + part.Length);
+  }
+  RayResult result;
+  if (!parts.empty())
+  {
+    const TransferFunction::Value value = EvaluateReference(optics.Function, largest);
+    result.Rgba[3] = std::min(1.0, value.Attenuation);
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      result.Rgba[channel] = result.Rgba[3] * value.Color[channel];
+    }
+    result.Depth = result.Rgba[3] > 0 ? static_cast<double>(depth) : -1;
+  }
+  return result;
+}
+
+void Check(const ReferenceMesh& mesh, const ReferenceOptics& optics, const RayGrid& rays,
   Span<const std::uint8_t> pixels)
 {
   const auto require = [](bool condition, const char* message)
@@ -541,7 +584,20 @@ void Check(const ReferenceMesh& mesh, const TransferFunction& function, const Ra
   require(
     mesh.Scalars.size() == (mesh.CellScalars ? mesh.Cells.size() / 4 : mesh.Points.size() / 3),
     "RenderReference: Scalars must hold one value for each point, or cell with CellScalars");
-  require(!function.Nodes.empty(), "RenderReference: the transfer function has no nodes");
+  if (optics.Model == OpticalModel::Isosurfaces)
+  {
+    const auto& surfaces = optics.Isosurfaces;
+    for (std::size_t i = 0; i + 1 < surfaces.size(); ++i)
+    {
+      require(surfaces[i].Value < surfaces[i + 1].Value,
+        "RenderReference: the values of Isosurfaces must ascend");
+    }
+    require(!mesh.CellScalars, "RenderReference: Isosurfaces need one scalar for each point");
+  }
+  else
+  {
+    require(!optics.Function.Nodes.empty(), "RenderReference: the transfer function has no nodes");
+  }
   require(rays.Width > 0 && rays.Height > 0, "RenderReference: the image has no pixels");
   require(pixels.empty() || pixels.size() == static_cast<std::size_t>(rays.Width) * rays.Height,
     "RenderReference: pixels must hold one value for each pixel");
@@ -584,10 +640,10 @@ bool GetCell(const ReferenceMesh& mesh, std::size_t id, Cell& cell)
 class BandRenderer
 {
 public:
-  BandRenderer(const ReferenceMesh& mesh, const TransferFunction& function, const RayGrid& grid,
+  BandRenderer(const ReferenceMesh& mesh, const ReferenceOptics& optics, const RayGrid& grid,
     const RayLimits& limits, Span<const std::uint8_t> pixels)
     : Mesh(mesh)
-    , Function(function)
+    , Optics(optics)
     , Grid(grid)
     , Limits(limits)
     , Pixels(pixels)
@@ -678,6 +734,7 @@ private:
         {
           Segment segment;
           segment.Pixel = (j - rows.First) * this->Grid.Width + i;
+          segment.Cell = static_cast<std::int32_t>(id);
           const Ray& ray = rays[segment.Pixel];
           if (ray.Valid && ClipByCell(ray, cell.Coordinates, cell.Scalars, segment))
           {
@@ -699,21 +756,136 @@ private:
       end = std::max(end, segment.Begin + segment.Length);
     }
     const Intervals kept = ApplyLimits(this->Limits, ray, pixel, segments[0].Begin, end);
-    Compositor compositor(this->Function);
+    std::vector<SegmentPart> parts;
     for (const Segment& segment : segments)
     {
       for (const auto& interval : kept)
       {
-        compositor.Add(segment, interval[0], interval[1]);
+        SegmentPart part;
+        if (CutSegment(segment, interval[0], interval[1], part))
+        {
+          parts.push_back(part);
+          image.Length[pixel] += part.Length;
+        }
       }
     }
-    std::copy(compositor.Rgba, compositor.Rgba + 4, image.Rgba.begin() + 4 * pixel);
-    image.Depth[pixel] = compositor.Depth;
-    image.Length[pixel] = compositor.Length;
+    const RayResult result = this->Optics.Model == OpticalModel::Isosurfaces
+      ? this->CompositeSurfaces(ray, parts)
+      : this->Optics.Model == OpticalModel::MaximumIntensity ? FindMaximum(this->Optics, parts)
+                                                             : Integrate(this->Optics, parts);
+    std::copy(result.Rgba, result.Rgba + 4, image.Rgba.begin() + 4 * pixel);
+    image.Depth[pixel] = result.Depth;
+  }
+
+  /// The surfaces that the ray meets, front to back, also where cells overlap.
+  RayResult CompositeSurfaces(const Ray& ray, const std::vector<SegmentPart>& parts) const
+  {
+    struct Crossing
+    {
+      Real T;
+      std::int32_t Cell;
+      const Isosurface* Surface;
+    };
+    std::vector<Crossing> crossings;
+    for (const SegmentPart& part : parts)
+    {
+      const double s0 = part.BeginScalar;
+      const double s1 = part.EndScalar;
+      const auto first = crossings.size();
+      for (const Isosurface& surface : this->Optics.Isosurfaces)
+      {
+        if ((s0 < surface.Value) != (s1 < surface.Value))
+        {
+          const Real share = (static_cast<Real>(surface.Value) - s0) / (static_cast<Real>(s1) - s0);
+          crossings.push_back({ part.Begin + share * part.Length, part.Cell, &surface });
+        }
+      }
+      if (s1 < s0)
+      {
+        std::reverse(crossings.begin() + first, crossings.end());
+      }
+    }
+    std::stable_sort(crossings.begin(), crossings.end(),
+      [](const Crossing& a, const Crossing& b) { return a.T < b.T; });
+
+    RayResult result;
+    for (const Crossing& crossing : crossings)
+    {
+      const double opacity = crossing.Surface->Opacity;
+      if (result.Depth == -1 && opacity > 0)
+      {
+        result.Depth = static_cast<double>(crossing.T);
+      }
+      const std::array<double, 3> color =
+        this->GetColor(ray, crossing.T, crossing.Cell, *crossing.Surface);
+      const double share = (1 - result.Rgba[3]) * opacity;
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        result.Rgba[channel] += share * color[channel];
+      }
+      result.Rgba[3] += share;
+    }
+    return result;
+  }
+
+  /// The colour in which the ray sees the surface at distance t.
+  std::array<double, 3> GetColor(
+    const Ray& ray, Real t, std::int32_t cell, const Isosurface& surface) const
+  {
+    if (!this->Optics.Shaded)
+    {
+      return { surface.Color[0], surface.Color[1], surface.Color[2] };
+    }
+    const Vector gradient = this->GetGradient(cell);
+    std::array<double, 3> point;
+    std::array<double, 3> normal;
+    std::array<double, 3> view;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = static_cast<double>(ray.WorldOrigin[axis] + t * ray.WorldDirection[axis]);
+      view[axis] = static_cast<double>(-ray.WorldDirection[axis]);
+      normal[axis] = 0;
+      for (int row = 0; row < 3; ++row)
+      {
+        // A gradient is carried to the world by the transpose of what carries points from there.
+        normal[axis] += static_cast<double>(this->Grid.MeshFromWorld[row][axis] * gradient[row]);
+      }
+    }
+    return ShadeReference(
+      surface.Color, this->Optics.Surface, this->Optics.Lights, point, normal, view);
+  }
+
+  /// Along the gradient of the scalar in a cell, in mesh coordinates, of any length.
+  Vector GetGradient(std::int32_t id) const
+  {
+    Cell cell;
+    GetCell(this->Mesh, static_cast<std::size_t>(id), cell);
+    Vector edges[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        edges[i][axis] =
+          static_cast<Real>(cell.Coordinates[i + 1][axis]) - cell.Coordinates[0][axis];
+      }
+    }
+    // Cramer's rule for gradient * edge = difference of scalars, for each of three edges.
+    const Real determinant = Dot(Cross(edges[0], edges[1]), edges[2]);
+    Vector gradient{ 0, 0, 0 };
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vector normal = Cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);
+      const Real difference = static_cast<Real>(cell.Scalars[i + 1]) - cell.Scalars[0];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        gradient[axis] += difference / determinant * normal[axis];
+      }
+    }
+    return gradient;
   }
 
   const ReferenceMesh& Mesh;
-  const TransferFunction& Function;
+  const ReferenceOptics& Optics;
   const RayGrid& Grid;
   const RayLimits& Limits;
   Span<const std::uint8_t> Pixels;
@@ -728,17 +900,17 @@ constexpr int PixelsPerBand = 4096;
 
 } // namespace
 
-ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction& function,
+ReferenceImage RenderReference(const ReferenceMesh& mesh, const ReferenceOptics& optics,
   const RayGrid& rays, const RayLimits& limits, Span<const std::uint8_t> pixels)
 {
-  Check(mesh, function, rays, pixels);
+  Check(mesh, optics, rays, pixels);
   const std::size_t numberOfPixels = static_cast<std::size_t>(rays.Width) * rays.Height;
   ReferenceImage image;
   image.Rgba.assign(4 * numberOfPixels, 0.0);
   image.Depth.assign(numberOfPixels, -1.0);
   image.Length.assign(numberOfPixels, 0.0);
 
-  const BandRenderer renderer(mesh, function, rays, limits, pixels);
+  const BandRenderer renderer(mesh, optics, rays, limits, pixels);
   const int rowsPerBand = std::max(1, PixelsPerBand / rays.Width);
   const int numberOfBands = (rays.Height + rowsPerBand - 1) / rowsPerBand;
   std::int64_t numberOfSegments = 0;
@@ -753,7 +925,7 @@ ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction
   return image;
 }
 
-std::vector<double> MeasureGrazing(const ReferenceMesh& mesh, const TransferFunction& function,
+std::vector<double> MeasureGrazing(const ReferenceMesh& mesh, const ReferenceOptics& optics,
   const RayGrid& rays, const RayLimits& limits, const ReferenceImage& image,
   Span<const std::uint8_t> pixels, double displacement)
 {
@@ -770,7 +942,7 @@ std::vector<double> MeasureGrazing(const ReferenceMesh& mesh, const TransferFunc
       displaced.Origin[axis] += i * rays.OriginStepX[axis] + j * rays.OriginStepY[axis];
       displaced.Direction[axis] += i * rays.DirectionStepX[axis] + j * rays.DirectionStepY[axis];
     }
-    return RenderReference(mesh, function, displaced, limits, pixels);
+    return RenderReference(mesh, optics, displaced, limits, pixels);
   };
   std::vector<double> grazing(numberOfPixels, 0.0);
   for (int direction = 0; direction < 2; ++direction)

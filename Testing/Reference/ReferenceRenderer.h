@@ -2,12 +2,14 @@
 #ifndef tetralux_ReferenceRenderer_h
 #define tetralux_ReferenceRenderer_h
 
+#include "OpticalModel.h"
 #include "RayGrid.h"
 #include "RayLimits.h"
 #include "Span.h"
 #include "TransferFunction.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tetralux
@@ -22,11 +24,33 @@ struct ReferenceMesh
   bool CellScalars = false;       ///< Scalars holds one value for each cell
 };
 
+/// What rays gather. A transfer function alone stands for emission and absorption.
+struct ReferenceOptics
+{
+  ReferenceOptics() = default;
+  ReferenceOptics(TransferFunction function, OpticalModel model = OpticalModel::EmissionAbsorption)
+    : Function(std::move(function))
+    , Model(model)
+  {
+  }
+
+  TransferFunction Function; ///< of all models but Isosurfaces
+  OpticalModel Model = OpticalModel::EmissionAbsorption;
+
+  /// Of the model Isosurfaces: strictly ascending in Value, and how they are lit where Shaded.
+  std::vector<Isosurface> Isosurfaces;
+  bool Shaded = false;
+  Material Surface;
+  std::vector<Light> Lights;
+};
+
 struct ReferenceImage
 {
   std::vector<double> Rgba; ///< premultiplied, four for each pixel, lower row first
 
-  /// World distance along the ray to where the attenuation first is more than zero; -1: nowhere.
+  /// World distance along the ray to the first contribution; -1: nowhere. That is where the
+  /// attenuation first is more than zero, where the largest scalar is met first, if its opacity is
+  /// more than zero, or the first surface whose opacity is.
   /// Negative behind the begin of the ray, which only planes of the limits cut off.
   std::vector<double> Depth;
 
@@ -38,7 +62,7 @@ struct ReferenceImage
 
 /// The oracle for every other method: each ray is clipped by every tetrahedron on its own, in
 /// extended precision; nothing is known about neighbours, nothing is tabulated, no ray ends early.
-/// See ReferenceIntegral.h for the integral over a segment.
+/// See ReferenceIntegral.h for the integral over a segment, ReferenceShading.h for lit surfaces.
 ///
 /// - Cells with point ids out of range, with infinite or undefined coordinates or scalars add
 ///   nothing; cells of zero volume add nothing. Duplicated cells count twice: clean a mesh first.
@@ -47,11 +71,13 @@ struct ReferenceImage
 ///   is in exactly one cell; a ray along the outer boundary is either inside or outside.
 /// - Segments composite in the order of their begins; so do cells that overlap.
 /// - A ray in a cropping plane belongs to the middle region, as in VTK.
+/// - A surface is met in a cell where the scalar is below its value at one end of what is kept of
+///   the ray there, and not below it at the other: one that lies in faces of the mesh is met once.
 ///
 /// pixels: Width x Height, other than 0 where a pixel is wanted; empty: all. Unwanted pixels stay
 /// empty. The picture does not depend on the number of threads.
-/// Throws std::invalid_argument where sizes do not fit together.
-ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction& function,
+/// Throws std::invalid_argument where sizes do not fit together, and for Isosurfaces of cell scalars.
+ReferenceImage RenderReference(const ReferenceMesh& mesh, const ReferenceOptics& optics,
   const RayGrid& rays, const RayLimits& limits = {}, Span<const std::uint8_t> pixels = {});
 
 /// How ill-conditioned each pixel of image is because its ray grazes a silhouette.
@@ -69,7 +95,7 @@ ReferenceImage RenderReference(const ReferenceMesh& mesh, const TransferFunction
 /// pixel's centre. A spike narrower than the displacement can be missed.
 ///
 /// Costs four pictures; pixels as in RenderReference, for measuring only where a picture is off.
-std::vector<double> MeasureGrazing(const ReferenceMesh& mesh, const TransferFunction& function,
+std::vector<double> MeasureGrazing(const ReferenceMesh& mesh, const ReferenceOptics& optics,
   const RayGrid& rays, const RayLimits& limits, const ReferenceImage& image,
   Span<const std::uint8_t> pixels = {}, double displacement = 1e-3);
 
