@@ -603,7 +603,8 @@ void Check(const ReferenceMesh& mesh, const ReferenceOptics& optics, const RayGr
     "RenderReference: pixels must hold one value for each pixel");
 }
 
-/// A cell as the renderer reads it.
+/// A cell as the renderer reads it. Its points ascend, so that both cells at a face see the very same
+/// numbers there and no surface slips through between them.
 struct Cell
 {
   std::int32_t Points[4];
@@ -615,9 +616,11 @@ struct Cell
 bool GetCell(const ReferenceMesh& mesh, std::size_t id, Cell& cell)
 {
   const std::int64_t numberOfPoints = static_cast<std::int64_t>(mesh.Points.size() / 3);
+  std::copy_n(mesh.Cells.data() + 4 * id, 4, cell.Points);
+  std::sort(cell.Points, cell.Points + 4);
   for (int i = 0; i < 4; ++i)
   {
-    const std::int32_t point = mesh.Cells[4 * id + i];
+    const std::int32_t point = cell.Points[i];
     if (point < 0 || point >= numberOfPoints)
     {
       return false;
@@ -629,7 +632,6 @@ bool GetCell(const ReferenceMesh& mesh, std::size_t id, Cell& cell)
     {
       return false;
     }
-    cell.Points[i] = point;
     cell.Coordinates[i] = x;
     cell.Scalars[i] = scalar;
   }
