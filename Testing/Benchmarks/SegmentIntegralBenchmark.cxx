@@ -44,7 +44,7 @@ void IntegrateSegments(benchmark::State& state, Form form)
   {
     const bool thin = form == Form::Thin || (form == Form::Mixed && i % 3 == 0);
     const bool rising = form == Form::Rising || (form == Form::Mixed && i % 3 == 1);
-    const double depth = thin ? std::pow(10, -4 * unit(generator) - 0.5) : 1 + 9 * unit(generator);
+    const double depth = thin ? std::pow(10, -4 * unit(generator) - 0.5) : 2 + 8 * unit(generator);
     const double share = 0.5 * unit(generator);
     d0.push_back(static_cast<float>(2 * depth * (rising ? share : 1 - share)));
     d1.push_back(static_cast<float>(2 * depth * (rising ? 1 - share : share)));
