@@ -134,4 +134,52 @@ TransferFunction::Value Evaluate(const TransferFunction& function, double scalar
   return value;
 }
 
+bool FindConstantColor(const TransferFunction& function, double color[3])
+{
+  std::fill_n(color, 3, 0.);
+  bool found = false;
+  const auto agrees = [&](const TransferFunction::Value& value)
+  {
+    if (!found)
+    {
+      std::copy_n(value.Color, 3, color);
+      found = true;
+    }
+    return std::equal(color, color + 3, value.Color);
+  };
+  const auto& nodes = function.Nodes;
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
+  {
+    const TransferFunction::Value& left = nodes[k].Right;
+    const TransferFunction::Value& right = nodes[k + 1].Left;
+    if ((left.Attenuation > 0 || right.Attenuation > 0) && !(agrees(left) && agrees(right)))
+    {
+      return false;
+    }
+  }
+  const auto outside = [&](const TransferFunction::Value& value)
+  { return !(value.Attenuation > 0) || agrees(value); };
+  return outside(nodes.front().Left) && outside(nodes.back().Right);
+}
+
+double FindSteepestColor(const IntervalTable& table)
+{
+  double steepest = 0;
+  for (const IntervalTable::Interval& t : table.Intervals)
+  {
+    const bool unbounded = !std::isfinite(t.Lo) || !std::isfinite(t.Hi); // and constant
+    const double reach =
+      unbounded ? 0 : std::max(std::abs(t.Hi - t.Reference), std::abs(t.Lo - t.Reference));
+    const double attenuation = std::abs(t.Attenuation) + std::abs(t.AttenuationSlope) * reach;
+    steepest = std::max<double>(steepest, std::abs(t.AttenuationSlope));
+    for (int c = 0; c < 3; ++c)
+    {
+      const double color = std::abs(t.Color[c]) + std::abs(t.ColorSlope[c]) * reach;
+      steepest = std::max(
+        steepest, std::abs(t.AttenuationSlope) * color + attenuation * std::abs(t.ColorSlope[c]));
+    }
+  }
+  return steepest;
+}
+
 } // namespace tetralux

@@ -7,8 +7,10 @@
 
 #include "BoundaryBvh.h"
 #include "IntervalTable.h"
+#include "OpticalModel.h"
 #include "RayGrid.h"
 #include "RayLimits.h"
+#include "SurfaceShading.h"
 #include "WalkMesh.h"
 
 #include <array>
@@ -25,13 +27,22 @@ struct KernelInput
   const WalkEntry* Entries;
   const BoundaryBvh::Node* Nodes; ///< nullptr: no boundary, an empty mesh
   const std::int32_t* Triangles;
-  std::int64_t NumberOfCells;
+  std::int32_t NumberOfCells; ///< of the mesh; those behind are imaginary
   double Center[3];
   double Radius;
 
-  // The scene. Intervals for scalars at points, CellValues for scalars at cells.
+  // What is integrated. Intervals for scalars at points, CellValues for scalars at cells; of the
+  // largest scalar these hold the scalar, as the intervals map it, for an attenuation.
   const IntervalTable::Interval* Intervals;
+  int NumberOfIntervals;
   const CellValue* CellValues;
+  float Color[3]; ///< OpticalDepth: where the colour is constant
+  /// Values of surfaces i - 1 and i, for i from 0 up to their number.
+  const std::array<float, 2>* SurfaceNeighbors;
+  const float* SurfaceColors;    ///< red, green, blue, opacity of each surface, ascending in value
+  const SurfaceShading* Shading; ///< nullptr: flat surfaces
+
+  // The scene.
   const RayGrid* Grid;
   const std::array<double, 4>* Planes;
   int NumberOfPlanes;
@@ -41,6 +52,7 @@ struct KernelInput
 
   /// A ray ends where less than this share of the light behind would reach the eye.
   float MinimumTransmittance;
+  float MaximumDepth; ///< the same as an optical depth
 
   float* Colors; ///< four a pixel, premultiplied
   float* Depths; ///< one a pixel
@@ -72,10 +84,27 @@ struct KernelCounts
 using RayCastKernel = void (*)(
   const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
 
+/// The ways of integrating that there are kernels for, see RayCastModels.h.
+enum class Integrator
+{
+  ClosedForm,   ///< emission and absorption
+  OpticalDepth, ///< emission and absorption of a constant colour, or absorption alone
+  Emission,     ///< emission alone
+  Maximum,      ///< the largest scalar
+  Isosurfaces,  ///< scalars at points only
+  Count
+};
+
 /// The kernels of one instruction set.
 struct RayCastKernels
 {
-  RayCastKernel PointFloat, PointDouble, CellFloat, CellDouble;
+  struct Pair
+  {
+    RayCastKernel Single = nullptr;
+    RayCastKernel Double = nullptr;
+  };
+  Pair Points[static_cast<int>(Integrator::Count)];
+  Pair Cells[static_cast<int>(Integrator::Count)];
 };
 
 RayCastKernels GetRayCastKernelsGeneric();

@@ -6,10 +6,12 @@
 #include "VisibleCells.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 
@@ -56,6 +58,54 @@ InstructionSet GetInstructionSet(bool portable)
   static_cast<void>(portable);
   return { "generic", GetRayCastKernelsGeneric() };
 }
+
+/// The cheapest way of integrating that is exact for the model, and its name in statistics.
+Integrator ChooseIntegrator(OpticalModel model, bool constantColor, std::string& name)
+{
+  switch (model)
+  {
+    case OpticalModel::EmissionOnly:
+      name = "emission";
+      return Integrator::Emission;
+    case OpticalModel::AbsorptionOnly:
+      name = "optical depth";
+      return Integrator::OpticalDepth;
+    case OpticalModel::MaximumIntensity:
+      name = "largest scalar";
+      return Integrator::Maximum;
+    case OpticalModel::Isosurfaces:
+      name = "isosurfaces";
+      return Integrator::Isosurfaces;
+    case OpticalModel::EmissionAbsorption:
+      break;
+  }
+  name = constantColor ? "optical depth" : "closed form";
+  return constantColor ? Integrator::OpticalDepth : Integrator::ClosedForm;
+}
+
+/// Isosurfaces as the kernels read them.
+struct SurfaceTables
+{
+  std::vector<std::array<float, 2>> Neighbors;
+  std::vector<float> Colors;
+
+  template <class MapT>
+  SurfaceTables(const std::vector<Isosurface>& surfaces, MapT map)
+  {
+    // Beyond all scalars of the tables, which are bounded.
+    float below = -std::numeric_limits<float>::infinity();
+    for (const Isosurface& surface : surfaces)
+    {
+      const float value = map(surface.Value);
+      this->Neighbors.push_back({ below, value });
+      below = value;
+      this->Colors.insert(this->Colors.end(),
+        { surface.Color[0], surface.Color[1], surface.Color[2],
+          std::clamp(surface.Opacity, 0.f, 1.f) });
+    }
+    this->Neighbors.push_back({ below, std::numeric_limits<float>::infinity() });
+  }
+};
 
 /// A CrossingBuffer that owns its memory.
 struct OwningCrossingBuffer : CrossingBuffer
@@ -105,8 +155,8 @@ void RayCaster::SetMesh(std::shared_ptr<WalkMesh> mesh)
 {
   this->Mesh = std::move(mesh);
   this->Scalars.clear();
-  this->FloatScalarsValid = this->DoubleScalarsValid = this->CellValuesValid =
-    this->VisibleTablesValid = false;
+  this->FloatScalars = this->DoubleScalars = ScalarMap();
+  this->CellValuesValid = this->VisibleTablesValid = false;
 }
 
 void RayCaster::SetPointScalars(std::vector<double> scalars)
@@ -134,8 +184,8 @@ void RayCaster::SetScalars(std::vector<double> scalars, bool ofCells)
   }
   this->Scalars = std::move(scalars);
   this->ScalarsOfCells = ofCells;
-  this->FloatScalarsValid = this->DoubleScalarsValid = this->CellValuesValid =
-    this->VisibleTablesValid = false;
+  this->FloatScalars = this->DoubleScalars = ScalarMap();
+  this->CellValuesValid = this->VisibleTablesValid = false;
 
   bool allFinite = true;
   bool any = false;
@@ -175,23 +225,70 @@ void RayCaster::CountBlankCells()
   }
 }
 
+void RayCaster::SetOpticalModel(OpticalModel model)
+{
+  if (model != this->Model)
+  {
+    this->Model = model;
+    this->CellValuesValid = this->VisibleTablesValid = false;
+  }
+}
+
 void RayCaster::SetTransferFunction(const TransferFunction& function)
 {
-  IntervalTable table = MakeIntervalTable(function);
-  // Scalars in the tables are mapped to the function's range; they stay where that stays.
-  if (table.Offset != this->Table.Offset || table.Scale != this->Table.Scale)
-  {
-    this->FloatScalarsValid = this->DoubleScalarsValid = false;
-  }
+  this->Table = MakeIntervalTable(function);
   this->Function = function;
-  this->Table = std::move(table);
+  this->FunctionColor = ConstantColor();
+  double color[3];
+  this->FunctionColor.Constant = FindConstantColor(function, color);
+  if (this->FunctionColor.Constant)
+  {
+    std::copy_n(color, 3, this->FunctionColor.Color);
+  }
   this->CellValuesValid = this->VisibleTablesValid = false;
+}
+
+void RayCaster::SetIsosurfaces(std::vector<Isosurface> surfaces)
+{
+  for (const Isosurface& surface : surfaces)
+  {
+    const float* c = surface.Color;
+    if (!std::isfinite(surface.Value) || !std::isfinite(c[0] + c[1] + c[2] + surface.Opacity))
+    {
+      throw std::invalid_argument("values, colours and opacities of isosurfaces must be finite");
+    }
+  }
+  std::stable_sort(surfaces.begin(), surfaces.end(),
+    [](const Isosurface& a, const Isosurface& b) { return a.Value < b.Value; });
+  this->Surfaces.clear();
+  for (const Isosurface& surface : surfaces)
+  {
+    if (!this->Surfaces.empty() && this->Surfaces.back().Value == surface.Value)
+    {
+      this->Surfaces.pop_back();
+    }
+    this->Surfaces.push_back(surface);
+  }
+  this->VisibleTablesValid = this->VisibleTablesValid && this->Model != OpticalModel::Isosurfaces;
+}
+
+RayCaster::ScalarMap RayCaster::GetScalarMap() const
+{
+  if (this->Model != OpticalModel::Isosurfaces)
+  {
+    return { this->Table.Offset, this->Table.Scale };
+  }
+  // Halved before they are added, so that no sum overflows.
+  const double lo = 0.5 * this->ScalarRange[0];
+  const double hi = 0.5 * this->ScalarRange[1];
+  return { lo + hi, hi - lo > 0 ? hi - lo : 1 };
 }
 
 double RayCaster::GetLargestMappedScalar() const
 {
-  return std::max({ 1., std::abs((this->ScalarRange[0] - this->Table.Offset) / this->Table.Scale),
-    std::abs((this->ScalarRange[1] - this->Table.Offset) / this->Table.Scale) });
+  const ScalarMap map = this->GetScalarMap();
+  return std::max({ 1., std::abs((this->ScalarRange[0] - map.Offset) / map.Scale),
+    std::abs((this->ScalarRange[1] - map.Offset) / map.Scale) });
 }
 
 double RayCaster::EstimateGeometryError(
@@ -208,18 +305,40 @@ double RayCaster::EstimateGeometryError(
   return error > 0 ? worldRadius * error : 0;
 }
 
+double RayCaster::EstimateGeometryError(double worldRadius) const
+{
+  switch (this->Model)
+  {
+    case OpticalModel::Isosurfaces:
+      return 0;
+    case OpticalModel::MaximumIntensity:
+    {
+      // Between three corners a scalar is interpolated with a few roundings.
+      constexpr double ScalarRounding = 1. / (1 << 22);
+      return ScalarRounding * this->GetLargestMappedScalar() * FindSteepestColor(this->Table);
+    }
+    default:
+      return EstimateGeometryError(this->Table, worldRadius, this->GetLargestMappedScalar());
+  }
+}
+
 void RayCaster::UpdatePointScalars(bool doublePrecision)
 {
-  if (doublePrecision && !this->DoubleScalarsValid)
+  const ScalarMap map = this->GetScalarMap();
+  ScalarMap& present = doublePrecision ? this->DoubleScalars : this->FloatScalars;
+  if (present == map)
   {
-    this->Mesh->SetPointScalars<double>(this->Scalars, this->Table.Offset, this->Table.Scale);
-    this->DoubleScalarsValid = true;
+    return;
   }
-  else if (!doublePrecision && !this->FloatScalarsValid)
+  if (doublePrecision)
   {
-    this->Mesh->SetPointScalars<float>(this->Scalars, this->Table.Offset, this->Table.Scale);
-    this->FloatScalarsValid = true;
+    this->Mesh->SetPointScalars<double>(this->Scalars, map.Offset, map.Scale);
   }
+  else
+  {
+    this->Mesh->SetPointScalars<float>(this->Scalars, map.Offset, map.Scale);
+  }
+  present = map;
 }
 
 void RayCaster::UpdateCellValues()
@@ -234,7 +353,13 @@ void RayCaster::UpdateCellValues()
   for (std::int64_t t = 0; t < n; ++t)
   {
     CellValue value{};
-    if (std::isfinite(this->Scalars[t]))
+    if (this->Model == OpticalModel::MaximumIntensity)
+    {
+      value.Attenuation = std::isfinite(this->Scalars[t])
+        ? static_cast<float>((this->Scalars[t] - this->Table.Offset) / this->Table.Scale)
+        : std::numeric_limits<float>::quiet_NaN();
+    }
+    else if (std::isfinite(this->Scalars[t]))
     {
       const TransferFunction::Value v = Evaluate(this->Function, this->Scalars[t]);
       value.Attenuation = static_cast<float>(v.Attenuation);
@@ -257,8 +382,17 @@ void RayCaster::UpdateVisibleTables()
   this->VisibleTables = WalkTables();
   this->NumberOfTransparentCells = 0;
   const std::vector<std::int32_t>& cells = this->Mesh->GetMesh().Cells;
-  const std::vector<std::uint8_t> visible =
-    FindVisibleCells(this->Function, cells, this->Scalars, this->ScalarsOfCells);
+  std::vector<std::uint8_t> visible;
+  switch (this->Model)
+  {
+    case OpticalModel::MaximumIntensity: // the largest scalar may be where it is transparent
+      break;
+    case OpticalModel::Isosurfaces:
+      visible = FindCrossedCells(this->Surfaces, cells, this->Scalars);
+      break;
+    default:
+      visible = FindVisibleCells(this->Function, cells, this->Scalars, this->ScalarsOfCells);
+  }
   const std::int64_t transparent = std::count(visible.begin(), visible.end(), 0);
   if (transparent > MinimumTransparentShare * static_cast<double>(visible.size()))
   {
@@ -286,7 +420,8 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   {
     throw std::invalid_argument("the image arrays do not have the size of the ray grid");
   }
-  if (!this->Mesh || this->Table.Intervals.empty())
+  const bool isosurfaces = this->Model == OpticalModel::Isosurfaces;
+  if (!this->Mesh || (this->Table.Intervals.empty() && !isosurfaces))
   {
     throw std::invalid_argument("a mesh and a transfer function must be set before rays are cast");
   }
@@ -297,16 +432,24 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
     throw std::invalid_argument("scalars must be set after the mesh and before rays are cast");
   }
 
+  if (isosurfaces && this->ScalarsOfCells && !this->Scalars.empty())
+  {
+    throw std::invalid_argument("isosurfaces need scalars at points: at cells they are constant");
+  }
+
   RayCastStatistics statistics;
+  const Integrator integrator =
+    ChooseIntegrator(this->Model, this->FunctionColor.Constant, statistics.Integration);
   const double worldRadius = GetWorldRadius(*this->Mesh, grid);
-  const double geometryError =
-    EstimateGeometryError(this->Table, worldRadius, this->GetLargestMappedScalar());
+  const double geometryError = this->EstimateGeometryError(worldRadius);
   // Half of the error may come from ending rays early, a quarter from rounding.
   statistics.DoublePrecision = options.Arithmetic == Precision::Double ||
     !(SmallestSingleRadius <= worldRadius && worldRadius <= LargestSingleRadius) ||
     (options.Arithmetic == Precision::Automatic && geometryError > 0.25 * options.MaximumError);
-  statistics.TerminationError = 0.5 * options.MaximumError;
-  statistics.IntegralError = SegmentWeightError;
+  const bool endsEarly =
+    this->Model != OpticalModel::EmissionOnly && this->Model != OpticalModel::MaximumIntensity;
+  statistics.TerminationError = endsEarly ? 0.5 * options.MaximumError : 0;
+  statistics.IntegralError = integrator == Integrator::ClosedForm ? SegmentWeightError : 0;
   statistics.GeometryError = statistics.DoublePrecision ? 0 : geometryError;
   statistics.ErrorEstimate =
     statistics.TerminationError + statistics.IntegralError + statistics.GeometryError;
@@ -347,7 +490,16 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   std::copy_n(this->Mesh->GetCenter(), 3, in.Center);
   in.Radius = this->Mesh->GetRadius();
   in.Intervals = this->Table.Intervals.data();
+  in.NumberOfIntervals = static_cast<int>(this->Table.Intervals.size());
   in.CellValues = this->CellValues.data();
+  const ScalarMap map = this->GetScalarMap();
+  const SurfaceTables surfaces(isosurfaces ? this->Surfaces : std::vector<Isosurface>(),
+    [&map](double value) { return static_cast<float>((value - map.Offset) / map.Scale); });
+  in.SurfaceNeighbors = surfaces.Neighbors.data();
+  in.SurfaceColors = surfaces.Colors.data();
+  const SurfaceShading shading{ &this->Mesh->GetMesh(), this->Scalars.data(), grid.MeshFromWorld,
+    options.Lights, options.Surface };
+  in.Shading = options.Shaded ? &shading : nullptr;
   in.Grid = &grid;
   in.Planes = limits.Planes.empty() ? nullptr : &limits.Planes.front();
   in.NumberOfPlanes = static_cast<int>(limits.Planes.size());
@@ -355,13 +507,19 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   in.CroppingFlags = limits.CroppingFlags;
   in.MaximumDistances = limits.MaximumDistances;
   in.MinimumTransmittance = static_cast<float>(statistics.TerminationError);
+  in.MaximumDepth = -std::log(in.MinimumTransmittance);
+  if (this->Model == OpticalModel::EmissionAbsorption && this->FunctionColor.Constant)
+  {
+    std::copy_n(this->FunctionColor.Color, 3, in.Color);
+  }
   in.Colors = colors.data();
   in.Depths = depths.data();
 
   const InstructionSet set = GetInstructionSet(options.PortableKernels);
-  const RayCastKernel kernel = this->ScalarsOfCells
-    ? (statistics.DoublePrecision ? set.Kernels.CellDouble : set.Kernels.CellFloat)
-    : (statistics.DoublePrecision ? set.Kernels.PointDouble : set.Kernels.PointFloat);
+  const RayCastKernels::Pair& kernels = this->ScalarsOfCells
+    ? set.Kernels.Cells[static_cast<int>(integrator)]
+    : set.Kernels.Points[static_cast<int>(integrator)];
+  const RayCastKernel kernel = statistics.DoublePrecision ? kernels.Double : kernels.Single;
 
   const int tilesX = (grid.Width + TileSize - 1) / TileSize;
   const int tilesY = (grid.Height + TileSize - 1) / TileSize;

@@ -3,6 +3,7 @@
 #define tetralux_RayCaster_h
 
 #include "IntervalTable.h"
+#include "OpticalModel.h"
 #include "RayGrid.h"
 #include "RayLimits.h"
 #include "Span.h"
@@ -36,6 +37,11 @@ struct RayCastOptions
 
   Precision Arithmetic = Precision::Automatic;
 
+  /// How surfaces of OpticalModel::Isosurfaces look: flat, or shaded by lights.
+  bool Shaded = false;
+  std::vector<Light> Lights;
+  Material Surface;
+
   int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
 
   /// Use the kernels that run on any processor even where there are faster ones; the pictures
@@ -52,6 +58,9 @@ struct RayCastStatistics
   bool Aborted = false;
   bool DoublePrecision = false;
   std::string InstructionSet;
+  /// How rays were integrated, and why so: "closed form", "optical depth", "emission",
+  /// "largest scalar" or "isosurfaces".
+  std::string Integration;
   int NumberOfThreads = 0;
   std::int64_t Rays = 0;
   std::int64_t Segments = 0;         ///< cells walked through, over all rays
@@ -61,7 +70,8 @@ struct RayCastStatistics
   double ErrorEstimate = 0;          ///< sum of the three below
   double TerminationError = 0;       ///< at most, by ending rays early
   double IntegralError = 0;          ///< at most, by the weights of segments
-  double GeometryError = 0;          ///< estimated, by rounding coordinates and scalars
+  double GeometryError = 0;          ///< estimated, by rounding coordinates and scalars; not that
+                                     ///< of pixels where a ray grazes a surface or a step
 };
 
 /// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of eight rays,
@@ -85,10 +95,18 @@ public:
   /// Cells that touch a scalar which is not finite.
   std::int64_t GetNumberOfBlankCells() const { return this->NumberOfBlankCells; }
 
-  /// Throws std::invalid_argument as MakeIntervalTable does.
+  /// What rays gather; at first emission and absorption.
+  void SetOpticalModel(OpticalModel model);
+
+  /// Throws std::invalid_argument as MakeIntervalTable does. Isosurfaces need none.
   void SetTransferFunction(const TransferFunction& function);
 
-  /// Casts all rays of the grid. colors: four floats a pixel, premultiplied red, green, blue and
+  /// What OpticalModel::Isosurfaces shows, in any order; values that are repeated count once, the
+  /// last one. Throws std::invalid_argument where a value or a colour is not finite.
+  void SetIsosurfaces(std::vector<Isosurface> surfaces);
+
+  /// Casts all rays of the grid. Throws std::invalid_argument where something is missing, or where
+  /// isosurfaces are asked for of scalars at cells. colors: four floats a pixel, premultiplied red, green, blue and
   /// opacity; depths: one float a pixel, the distance along the ray to the first contribution in
   /// world units, -1 where there is none; both lower row first. After an abort they are incomplete.
   RayCastStatistics Cast(const RayGrid& grid, const RayLimits& limits,
@@ -102,9 +120,29 @@ public:
     const IntervalTable& table, double worldRadius, double largestScalar);
 
 private:
+  /// Which colour, if there is any attenuation and it has only one.
+  struct ConstantColor
+  {
+    bool Constant = false;
+    float Color[3] = { 0, 0, 0 };
+  };
+
+  /// Scalars in the tables are x = (s - Offset) / Scale.
+  struct ScalarMap
+  {
+    double Offset = 0;
+    double Scale = 0; ///< 0: the table has no scalars yet
+    bool operator==(const ScalarMap& other) const
+    {
+      return this->Offset == other.Offset && this->Scale == other.Scale;
+    }
+  };
+
   void SetScalars(std::vector<double> scalars, bool ofCells);
   void CountBlankCells();
+  ScalarMap GetScalarMap() const;
   double GetLargestMappedScalar() const;
+  double EstimateGeometryError(double worldRadius) const;
   void UpdatePointScalars(bool doublePrecision);
   void UpdateCellValues();
   void UpdateVisibleTables();
@@ -114,14 +152,15 @@ private:
   bool ScalarsOfCells = false;
   double ScalarRange[2] = { 0, 0 }; ///< of the finite ones
   std::int64_t NumberOfBlankCells = 0;
+  OpticalModel Model = OpticalModel::EmissionAbsorption;
   TransferFunction Function;
   IntervalTable Table;
+  ConstantColor FunctionColor;
+  std::vector<Isosurface> Surfaces; ///< ascending in value
   std::vector<CellValue> CellValues;
   WalkTables VisibleTables; ///< empty where rays are walked through all cells
   std::int64_t NumberOfTransparentCells = 0;
-  /// Which tables hold the scalars as mapped by Table.
-  bool FloatScalarsValid = false;
-  bool DoubleScalarsValid = false;
+  ScalarMap FloatScalars, DoubleScalars; ///< of the mesh's tables
   bool CellValuesValid = false;
   bool VisibleTablesValid = false;
 };

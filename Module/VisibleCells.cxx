@@ -48,22 +48,11 @@ std::vector<Range> FindVisibleRanges(const TransferFunction& function)
   return ranges;
 }
 
-} // namespace
-
-std::vector<std::uint8_t> FindVisibleCells(const TransferFunction& function,
-  Span<const std::int32_t> cells, Span<const double> scalars, bool scalarsOfCells)
+/// For each cell 1 where all its scalars are finite and isVisible(least, largest).
+template <class PredicateT>
+std::vector<std::uint8_t> FindCells(Span<const std::int32_t> cells, Span<const double> scalars,
+  bool scalarsOfCells, PredicateT isVisible)
 {
-  const std::vector<Range> ranges = FindVisibleRanges(function);
-  const auto isVisible = [&](double lo, double hi)
-  {
-    if (lo == hi)
-    {
-      return Evaluate(function, lo).Attenuation > 0;
-    }
-    const auto range = std::upper_bound(
-      ranges.begin(), ranges.end(), lo, [](double s, const Range& r) { return s < r.Hi; });
-    return range != ranges.end() && range->Lo < hi;
-  };
   const std::int64_t n = static_cast<std::int64_t>(cells.size() / 4);
   std::vector<std::uint8_t> visible(n);
 #pragma omp parallel for schedule(static)
@@ -90,6 +79,45 @@ std::vector<std::uint8_t> FindVisibleCells(const TransferFunction& function,
     visible[t] = finite && isVisible(lo, hi);
   }
   return visible;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> FindVisibleCells(const TransferFunction& function,
+  Span<const std::int32_t> cells, Span<const double> scalars, bool scalarsOfCells)
+{
+  const std::vector<Range> ranges = FindVisibleRanges(function);
+  return FindCells(cells, scalars, scalarsOfCells,
+    [&](double lo, double hi)
+    {
+      if (lo == hi)
+      {
+        return Evaluate(function, lo).Attenuation > 0;
+      }
+      const auto range = std::upper_bound(
+        ranges.begin(), ranges.end(), lo, [](double s, const Range& r) { return s < r.Hi; });
+      return range != ranges.end() && range->Lo < hi;
+    });
+}
+
+std::vector<std::uint8_t> FindCrossedCells(
+  Span<const Isosurface> surfaces, Span<const std::int32_t> cells, Span<const double> scalars)
+{
+  std::vector<double> values;
+  for (const Isosurface& surface : surfaces)
+  {
+    if (surface.Opacity > 0)
+    {
+      values.push_back(surface.Value);
+    }
+  }
+  std::sort(values.begin(), values.end());
+  return FindCells(cells, scalars, false,
+    [&](double lo, double hi)
+    {
+      const auto value = std::lower_bound(values.begin(), values.end(), lo);
+      return value != values.end() && *value <= hi;
+    });
 }
 
 } // namespace tetralux

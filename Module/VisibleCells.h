@@ -2,6 +2,7 @@
 #ifndef tetralux_VisibleCells_h
 #define tetralux_VisibleCells_h
 
+#include "OpticalModel.h"
 #include "Span.h"
 #include "TetraluxCoreModule.h"
 #include "TransferFunction.h"
@@ -17,6 +18,11 @@ namespace tetralux
 /// cells: four point ids each. scalars: one for each point, or for each cell. Parallel.
 TETRALUXCORE_EXPORT std::vector<std::uint8_t> FindVisibleCells(const TransferFunction& function,
   Span<const std::int32_t> cells, Span<const double> scalars, bool scalarsOfCells);
+
+/// For each cell 1 where a surface of constant scalar that is not fully transparent goes through it
+/// or touches it, else 0. scalars: one for each point. Parallel.
+TETRALUXCORE_EXPORT std::vector<std::uint8_t> FindCrossedCells(
+  Span<const Isosurface> surfaces, Span<const std::int32_t> cells, Span<const double> scalars);
 
 } // namespace tetralux
 

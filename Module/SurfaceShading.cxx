@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceShading.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetralux
+{
+namespace
+{
+
+double Dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+void Cross(const double a[3], const double b[3], double c[3])
+{
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/// False where the length is zero or no number. Scaled by the largest component first: squares of
+/// coordinates may be beyond any range.
+bool Normalize(double a[3])
+{
+  const double largest = std::max({ std::abs(a[0]), std::abs(a[1]), std::abs(a[2]) });
+  if (!(largest > 0) || !std::isfinite(largest))
+  {
+    return false;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    a[k] /= largest;
+  }
+  const double length = std::sqrt(Dot(a, a));
+  for (int k = 0; k < 3; ++k)
+  {
+    a[k] /= length;
+  }
+  return true;
+}
+
+/// Direction of the scalar's gradient in a cell, in the coordinates of the mesh; not of length 1.
+void FindGradient(const SurfaceShading& shading, std::int32_t cell, double gradient[3])
+{
+  const std::int32_t* ids = &shading.Mesh->Cells[4 * static_cast<std::size_t>(cell)];
+  const double* origin = &shading.Mesh->Points[3 * static_cast<std::size_t>(ids[0])];
+  double edges[3][3], rises[3];
+  double longest = 0;
+  double largestRise = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double* point = &shading.Mesh->Points[3 * static_cast<std::size_t>(ids[i + 1])];
+    for (int a = 0; a < 3; ++a)
+    {
+      edges[i][a] = point[a] - origin[a];
+      longest = std::max(longest, std::abs(edges[i][a]));
+    }
+    rises[i] = shading.Scalars[ids[i + 1]] - shading.Scalars[ids[0]];
+    largestRise = std::max(largestRise, std::abs(rises[i]));
+  }
+  // Only the direction matters: with edges and rises of about 1 nothing overflows.
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      edges[i][a] /= longest;
+    }
+    rises[i] /= largestRise;
+  }
+  // The normals of the three faces at the origin, weighted by the rises of the points across, are
+  // the gradient times the volume.
+  double normals[3][3];
+  for (int i = 0; i < 3; ++i)
+  {
+    Cross(edges[(i + 1) % 3], edges[(i + 2) % 3], normals[i]);
+  }
+  const double sign = Dot(edges[0], normals[0]) < 0 ? -1 : 1;
+  for (int a = 0; a < 3; ++a)
+  {
+    gradient[a] =
+      sign * (rises[0] * normals[0][a] + rises[1] * normals[1][a] + rises[2] * normals[2][a]);
+  }
+}
+
+/// The normal of a surface in the world, turned to the viewer.
+void FindNormal(
+  const SurfaceShading& shading, std::int32_t cell, const double direction[3], double normal[3])
+{
+  double gradient[3];
+  FindGradient(shading, cell, gradient);
+  for (int a = 0; a < 3; ++a)
+  {
+    normal[a] = 0;
+    for (int row = 0; row < 3; ++row)
+    {
+      normal[a] += shading.MeshFromWorld[row][a] * gradient[row];
+    }
+  }
+  const bool known = Normalize(normal);
+  const double sign = !known || Dot(normal, direction) > 0 ? -1 : 1;
+  for (int a = 0; a < 3; ++a)
+  {
+    normal[a] = sign * (known ? normal[a] : direction[a]);
+  }
+}
+
+/// Direction from a position to a light, and the share of the light that comes there.
+double FindLight(const Light& light, const double position[3], double toLight[3])
+{
+  std::copy_n(light.Position, 3, toLight);
+  if (!light.Positional)
+  {
+    return 1;
+  }
+  double squared = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    toLight[a] -= position[a];
+    squared += toLight[a] * toLight[a];
+  }
+  if (!Normalize(toLight))
+  {
+    return 0;
+  }
+  const double* k = light.Attenuation;
+  double share = 1 / (k[0] + k[1] * std::sqrt(squared) + k[2] * squared);
+  if (light.ConeCosine > -1)
+  {
+    const double cosine = -Dot(toLight, light.Axis);
+    share *= cosine >= light.ConeCosine ? std::pow(cosine, light.Exponent) : 0;
+  }
+  return share;
+}
+
+} // namespace
+
+void ShadeSurface(const SurfaceShading& shading, std::int32_t cell, const double position[3],
+  const double direction[3], float color[3])
+{
+  const Material& surface = shading.Surface;
+  double normal[3];
+  FindNormal(shading, cell, direction, normal);
+  double result[3] = { 0, 0, 0 };
+  for (const Light& light : shading.Lights)
+  {
+    double toLight[3];
+    const double share = FindLight(light, position, toLight);
+    const double cosine = Dot(normal, toLight);
+    double diffuse = 0;
+    double specular = 0;
+    if (cosine > 0)
+    {
+      diffuse = share * surface.Diffuse * cosine;
+      // Blinn's halfway vector between the light and the viewer.
+      double halfway[3];
+      for (int a = 0; a < 3; ++a)
+      {
+        halfway[a] = toLight[a] - direction[a];
+      }
+      specular = Normalize(halfway) ? share * surface.Specular *
+          std::pow(std::max(0., Dot(normal, halfway)), surface.SpecularPower)
+                                    : 0;
+    }
+    for (int c = 0; c < 3; ++c)
+    {
+      result[c] += color[c] * (surface.Ambient * light.Ambient[c] + diffuse * light.Diffuse[c]) +
+        specular * light.Specular[c];
+    }
+  }
+  for (int c = 0; c < 3; ++c)
+  {
+    color[c] = static_cast<float>(std::clamp(result[c], 0., 1.));
+  }
+}
+
+} // namespace tetralux
