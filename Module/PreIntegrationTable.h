@@ -36,9 +36,23 @@ enum class ScalarAxis
   /// Equal steps from one end of the scalar range to the other.
   Uniform,
 
-  /// A texel on every node of the transfer function, two where it has a step (one for each side);
-  /// equal steps between two nodes.
+  /// A texel on every node of the transfer function, two where it has a step (one for each side),
+  /// as long as there are enough; the others where the function bends or steps nearby, denser
+  /// towards the node.
   Nodes
+};
+
+/// How texels are computed.
+enum class PreIntegrationMethod
+{
+  /// Each from the closed form of the integral (SegmentIntegral.h): exact to
+  /// PreIntegrationError::Rounding. On many lengths, by interpolation between the closed form at a
+  /// few dozen of them.
+  ClosedForm,
+
+  /// Longer segments from shorter ones (Weiler et al. 2003, equations 5 and 6), by the table's own
+  /// interpolation at the split: its errors add up from one length to the next.
+  Incremental
 };
 
 /// What a texel's four channels are stored as.
@@ -56,8 +70,8 @@ TETRALUXCORE_EXPORT std::size_t GetTexelSize(TexelFormat format);
 /// What a table is to be.
 struct PreIntegrationSettings
 {
-  /// Texels along each of the two scalars, 2..4096. With ScalarAxis::Nodes the largest number: at
-  /// least one step between two nodes, so more where the nodes need more.
+  /// Texels along each of the two scalars, 2..4096. With ScalarAxis::Nodes the largest number: there
+  /// are fewer where single precision can't tell more apart.
   int ScalarSize = 128;
 
   /// Texels along the length, 2..4096.
@@ -70,6 +84,7 @@ struct PreIntegrationSettings
   int StepsPerDoubling = 1;
 
   ScalarAxis Axis = ScalarAxis::Nodes;
+  PreIntegrationMethod Method = PreIntegrationMethod::ClosedForm;
   TexelFormat Format = TexelFormat::Float;
 
   /// Scalars of the segments, in the units of the transfer function, finite, ascending (equal ends

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_PreIntegrationError_h
+#define tetralux_PreIntegrationError_h
+
+// How wrong a pre-integration table is, and which table is right enough.
+//
+// Of a segment. The error of a lookup is at most PreIntegrationError::Segment + Rounding, and at
+// most PerLength times the segment's length + Rounding. Each comes as a bound, from the transfer
+// function and the axes alone, and as an estimate, measured where interpolation is worst.
+//
+// Of a picture. A ray is a chain of segments; what a segment adds is weakened by the opacity in front
+// of it. Let e be the largest error of a channel of one of them. The colour of the ray is then wrong
+// by at most e for the segment's colour and e for what its opacity hides of a colour of at most 1, so
+// over N segments of a path of length L
+//
+//   error of the picture <= 2 (min(PerLength L, Segment N) + Rounding N).
+//
+// It grows with the number of segments, which is why a table has to be more accurate than the picture
+// (Kraus et al. 2004, section 3), and it is reached only by rays whose every segment is the worst
+// one. What to expect is measured on model rays, see RayModel.
+
+#include "PreIntegrationTable.h"
+
+#include <cstddef>
+#include <string>
+
+namespace tetralux
+{
+
+/// The bound of a table with these axes (its texels are not looked at).
+///
+/// Scalars: a texel's cell bounds two windows of scalars; at every place along a segment the
+/// attenuation is interpolated within the window there. A bend of slope J makes an error of at most
+/// J H / 4 in a window of width H, a step its height, each along that part of the segment whose
+/// windows hold it; what the exponential makes of values that differ by d over a cell is at most
+/// (l d)^2 / 8 of opacity, and a few times that of colour.
+///
+/// Lengths: opacity and colour bend along the length l by at most min(M^2, 1.083 / l^2), M the
+/// largest attenuation, and a step of h is wrong by h^2 / 8 times that.
+///
+/// Incremental tables: the bounds of all splits added up, 1 at most.
+///
+/// Cost: of the order of the texels along a scalar squared, times the nodes between them.
+TETRALUXCORE_EXPORT PreIntegrationError BoundPreIntegrationError(
+  const TransferFunction& function, const PreIntegrationTable& table);
+
+/// The largest error found by comparing lookups in the middle of texels' cells, where trilinear
+/// interpolation is worst, with the closed form in double precision. Cells are drawn at random, with
+/// a fixed seed, and among them all that lie on the diagonal of equal scalars or next to it. A
+/// sample, not a bound. samples: about a microsecond each.
+TETRALUXCORE_EXPORT PreIntegrationError EstimatePreIntegrationError(
+  const TransferFunction& function, const PreIntegrationTable& table, std::size_t samples = 20000);
+
+/// The bound for a picture of the model above. pathLength: longest way of a ray through the volume,
+/// world units; segments: most cells on it.
+TETRALUXCORE_EXPORT double GetPictureError(
+  const PreIntegrationError& error, double pathLength, double segments);
+
+/// Rays like those of a picture: the scalar wanders over the table's range (reflected at its ends),
+/// by slow, middling and fast steps from segment to segment, and lengths are drawn evenly from 0 to
+/// the longest, a quarter and a sixteenth of it, until the path is as long as asked for, or the ray
+/// has 400 segments or is opaque. The same rays for the same arguments.
+struct RayModel
+{
+  double PathLength = 1; ///< longest way through the volume, world units
+  double ScalarRange[2] = { 0, 1 };
+  double LongestSegment = 1;
+};
+
+/// Largest error of a channel on the rays of a model: what a picture by lookups in the table is
+/// expected to be wrong by. Some 10 milliseconds.
+TETRALUXCORE_EXPORT double EstimatePictureError(
+  const TransferFunction& function, const PreIntegrationTable& table, const RayModel& model);
+
+/// What a table is chosen for.
+struct TableGoal
+{
+  double MaximumError = 1. / 255; ///< of a picture's channel, absolute, more than 0
+  std::size_t MaximumBytes = std::size_t{ 64 } << 20;
+  RayModel Rays;
+
+  /// Time of a lookup in units of that of the closed form on one piece. Segments with more pieces
+  /// are faster by table. A processor takes about as long for a lookup of eight rays as for
+  /// LookupCost pieces, see Module/Notes.md; a GPU's texture units make it a fraction.
+  double LookupCost = 3;
+
+  // What is not to be chosen: sizes of 0 are free.
+  int ScalarSize = 0;
+  int LengthSize = 0;
+  bool AnyScale = true;
+  LengthScale Scale = LengthScale::Linear;
+  bool AnyAxis = true;
+  ScalarAxis Axis = ScalarAxis::Nodes;
+  bool AnyFormat = true;
+  TexelFormat Format = TexelFormat::Float;
+};
+
+struct TableChoice
+{
+  /// No table: the closed form is as fast, or no table within the limits is right enough.
+  bool ClosedForm = true;
+  PreIntegrationSettings Settings; ///< of the table; the best one tried where ClosedForm
+  double PictureError = 0;         ///< EstimatePictureError of that table
+  double PiecesPerSegment = 1;     ///< of the model's rays, on average
+  std::string Reason;              ///< one line
+};
+
+/// The smallest table whose EstimatePictureError is at most half of what is asked for, or none.
+/// Tables of growing size are built and measured until one is right: some 10 milliseconds to a
+/// second. Throws as BuildPreIntegrationTable does.
+TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(
+  const TransferFunction& function, const TableGoal& goal);
+
+} // namespace tetralux
+
+#endif
