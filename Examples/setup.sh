@@ -7,6 +7,7 @@ set -euo pipefail
 packages=(
   cmake g++ ninja-build
   libvtk9-dev python3-vtk9 # VTK and its Python package
+  libcgal-dev # triangulations, with exact signs
   libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri # rendering without a display
   libcli11-dev nlohmann-json3-dev # the command-line tool
 )
