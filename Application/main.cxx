@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line: options to calls, errors to one line and an exit status.
 
+#include "Bench.h"
 #include "CommandErrors.h"
 #include "Generate.h"
 #include "Info.h"
@@ -51,20 +52,21 @@ auto ReadVector(std::optional<RenderOptions::Vector>& vector)
   };
 }
 
-void AddInput(CLI::App* command, std::string& input, std::string& plot3dSolution)
+CLI::Option* AddInput(CLI::App* command, std::string& input, std::string& plot3dSolution)
 {
-  command->add_option("IN", input, "File to read: " + GetInputHelp())->required()->type_name("");
+  CLI::Option* option =
+    command->add_option("IN", input, "File to read: " + GetInputHelp())->type_name("");
   command
     ->add_option("--plot3d-q", plot3dSolution,
       "Solution file of the PLOT3D coordinates IN; as well, IN may be both with a comma between: "
       "xyz.bin,q.bin")
     ->type_name("FILE");
+  return option;
 }
 
-void AddRenderCommand(CLI::App& app, RenderOptions& options)
+/// What to colour by, and how.
+void AddScalarOptions(CLI::App* command, RenderOptions& options)
 {
-  CLI::App* command = app.add_subcommand("render", "Render a file to a picture");
-  AddInput(command, options.Input, options.Plot3dSolution);
   command
     ->add_option("--array", options.Array,
       "Array to colour by, of the points or else of the cells; default: the active scalars, else "
@@ -89,9 +91,6 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
       options.Component = text;
     })
     ->type_name("I|magnitude");
-  command->add_option("--method", options.Method, "How to render: " + JoinNames(GetMethodNames()))
-    ->capture_default_str()
-    ->type_name("NAME");
   command
     ->add_option("--transfer", options.TransferFile,
       "Colour and opacity: a preset of ParaView, or a list of them, of which the first is used, at "
@@ -103,7 +102,10 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
     [&options](const std::string& option, const std::string& text)
     { options.OpacityUnitDistance = ParsePositive(option, text); })
     ->type_name("D");
+}
 
+void AddCameraOptions(CLI::App* command, RenderOptions& options)
+{
   AddOption(command, "--camera-position",
     "Where the camera is; default: where it sees everything, 30 degrees to the right and 20 up",
     ReadVector(options.CameraPosition))
@@ -130,7 +132,10 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
     [&options](const std::string& option, const std::string& text)
     { options.CameraParallelScale = ParsePositive(option, text); })
     ->type_name("S");
+}
 
+void AddSizeOptions(CLI::App* command, RenderOptions& options)
+{
   AddOption(command, "--size", "Pixels of the picture; default: 512,512",
     [&options](const std::string& option, const std::string& text)
     {
@@ -146,6 +151,22 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
       options.Height = static_cast<int>(size[1]);
     })
     ->type_name("W,H");
+  AddOption(command, "--threads", "Threads that render; default: 0, one for each core",
+    [&options](const std::string& option, const std::string& text)
+    { options.NumberOfThreads = ParseInteger(option, text, 0, 1024); })
+    ->type_name("N");
+}
+
+void AddRenderCommand(CLI::App& app, RenderOptions& options)
+{
+  CLI::App* command = app.add_subcommand("render", "Render a file to a picture");
+  AddInput(command, options.Input, options.Plot3dSolution)->required();
+  AddScalarOptions(command, options);
+  command->add_option("--method", options.Method, "How to render: " + JoinNames(GetMethodNames()))
+    ->capture_default_str()
+    ->type_name("NAME");
+  AddCameraOptions(command, options);
+  AddSizeOptions(command, options);
   AddOption(command, "--background", "Colour behind a .png, each from 0 to 1; default: 0,0,0",
     [&options](const std::string& option, const std::string& text)
     {
@@ -176,10 +197,6 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
         JoinNames(GetPropertyNames()))
     ->allow_extra_args(false)
     ->type_name("Property=Value");
-  AddOption(command, "--threads", "Threads that render; default: 0, one for each core",
-    [&options](const std::string& option, const std::string& text)
-    { options.NumberOfThreads = ParseInteger(option, text, 0, 1024); })
-    ->type_name("N");
   command
     ->add_option_function<std::string>(
       "--stats",
@@ -205,7 +222,7 @@ void AddInfoCommand(CLI::App& app, InfoOptions& options)
 {
   CLI::App* command =
     app.add_subcommand("info", "Print what is in a file, its defects, and what it takes to render");
-  AddInput(command, options.Input, options.Plot3dSolution);
+  AddInput(command, options.Input, options.Plot3dSolution)->required();
   command->final_callback([&options] { PrintInfo(options); });
 }
 
@@ -239,6 +256,50 @@ void AddGenerateCommand(CLI::App& app, GenerateOptions& options, bool& list)
     });
 }
 
+void AddBenchCommand(CLI::App& app, BenchOptions& options)
+{
+  CLI::App* command = app.add_subcommand(
+    "bench", "Measure error against run time, of methods and settings, and of VTK's own mappers");
+  AddInput(command, options.Scene.Input, options.Scene.Plot3dSolution)
+    ->description("File to measure with, in place of the scenes there are: " + GetInputHelp());
+  options.Scene.Width = options.Scene.Height = 0; // left to the run
+  AddScalarOptions(command, options.Scene);
+  AddCameraOptions(command, options.Scene);
+  AddSizeOptions(command, options.Scene);
+  command
+    ->add_option("--data", options.DataFolder,
+      "Folder with bluntfinxyz.bin, bluntfinq.bin and can.vtu of the VTK examples; default: the "
+      "variable TETRALUX_DATA, else generated scenes alone")
+    ->type_name("FOLDER");
+  command
+    ->add_option("--scene", options.Scenes,
+      "Measure this scene alone, and once more for each further one; default: all")
+    ->allow_extra_args(false)
+    ->type_name("NAME");
+  command
+    ->add_option("--setting", options.Settings,
+      "Measure this in place of the settings there are, and once more for each further one: "
+      "properties as render --set takes them, with blanks between")
+    ->allow_extra_args(false)
+    ->type_name("'Property=Value ...'");
+  AddOption(command, "--frames", "Frames timed of each picture, at most; default: 10",
+    [&options](const std::string& option, const std::string& text)
+    { options.Frames = ParseInteger(option, text, 1, 10000); })
+    ->type_name("N");
+  command->add_flag("--features", options.Features,
+    "Measure also what each feature costs when it is used and when it is not");
+  command->add_flag(
+    "--quick", options.Quick, "Small scenes and pictures, two frames: to see that all works");
+  command
+    ->add_option("--output", options.Output,
+      "Folder to write: index.html, results.csv, charts and pictures; one that an earlier run "
+      "wrote "
+      "is replaced")
+    ->required()
+    ->type_name("FOLDER");
+  command->final_callback([&options] { RunBench(options); });
+}
+
 /// CLI11's errors in words of this tool.
 std::string Describe(const CLI::ParseError& error, const CLI::App& app)
 {
@@ -268,10 +329,12 @@ int main(int argc, char* argv[])
   RenderOptions renderOptions;
   InfoOptions infoOptions;
   GenerateOptions generateOptions;
+  BenchOptions benchOptions;
   bool listGenerators = false;
   AddRenderCommand(app, renderOptions);
   AddInfoCommand(app, infoOptions);
   AddGenerateCommand(app, generateOptions, listGenerators);
+  AddBenchCommand(app, benchOptions);
 
   try
   {

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BenchSettings.h"
+
+#include "Bench.h"
+#include "BenchMappers.h"
+#include "CommandErrors.h"
+#include "Methods.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace
+{
+
+using Assignments = std::vector<std::string>;
+
+/// The values of the mapper's enumerations, as --set takes them.
+constexpr const char* ClosedForm = "Integration=1";
+constexpr const char* Table = "Integration=2";
+constexpr const char* LinearLengths = "TableLengthScale=1";
+constexpr const char* LogarithmicLengths = "TableLengthScale=2";
+constexpr const char* Format8Bit = "TableFormat=1";
+constexpr const char* Format16Bit = "TableFormat=2";
+constexpr const char* FormatHalf = "TableFormat=3";
+constexpr const char* FormatFloat = "TableFormat=4";
+constexpr const char* UniformScalars = "TableScalarAxis=1";
+constexpr const char* ScalarsAtNodes = "TableScalarAxis=2";
+constexpr const char* SinglePrecision = "Precision=1";
+constexpr const char* DoublePrecision = "Precision=2";
+constexpr const char* ToTheEnd = "MaximumError=0";
+
+/// A table of given sizes, with further assignments.
+Assignments MakeTable(int scalars, int lengths, const Assignments& others)
+{
+  Assignments assignments = { Table, "TableScalarSize=" + std::to_string(scalars),
+    "TableLengthSize=" + std::to_string(lengths) };
+  assignments.insert(assignments.end(), others.begin(), others.end());
+  return assignments;
+}
+
+void AddErrorDial(std::vector<BenchSetting>& settings)
+{
+  for (const char* error : { "1e-2", "1e-3", "1e-4", "1e-5", "1e-6" })
+  {
+    settings.push_back({ std::string("error-") + error, "error asked for",
+      std::string("MaximumError ") + error + ", all else automatic", BenchMethod::RayCast,
+      { std::string("MaximumError=") + error } });
+  }
+}
+
+void AddArithmetic(std::vector<BenchSetting>& settings)
+{
+  const std::string group = "arithmetic and ends of rays";
+  settings.push_back(
+    { "single", group, "geometry in single precision", BenchMethod::RayCast, { SinglePrecision } });
+  settings.push_back(
+    { "double", group, "geometry in double precision", BenchMethod::RayCast, { DoublePrecision } });
+  settings.push_back({ "no-termination", group,
+    "early ray termination (Weiler 2003, section 3) switched off, in single precision",
+    BenchMethod::RayCast, { ClosedForm, SinglePrecision, ToTheEnd } });
+}
+
+void AddSampleDistances(std::vector<BenchSetting>& settings)
+{
+  const std::string group = "distance of rays";
+  settings.push_back({ "sample-distance-2", group, "one ray for 2 x 2 pixels, interpolated",
+    BenchMethod::RayCast, { "ImageSampleDistance=2" } });
+  settings.push_back({ "sample-distance-4", group, "one ray for 4 x 4 pixels, interpolated",
+    BenchMethod::RayCast, { "ImageSampleDistance=4" } });
+}
+
+/// Tables as in the papers, and with each of what they say is better switched off alone.
+void AddTables(std::vector<BenchSetting>& settings)
+{
+  std::string group = "integral";
+  settings.push_back({ "closed-form", group, "closed form between the nodes of the functions",
+    BenchMethod::RayCast, { ClosedForm } });
+  settings.push_back({ "table", group, "table, its sizes and format by the error asked for",
+    BenchMethod::RayCast, { Table } });
+  settings.push_back({ "table-1e-2", group, "the same for an error of 1e-2", BenchMethod::RayCast,
+    { Table, "MaximumError=1e-2" } });
+
+  group = "table 256 x 256 x 16 (Kraus 2004)";
+  settings.push_back({ "kraus", group,
+    "as there: logarithmic lengths, 16 bit, uniform in the scalar", BenchMethod::RayCast,
+    MakeTable(256, 16, { LogarithmicLengths, Format16Bit, UniformScalars }) });
+  settings.push_back({ "kraus-linear", group, "logarithmic lengths switched off",
+    BenchMethod::RayCast, MakeTable(256, 16, { LinearLengths, Format16Bit, UniformScalars }) });
+  settings.push_back({ "kraus-8-bit", group, "more than 8 bit switched off", BenchMethod::RayCast,
+    MakeTable(256, 16, { LogarithmicLengths, Format8Bit, UniformScalars }) });
+  settings.push_back({ "kraus-half", group, "half precision in place of 16 bit",
+    BenchMethod::RayCast, MakeTable(256, 16, { LogarithmicLengths, FormatHalf, UniformScalars }) });
+  settings.push_back(
+    { "kraus-float", group, "single precision in place of 16 bit", BenchMethod::RayCast,
+      MakeTable(256, 16, { LogarithmicLengths, FormatFloat, UniformScalars }) });
+  settings.push_back({ "kraus-nodes", group, "scalars on the nodes of the functions, not uniform",
+    BenchMethod::RayCast,
+    MakeTable(256, 16, { LogarithmicLengths, Format16Bit, ScalarsAtNodes }) });
+
+  group = "table 128 x 128 x 256 (Weiler 2003)";
+  settings.push_back({ "weiler", group, "as there: linear lengths, 8 bit, uniform in the scalar",
+    BenchMethod::RayCast, MakeTable(128, 256, { LinearLengths, Format8Bit, UniformScalars }) });
+  settings.push_back({ "weiler-float", group, "single precision in place of 8 bit",
+    BenchMethod::RayCast, MakeTable(128, 256, { LinearLengths, FormatFloat, UniformScalars }) });
+
+  group = "size of the table";
+  for (const auto& [scalars, lengths] : { std::pair(32, 16), std::pair(64, 16), std::pair(128, 8),
+         std::pair(128, 16), std::pair(128, 32), std::pair(256, 32) })
+  {
+    const std::string size = std::to_string(scalars) + "x" + std::to_string(lengths);
+    settings.push_back({ "table-" + size, group,
+      std::to_string(scalars) + " scalars on nodes, " + std::to_string(lengths) +
+        " logarithmic lengths, single precision",
+      BenchMethod::RayCast,
+      MakeTable(scalars, lengths, { LogarithmicLengths, FormatFloat, ScalarsAtNodes }) });
+  }
+}
+
+void AddReentry(std::vector<BenchSetting>& settings)
+{
+  const std::string group = "how rays enter again";
+  settings.push_back({ "reentry-hierarchy", group, "by a hierarchy of the boundary",
+    BenchMethod::RayCast, { "Reentry=1" } });
+  settings.push_back({ "reentry-imaginary", group,
+    "through imaginary cells of a convexified mesh (Weiler 2003, section 3.2)",
+    BenchMethod::RayCast, { "Reentry=2" } });
+}
+
+void AddPeers(std::vector<BenchSetting>& settings)
+{
+  const std::string group = "mappers of VTK";
+  settings.push_back({ "vtk-projected-tetrahedra", group, "vtkProjectedTetrahedraMapper",
+    BenchMethod::ProjectedTetrahedra, {} });
+  settings.push_back({ "vtk-bunyk", group,
+    "vtkUnstructuredGridVolumeRayCastMapper (Bunyk) as it comes", BenchMethod::Bunyk, {} });
+  settings.push_back({ "vtk-bunyk-preintegration", group,
+    "the same with vtkUnstructuredGridPreIntegration", BenchMethod::BunykPreIntegration, {} });
+}
+
+/// "Property=Value Property=Value" as a setting of that name.
+BenchSetting ReadSetting(const std::string& text)
+{
+  BenchSetting setting;
+  setting.Name = text;
+  setting.Group = "as asked for";
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+  {
+    setting.Assignments.push_back(word);
+  }
+  if (setting.Assignments.empty())
+  {
+    throw UsageError("--setting: '" + text +
+      "' is not Property=Value, or several with blanks "
+      "between");
+  }
+  CheckSetting(setting);
+  // A name of files, too.
+  std::replace_if(
+    setting.Name.begin(), setting.Name.end(),
+    [](char c) { return c == ' ' || c == '/' || c == '='; }, '-');
+  setting.Description = text;
+  return setting;
+}
+
+} // namespace
+
+BenchSetting GetReferenceSetting()
+{
+  return { "reference", "reference", "closed form, double precision, rays to their ends",
+    BenchMethod::RayCast, { DoublePrecision, ToTheEnd } };
+}
+
+std::vector<BenchSetting> ListSettings(const BenchOptions& options)
+{
+  std::vector<BenchSetting> settings;
+  settings.push_back({ DefaultSettingName, "default",
+    "nothing set: an error of 1e-4, all else automatic", BenchMethod::RayCast, {} });
+  if (options.Settings.empty())
+  {
+    AddErrorDial(settings);
+    AddArithmetic(settings);
+    AddSampleDistances(settings);
+    AddTables(settings);
+    AddReentry(settings);
+  }
+  for (const std::string& text : options.Settings)
+  {
+    settings.push_back(ReadSetting(text));
+  }
+  AddPeers(settings);
+  const auto known = [](const BenchSetting& setting)
+  {
+    const std::vector<std::string> names = GetPropertyNames();
+    return std::all_of(setting.Assignments.begin(), setting.Assignments.end(),
+      [&](const std::string& a)
+      { return std::count(names.begin(), names.end(), a.substr(0, a.find('='))) > 0; });
+  };
+  settings.erase(std::remove_if(settings.begin(), settings.end(),
+                   [&](const BenchSetting& s) { return !known(s); }),
+    settings.end());
+  return settings;
+}
+
+std::string GetMethodName(BenchMethod method)
+{
+  switch (method)
+  {
+    case BenchMethod::ProjectedTetrahedra:
+      return "vtk-projected-tetrahedra";
+    case BenchMethod::Bunyk:
+      return "vtk-bunyk";
+    case BenchMethod::BunykPreIntegration:
+      return "vtk-bunyk-preintegration";
+    default:
+      return "ray-cast";
+  }
+}
+
+bool HasFloatPicture(const BenchSetting& setting)
+{
+  const bool coarse = std::any_of(setting.Assignments.begin(), setting.Assignments.end(),
+    [](const std::string& text) { return text.rfind("ImageSampleDistance=", 0) == 0; });
+  return setting.Method == BenchMethod::RayCast && !coarse;
+}
