@@ -249,10 +249,11 @@ private:
       return;
     }
     SegmentPiece piece;
+    const double largest = std::max(values[0].Attenuation, values[1].Attenuation);
+    const double length = std::min(share * this->Longest, LargestDepth / largest);
     for (int end = 0; end < 2; ++end)
     {
-      piece.Depth[end] = static_cast<float>(
-        std::min(values[end].Attenuation * (share * this->Longest), LargestDepth));
+      piece.Depth[end] = static_cast<float>(values[end].Attenuation * length);
       for (int c = 0; c < 3; ++c)
       {
         piece.Color[end][c] = static_cast<float>(values[end].Color[c]);

@@ -398,6 +398,7 @@ PreIntegrationError EstimatePreIntegrationError(
   std::uniform_int_distribution<int> anyCell(0, n - 2);
   std::uniform_int_distribution<int> anyLength(0, lengths.Size - 2);
   std::uniform_int_distribution<int> nextCell(-1, 1);
+  std::uniform_real_distribution<double> anyShare(0, 1);
   PreIntegrationError estimate;
   const auto measure = [&](double front, double back, double length)
   {
@@ -426,9 +427,14 @@ PreIntegrationError EstimatePreIntegrationError(
     const int back =
       diagonal ? std::clamp(front + nextCell(generator), 0, n - 2) : anyCell(generator);
     const int row = anyLength(generator);
-    const auto middle = [&texels](int cell) { return 0.5 * texels[cell] + 0.5 * texels[cell + 1]; };
-    const double length = 0.5 * (lengths.GetLength(row) + lengths.GetLength(row + 1));
-    const double error = measure(middle(front), middle(back), length);
+    // In the middle of the cell, then anywhere in it.
+    const bool inMiddle = i % 4 < 2;
+    const auto choose = [&](double a, double b)
+    { return a + (inMiddle ? 0.5 : anyShare(generator)) * (b - a); };
+    const double length = choose(lengths.GetLength(row), lengths.GetLength(row + 1));
+    const double frontScalar = choose(texels[front], texels[front + 1]);
+    const double backScalar = choose(texels[back], texels[back + 1]);
+    const double error = measure(frontScalar, backScalar, length);
     const double interpolation = std::max(error - estimate.Rounding, 0.);
     estimate.Segment = std::max(estimate.Segment, interpolation);
     estimate.PerLength = std::max(estimate.PerLength, interpolation / length);
@@ -591,8 +597,60 @@ struct Sizes
 };
 
 constexpr Sizes Ladder[] = { { 32, 16, 0 }, { 32, 25, 2 }, { 64, 32, 0 }, { 64, 49, 4 },
-  { 128, 32, 0 }, { 128, 49, 4 }, { 256, 32, 0 }, { 256, 49, 4 }, { 128, 256, 0 }, { 256, 97, 8 },
-  { 512, 32, 0 }, { 512, 49, 4 }, { 512, 193, 16 } };
+  { 128, 32, 0 }, { 128, 49, 4 }, { 256, 32, 0 }, { 256, 49, 4 }, { 128, 193, 16 }, { 128, 256, 0 },
+  { 256, 97, 8 }, { 512, 32, 0 }, { 512, 49, 4 }, { 256, 256, 0 }, { 512, 193, 16 } };
+
+/// All tables that a goal leaves free to choose, in single precision, in the order of their costs.
+std::vector<PreIntegrationSettings> GetCandidates(const TableGoal& goal)
+{
+  std::vector<PreIntegrationSettings> candidates;
+  for (const Sizes& sizes : Ladder)
+  {
+    for (const ScalarAxis axis : { ScalarAxis::Nodes, ScalarAxis::Uniform })
+    {
+      PreIntegrationSettings settings;
+      settings.ScalarSize = goal.ScalarSize > 0 ? goal.ScalarSize : sizes.Scalars;
+      settings.LengthSize = goal.LengthSize > 0 ? goal.LengthSize : sizes.Lengths;
+      settings.Scale = sizes.Steps > 0 ? LengthScale::Logarithmic : LengthScale::Linear;
+      settings.StepsPerDoubling = std::max(sizes.Steps, 1);
+      settings.Axis = axis;
+      std::copy_n(goal.Rays.ScalarRange, 2, settings.ScalarRange);
+      settings.LongestSegment = goal.Rays.LongestSegment;
+      // Sizes that are given make some steps of the ladder the same.
+      const bool again = std::any_of(candidates.begin(), candidates.end(),
+        [&](const PreIntegrationSettings& other)
+        {
+          return other.ScalarSize == settings.ScalarSize &&
+            other.LengthSize == settings.LengthSize && other.Scale == settings.Scale &&
+            other.StepsPerDoubling == settings.StepsPerDoubling && other.Axis == settings.Axis;
+        });
+      if ((goal.AnyScale || settings.Scale == goal.Scale) &&
+        (goal.AnyAxis || settings.Axis == goal.Axis) &&
+        settings.StepsPerDoubling < settings.LengthSize && !again)
+      {
+        candidates.push_back(settings);
+      }
+    }
+  }
+  return candidates;
+}
+
+bool IsInteger(TexelFormat format)
+{
+  return format == TexelFormat::UNorm8 || format == TexelFormat::UNorm16;
+}
+
+/// Whether all colours are in 0..1.
+bool HasColorsUpToOne(const TransferFunction& function)
+{
+  const auto isInside = [](double c) { return 0 <= c && c <= 1; };
+  return std::all_of(function.Nodes.begin(), function.Nodes.end(),
+    [&](const TransferFunction::Node& node)
+    {
+      return std::all_of(node.Left.Color, node.Left.Color + 3, isInside) &&
+        std::all_of(node.Right.Color, node.Right.Color + 3, isInside);
+    });
+}
 
 } // namespace
 
@@ -608,71 +666,50 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
   }
 
   const double target = 0.5 * goal.MaximumError;
-  double best = -1;
+  const bool integersHold = HasColorsUpToOne(function);
   PreIntegrationTable table;
-  for (const Sizes& sizes : Ladder)
+  const auto isRight = [&](const PreIntegrationSettings& settings)
   {
-    PreIntegrationSettings settings;
-    settings.ScalarSize = goal.ScalarSize > 0 ? goal.ScalarSize : sizes.Scalars;
-    settings.LengthSize = goal.LengthSize > 0 ? goal.LengthSize : sizes.Lengths;
-    settings.Scale = sizes.Steps > 0 ? LengthScale::Logarithmic : LengthScale::Linear;
-    settings.StepsPerDoubling = std::max(sizes.Steps, 1);
-    if ((!goal.AnyScale && settings.Scale != goal.Scale) ||
-      settings.StepsPerDoubling >= settings.LengthSize)
-    {
-      continue;
-    }
-    settings.Axis = goal.AnyAxis ? ScalarAxis::Nodes : goal.Axis;
-    std::copy_n(goal.Rays.ScalarRange, 2, settings.ScalarRange);
-    settings.LongestSegment = goal.Rays.LongestSegment;
-    settings.Format = TexelFormat::Float;
-    const std::size_t texels =
-      static_cast<std::size_t>(settings.ScalarSize) * settings.ScalarSize * settings.LengthSize;
-    const TexelFormat formats[] = { TexelFormat::Half, TexelFormat::UNorm16, TexelFormat::Float };
-    const bool tooLarge =
-      texels * GetTexelSize(goal.AnyFormat ? TexelFormat::Half : goal.Format) > goal.MaximumBytes;
-    if (tooLarge)
-    {
-      continue;
-    }
-    // In single precision first: what that can't do, no other format can.
     BuildPreIntegrationTable(function, settings, table);
-    double error = GetRaysError(rays, table);
-    const bool right = error <= target;
-    if (goal.AnyFormat ? right : true)
+    const double error = GetRaysError(rays, table);
+    if (choice.PictureError < 0 || error < choice.PictureError)
     {
-      for (const TexelFormat format : formats)
+      choice.PictureError = error;
+      choice.Settings = settings;
+    }
+    return error <= target;
+  };
+  choice.PictureError = -1;
+  for (PreIntegrationSettings& settings : GetCandidates(goal))
+  {
+    const auto fits = [&](TexelFormat format)
+    {
+      return GetTexelSize(format) * settings.ScalarSize * settings.ScalarSize *
+        settings.LengthSize <=
+        goal.MaximumBytes;
+    };
+    // In single precision first: what that can't do, no other format can.
+    if (goal.AnyFormat && fits(TexelFormat::Float) && !isRight(settings))
+    {
+      continue;
+    }
+    for (const TexelFormat format :
+      { TexelFormat::UNorm8, TexelFormat::UNorm16, TexelFormat::Half, TexelFormat::Float })
+    {
+      settings.Format = format;
+      const bool isFree =
+        goal.AnyFormat ? !IsInteger(format) || integersHold : format == goal.Format;
+      if (isFree && fits(format) && isRight(settings))
       {
-        if ((goal.AnyFormat ? false : format != goal.Format) ||
-          texels * GetTexelSize(format) > goal.MaximumBytes)
-        {
-          continue;
-        }
-        settings.Format = format;
-        if (format != TexelFormat::Float)
-        {
-          BuildPreIntegrationTable(function, settings, table);
-        }
-        error = GetRaysError(rays, table);
-        if (error <= target)
-        {
-          break;
-        }
+        choice.ClosedForm = false;
+        choice.Settings = settings;
+        choice.PictureError = GetRaysError(rays, table);
+        choice.Reason = "table: the smallest that is right enough on model rays";
+        return choice;
       }
     }
-    if (best < 0 || error < best)
-    {
-      best = error;
-      choice.Settings = settings;
-      choice.PictureError = error;
-    }
-    if (error <= target)
-    {
-      choice.ClosedForm = false;
-      choice.Reason = "table: the smallest that is right enough on model rays";
-      return choice;
-    }
   }
+  choice.PictureError = std::max(choice.PictureError, 0.);
   choice.Reason = "closed form: no table within the limits is right enough";
   return choice;
 }

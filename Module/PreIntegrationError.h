@@ -100,7 +100,7 @@ struct TableChoice
   /// No table: the closed form is as fast, or no table within the limits is right enough.
   bool ClosedForm = true;
   PreIntegrationSettings Settings; ///< of the table; the best one tried where ClosedForm
-  double PictureError = 0;         ///< EstimatePictureError of that table
+  double PictureError = 0;         ///< EstimatePictureError of that table, 0 where none was tried
   double PiecesPerSegment = 1;     ///< of the model's rays, on average
   std::string Reason;              ///< one line
 };
