@@ -41,6 +41,7 @@ struct KernelInput
   const std::array<float, 2>* SurfaceNeighbors;
   const float* SurfaceColors;    ///< red, green, blue, opacity of each surface, ascending in value
   const SurfaceShading* Shading; ///< nullptr: flat surfaces
+  double DistanceRounding;       ///< what distances along rays may be off by, in world units
 
   // The scene.
   const RayGrid* Grid;

@@ -129,7 +129,11 @@ private:
     const V z1 = this->Z;
     const V s1 = this->S;
     const Mask8 running = MaskFromBits(this->Running);
-    Mask8 valid = AndNot(running & this->IsReal(), z0 == z1);
+    Mask8 valid = running & this->IsReal();
+    if constexpr (Model::NeedsLength)
+    {
+      valid = AndNot(valid, z0 == z1);
+    }
     V zFrom = z0;
     V zTo = z1;
     V sFrom = s0;
@@ -143,7 +147,7 @@ private:
       const V zFar = Max(z0, z1);
       zFrom = Max(zNear, this->Near);
       zTo = Min(zFar, this->Far);
-      valid = valid & (zFrom < zTo);
+      valid = valid & (Model::NeedsLength ? zFrom < zTo : zFrom <= zTo);
       if constexpr (!CellData)
       {
         const V sNear = Select(backward, s1, s0);

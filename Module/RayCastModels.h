@@ -8,6 +8,8 @@
 //   AddCell    a cell of constant scalar from z0 to z1,
 //   IsDone     the rays that nothing more can change,
 //   GetColors  red, green, blue and opacity of each ray in the end,
+//   NeedsLength  whether a cell that the ray passes in no length adds nothing; rounding makes such
+//              cells, and a surface between their scalars must not be lost,
 //   First      the distance (z) of each ray's first contribution, infinity where there is none.
 
 #include "RayCastFrame.h"
@@ -231,6 +233,7 @@ class ClosedForm
 {
 public:
   using V = LanesOfReal<Real>;
+  static constexpr bool NeedsLength = true;
   FirstContribution<Real> First;
 
   ClosedForm(const WorldRays&, Double8) {}
@@ -279,6 +282,7 @@ class OpticalDepth
 {
 public:
   using V = LanesOfReal<Real>;
+  static constexpr bool NeedsLength = true;
   FirstContribution<Real> First;
 
   OpticalDepth(const WorldRays&, Double8) {}
@@ -330,6 +334,7 @@ class Emission
 {
 public:
   using V = LanesOfReal<Real>;
+  static constexpr bool NeedsLength = true;
   FirstContribution<Real> First;
 
   Emission(const WorldRays&, Double8) {}
@@ -384,6 +389,7 @@ class Maximum
 {
 public:
   using V = LanesOfReal<Real>;
+  static constexpr bool NeedsLength = true;
   FirstContribution<Real> First;
 
   Maximum(const WorldRays&, Double8) {}
@@ -461,11 +467,16 @@ private:
 
 /// Surfaces of constant scalar, composited front to back. A surface is crossed where the scalar
 /// comes from below its value to it or above, or back: once, also where it lies in a face.
+///
+/// Where several faces are passed in no distance, next to a vertex or an edge, rounding makes the
+/// scalar go to and fro. So a crossing waits until the ray is beyond the rounding of distances, and
+/// one back through the same surface takes it away.
 template <class Real>
 class Isosurfaces
 {
 public:
   using V = LanesOfReal<Real>;
+  static constexpr bool NeedsLength = false;
   FirstContribution<Real> First;
 
   Isosurfaces(const WorldRays& rays, Double8 start)
@@ -479,6 +490,13 @@ public:
   {
     const V ds = s1 - s0;
     valid = valid & (ds == ds);
+    const Mask8 settled = valid & this->IsWaiting() &
+      (this->WaitingDistance + V(static_cast<Real>(in.DistanceRounding)) < z0);
+    if (Any(settled))
+    {
+      this->Settle(in, settled);
+    }
+
     Float8 below, above;
     for (;;)
     {
@@ -504,7 +522,7 @@ public:
       }
       const V value = Select(up, upper, lower);
       const V z = Fma((value - s0) / ds, z1 - z0, z0);
-      this->Cross(in, valid, cell, z, this->Index - Ones(down));
+      this->Cross(in, valid, up, cell, z);
       this->Index = this->Index + Ones(up) - Ones(down);
       this->LoadNeighbors(in, below, above);
     }
@@ -512,7 +530,11 @@ public:
 
   TETRALUX_INLINE Mask8 IsDone(const KernelInput& in) const { return this->Gathered.IsDone(in); }
 
-  void GetColors(const KernelInput&, ColorsOfLanes& colors) { this->Gathered.GetColors(colors); }
+  void GetColors(const KernelInput& in, ColorsOfLanes& colors)
+  {
+    this->Settle(in, this->IsWaiting());
+    this->Gathered.GetColors(colors);
+  }
 
 private:
   /// The values of the surfaces below and above the scalar; infinite where there is none.
@@ -525,22 +547,45 @@ private:
     above = FromBits(second);
   }
 
-  TETRALUX_INLINE void Cross(const KernelInput& in, Mask8 valid, Int8 cell, V z, Int8 surface)
+  TETRALUX_INLINE Mask8 IsWaiting() const { return this->WaitingSurface > Int8(-1); }
+
+  // Surfaces are crossed seldom: calls keep the step of a packet short.
+
+  /// Upwards through the surface above the scalar, or downwards through the one below.
+  TETRALUX_NOINLINE void Cross(const KernelInput& in, Mask8 valid, Mask8 up, Int8 cell, V z)
   {
-    Float8 color[3], opacity;
-    GatherRows(in.SurfaceColors, surface, color[0], color[1], color[2], opacity);
-    opacity = Keep(valid, opacity);
-    if (in.Shading)
+    const Int8 surface = this->Index - Ones(AndNot(valid, up));
+    const Mask8 back = valid & (this->WaitingSurface == surface) &
+      (Abs(z - this->WaitingDistance) <= V(static_cast<Real>(in.DistanceRounding)));
+    const Mask8 settled = AndNot(valid & this->IsWaiting(), back);
+    if (Any(settled))
     {
-      this->Shade(in, valid, cell, z, color);
+      this->Settle(in, settled);
     }
-    this->Gathered.Add(
-      valid, color[0] * opacity, color[1] * opacity, color[2] * opacity, Float8(1.f) - opacity);
-    this->First.Add(valid & (Float8(0.f) < opacity), z);
+    this->WaitingSurface = Select(valid, Select(back, Int8(-1), surface), this->WaitingSurface);
+    this->WaitingCell = Select(valid, cell, this->WaitingCell);
+    this->WaitingDistance = Select(valid, z, this->WaitingDistance);
   }
 
-  /// Surfaces are crossed seldom, and lights are many kinds of branches: ray by ray.
-  void Shade(const KernelInput& in, Mask8 valid, Int8 cell, V z, Float8 (&color)[3]) const
+  /// Composites the crossings that wait.
+  TETRALUX_NOINLINE void Settle(const KernelInput& in, Mask8 lanes)
+  {
+    const Int8 surface = Select(lanes, this->WaitingSurface, Int8(0));
+    Float8 color[3], opacity;
+    GatherRows(in.SurfaceColors, surface, color[0], color[1], color[2], opacity);
+    if (in.Shading)
+    {
+      this->Shade(in, lanes, this->WaitingCell, this->WaitingDistance, color);
+    }
+    this->Gathered.Add(
+      lanes, color[0] * opacity, color[1] * opacity, color[2] * opacity, Float8(1.f) - opacity);
+    this->First.Add(lanes & (Float8(0.f) < opacity), this->WaitingDistance);
+    this->WaitingSurface = Select(lanes, Int8(-1), this->WaitingSurface);
+  }
+
+  /// Ray by ray: lights are many kinds of branches.
+  TETRALUX_NOINLINE void Shade(
+    const KernelInput& in, Mask8 valid, Int8 cell, V z, Float8 (&color)[3]) const
   {
     std::int32_t cells[Width];
     Real distances[Width];
@@ -586,7 +631,10 @@ private:
   WorldRays Rays;
   Double8 Start; ///< distance of z = 0 along the rays
   Radiance Gathered;
-  Int8 Index = 0; ///< number of surfaces whose value is at most the last scalar
+  Int8 Index = 0;           ///< number of surfaces whose value is at most the last scalar
+  Int8 WaitingSurface = -1; ///< of the crossing that waits; -1: none does
+  Int8 WaitingCell = 0;
+  V WaitingDistance = Real(0);
 };
 
 } // namespace

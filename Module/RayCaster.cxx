@@ -39,6 +39,10 @@ constexpr double MinimumTransparentShare = 0.1;
 /// and makes more boundary.
 constexpr double EntryCost = 4;
 
+/// Rounding of distances along rays, in radii of the mesh: sixteen times that of a coordinate.
+constexpr double SingleDistanceRounding = 1. / (1 << 20);
+constexpr double DoubleDistanceRounding = SingleDistanceRounding / (1 << 29);
+
 struct InstructionSet
 {
   const char* Name;
@@ -500,6 +504,8 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   const SurfaceShading shading{ &this->Mesh->GetMesh(), this->Scalars.data(), grid.MeshFromWorld,
     options.Lights, options.Surface };
   in.Shading = options.Shaded ? &shading : nullptr;
+  in.DistanceRounding =
+    worldRadius * (statistics.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);
   in.Grid = &grid;
   in.Planes = limits.Planes.empty() ? nullptr : &limits.Planes.front();
   in.NumberOfPlanes = static_cast<int>(limits.Planes.size());

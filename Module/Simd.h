@@ -22,10 +22,17 @@
 #define TETRALUX_AVX2 0
 #endif
 
-#if defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) // a minute instead of ten to compile
+// Forced only where it counts: the loops over lanes of the kernels for any processor, and what the
+// sanitizers add, take minutes to compile when they are all in one function.
+#if defined(__GNUC__) && TETRALUX_AVX2 && !defined(__SANITIZE_ADDRESS__)
 #define TETRALUX_INLINE inline __attribute__((always_inline))
 #else
 #define TETRALUX_INLINE inline
+#endif
+#if defined(__GNUC__)
+#define TETRALUX_NOINLINE __attribute__((noinline))
+#else
+#define TETRALUX_NOINLINE
 #endif
 
 namespace tetralux
