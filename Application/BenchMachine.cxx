@@ -55,6 +55,7 @@ std::vector<std::pair<std::string, std::string>> DescribeMachine(
                             "each core" },
     { "OpenGL", openGLRenderer },
     { "VTK", vtkVersion::GetVTKVersion() },
+    { "CGAL", TETRALUX_CGAL_VERSION },
     { "Compiler", GetCompiler() },
   };
 }

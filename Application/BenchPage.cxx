@@ -150,6 +150,41 @@ void WriteSummary(std::ostream& page, const std::vector<BenchSceneResult>& resul
   page << "</tbody></table></div>\n";
 }
 
+/// The error that is asked for and the error that is made, scene by scene.
+void WriteErrorsAskedFor(std::ostream& page, const std::vector<BenchSceneResult>& results)
+{
+  std::vector<const BenchRow*> dial;
+  for (const BenchRow& row : results.front().Rows)
+  {
+    if (row.Setting.Group == ErrorDialGroup)
+    {
+      dial.push_back(&row);
+    }
+  }
+  if (dial.empty())
+  {
+    return;
+  }
+  page << "<h2>Error asked for, and largest error made</h2>\n<div class=\"scroll\"><table><thead>"
+          "<tr><th>scene</th>";
+  for (const BenchRow* row : dial)
+  {
+    page << "<th>" << Escape(row->Setting.Assignments.front()) << "</th>";
+  }
+  page << "</tr></thead><tbody>\n";
+  for (const BenchSceneResult& result : results)
+  {
+    page << "<tr>" << PrintCell(Escape(result.Name));
+    for (const BenchRow* asked : dial)
+    {
+      const BenchRow* row = FindRow(result, asked->Setting.Name);
+      page << PrintCell(row ? PrintError(row->Errors.Maximum) : "failed");
+    }
+    page << "</tr>\n";
+  }
+  page << "</tbody></table></div>\n";
+}
+
 void WriteFigure(
   std::ostream& page, const std::string& uri, const std::string& file, const std::string& caption)
 {
@@ -279,6 +314,7 @@ std::string MakePage(const std::vector<BenchSceneResult>& results,
   WriteHead(page, machine, command);
   WriteHowToRead(page);
   WriteSummary(page, results);
+  WriteErrorsAskedFor(page, results);
   for (const BenchSceneResult& result : results)
   {
     WriteScene(page, result);

@@ -42,7 +42,7 @@ void AddErrorDial(std::vector<BenchSetting>& settings)
 {
   for (const char* error : { "1e-2", "1e-3", "1e-4", "1e-5", "1e-6" })
   {
-    settings.push_back({ std::string("error-") + error, "error asked for",
+    settings.push_back({ std::string("error-") + error, ErrorDialGroup,
       std::string("MaximumError ") + error + ", all else automatic", BenchMethod::RayCast,
       { std::string("MaximumError=") + error } });
   }

@@ -28,6 +28,9 @@ struct BenchSetting
 /// Name of the setting that all others are compared with: nothing set.
 constexpr const char* DefaultSettingName = "default";
 
+/// Group of the settings that ask for an error, and for nothing else.
+constexpr const char* ErrorDialGroup = "error asked for";
+
 /// Everything as exact as it can be had: the closed form in double precision, rays to their ends.
 BenchSetting GetReferenceSetting();
 
