@@ -37,7 +37,7 @@ private:
 /// a convex surface, which is returned. Cells that cover a convex body in total, by boundary, and
 /// turn the same way cover each point of it once.
 Obstacle VerifyFilled(const BoundarySurface& surface, const std::vector<double>& coordinates,
-  const std::vector<Cell>& cells, std::vector<Triangle>& hull)
+  const std::vector<Cell>& cells, const Front& flat, std::vector<Triangle>& hull)
 {
   const ExactPoints points(coordinates.data());
   Obstacle obstacle;
@@ -50,17 +50,39 @@ Obstacle VerifyFilled(const BoundarySurface& surface, const std::vector<double>&
 
   // Each face waits for its opposite. The solid side of a boundary triangle is its negative side, as
   // the cell is of its face.
-  std::vector<Triangle> open = surface.Triangles;
+  std::vector<Triangle> open;
+  std::vector<bool> isMet;
   FaceTable table(surface.Triangles.size() + 2 * cells.size());
-  for (std::size_t t = 0; t < open.size(); ++t)
+  const auto match = [&](std::int32_t a, std::int32_t b, std::int32_t c)
   {
-    if (table.Find(open[t][0], open[t][1], open[t][2]) != FaceTable::None)
+    const std::int32_t other = table.Find(a, b, c);
+    if (other == FaceTable::None)
     {
-      return refuse("the filling has a face twice", open[t][0]);
+      table.Set(a, b, c, static_cast<std::int32_t>(open.size()));
+      open.push_back({ a, b, c });
+      isMet.push_back(false);
+      return true;
     }
-    table.Set(open[t][0], open[t][1], open[t][2], static_cast<std::int32_t>(t));
+    const Triangle& opposite = open[other];
+    const auto at = std::find(opposite.begin(), opposite.end(), a) - opposite.begin();
+    const bool isFree = !isMet[other] && opposite[(at + 1) % 3] == c;
+    isMet[other] = true;
+    return isFree;
+  };
+  for (const auto& [a, b, c] : surface.Triangles)
+  {
+    if (!match(a, b, c))
+    {
+      return refuse("the filling has a face twice", a);
+    }
   }
-  std::vector<bool> isMet(open.size(), false);
+  for (const auto& [a, b, c] : flat)
+  {
+    if (!match(a, c, b))
+    {
+      return refuse("the filling has a face twice", a);
+    }
+  }
   for (const Cell& cell : cells)
   {
     if (points.Orient(cell[0], cell[1], cell[2], cell[3]) <= 0)
@@ -69,23 +91,10 @@ Obstacle VerifyFilled(const BoundarySurface& surface, const std::vector<double>&
     }
     for (const auto& face : OutwardFaces)
     {
-      const Triangle triangle = { cell[face[0]], cell[face[1]], cell[face[2]] };
-      const auto [a, b, c] = triangle;
-      const std::int32_t other = table.Find(a, b, c);
-      if (other == FaceTable::None)
+      if (!match(cell[face[0]], cell[face[1]], cell[face[2]]))
       {
-        table.Set(a, b, c, static_cast<std::int32_t>(open.size()));
-        open.push_back(triangle);
-        isMet.push_back(false);
-        continue;
+        return refuse("the filling has a face twice", cell[face[0]]);
       }
-      const Triangle& opposite = open[other];
-      const auto at = std::find(opposite.begin(), opposite.end(), a) - opposite.begin();
-      if (isMet[other] || opposite[(at + 1) % 3] != c)
-      {
-        return refuse("the filling has a face twice", a);
-      }
-      isMet[other] = true;
     }
   }
   for (std::size_t t = 0; t < open.size(); ++t)
@@ -217,8 +226,9 @@ private:
     }
 
     std::vector<double> coordinates = surface.Coordinates;
-    const std::vector<Cell> cells = FillPockets(std::move(space), neighbors, coordinates, obstacle,
-      [this](double fraction) { return this->Continue(0.5 + 0.4 * fraction); });
+    Front flat;
+    const std::vector<Cell> cells = FillPockets(std::move(space), neighbors, coordinates, flat,
+      obstacle, [this](double fraction) { return this->Continue(0.5 + 0.4 * fraction); });
     this->Result.FillSeconds = watch.Lap();
     if (!obstacle.Reason.empty() || this->Result.Aborted)
     {
@@ -226,7 +236,10 @@ private:
     }
 
     std::vector<Triangle> hull;
-    obstacle = VerifyFilled(surface, coordinates, cells, hull);
+    obstacle = VerifyFilled(surface, coordinates, cells, flat, hull);
+    this->Result.FlatPocketFaces =
+      static_cast<std::int64_t>(std::count_if(surface.Triangles.begin(), surface.Triangles.end(),
+        [&](const Triangle& t) { return std::find(flat.begin(), flat.end(), t) != flat.end(); }));
     if (obstacle.Reason.empty())
     {
       this->Result.MeshVolume = MeasureEnclosedVolume(coordinates, surface.Triangles);

@@ -45,7 +45,12 @@ struct Convexification
   bool Aborted = false;
 
   std::int64_t BoundaryFaces = 0; ///< of the mesh
-  std::int64_t MissingFaces = 0;  ///< those of them that are no faces of the Delaunay triangulation
+  /// Boundary faces that are on the hull only to rounding: what lies between them and the hull is
+  /// flat to 16 roundings of the largest coordinate and has no cells, where it can't be filled with
+  /// the points that it has. (Planes that were turned away from the axes are of that kind.)
+  std::int64_t FlatPocketFaces = 0;
+
+  std::int64_t MissingFaces = 0; ///< those of them that are no faces of the Delaunay triangulation
 
   /// Volumes in cubed units of the mesh: each found by itself, so that
   /// HullVolume = MeshVolume + ImaginaryVolume checks them. MeshVolume is what the boundary

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <deque>
+#include <random>
+#include <tuple>
 #include <unordered_map>
 
 namespace tetralux
@@ -18,14 +20,21 @@ namespace
 class MovingFront
 {
 public:
-  MovingFront(const ExactPoints& points, const PointNeighbors& neighbors, const Front& front)
+  MovingFront(const ExactPoints& points, const PointNeighbors& neighbors, const Front& front,
+    const WrapOrder& order)
     : Points(points)
     , Neighbors(neighbors)
+    , Order(order)
+    , Random(order.Seed)
     , Table(front.size())
   {
     for (const Triangle& triangle : front)
     {
       this->Add(triangle);
+    }
+    if (order.Seed != 0)
+    {
+      std::shuffle(this->Waiting.begin(), this->Waiting.end(), this->Random);
     }
   }
 
@@ -132,7 +141,18 @@ private:
       { return CellFitsTriangle(this->Points, cell, this->Triangles[number]); });
   }
 
-  /// The first point in Delaunay's order that makes a cell which fits; -1 where none does.
+  /// How many triangles of the front, beside its base, a cell would close; 0 where that is not asked.
+  int CountClosed(const Triangle& base, std::int32_t apex) const
+  {
+    int count = 0;
+    for (int i = 0; i < 3 && this->Order.PrefersClosing; ++i)
+    {
+      count += this->Table.Find(base[i], base[(i + 1) % 3], apex) != FaceTable::None;
+    }
+    return count;
+  }
+
+  /// The first point in the order that makes a cell which fits; -1 where none does.
   std::int32_t FindApex(const Triangle& base)
   {
     const auto [a, b, c] = base;
@@ -164,19 +184,22 @@ private:
     {
       if (this->Points.Orient(a, b, c, id) > 0)
       {
-        this->Candidates.emplace_back(order(id), id);
+        this->Candidates.emplace_back(-this->CountClosed(base, id),
+          this->Order.IsRandom ? static_cast<double>(this->Random()) : order(id), id);
       }
     }
     std::sort(this->Candidates.begin(), this->Candidates.end());
     const auto found = std::find_if(this->Candidates.begin(), this->Candidates.end(),
       [&, a = a, b = b, c = c](const auto& candidate) {
-        return this->Fits({ a, b, c, candidate.second });
+        return this->Fits({ a, b, c, std::get<2>(candidate) });
       });
-    return found == this->Candidates.end() ? -1 : found->second;
+    return found == this->Candidates.end() ? -1 : std::get<2>(*found);
   }
 
   const ExactPoints& Points;
   const PointNeighbors& Neighbors;
+  WrapOrder Order;
+  std::mt19937_64 Random;
   std::vector<Triangle> Triangles;
   std::vector<std::int32_t> Leaves; ///< of the tree, -1 for triangles that are no longer there
   std::deque<std::int32_t> Waiting;
@@ -184,7 +207,7 @@ private:
   FaceTable Table;
   std::unordered_map<std::int32_t, std::vector<std::int32_t>> TrianglesAt;
   std::vector<std::int32_t> Ids;
-  std::vector<std::pair<double, std::int32_t>> Candidates;
+  std::vector<std::tuple<int, double, std::int32_t>> Candidates;
 };
 
 } // namespace
@@ -229,9 +252,9 @@ PointNeighbors::PointNeighbors(const BoundaryTriangulation& triangulation)
 
 //----------------------------------------------------------------------------
 Front WrapFront(const ExactPoints& points, const PointNeighbors& neighbors, const Front& front,
-  std::vector<Cell>& cells)
+  const WrapOrder& order, std::vector<Cell>& cells)
 {
-  MovingFront moving(points, neighbors, front);
+  MovingFront moving(points, neighbors, front, order);
   moving.Advance(cells);
   return moving.GetRest();
 }

@@ -36,10 +36,18 @@ private:
   std::vector<std::int32_t> Points;
 };
 
-/// Fills a pocket from its front inwards by constrained gift wrapping: in front of each triangle the
-/// most Delaunay-like cell that fits. Returns the triangles around what could not be filled.
+/// Which of the cells that fit in front of a triangle is taken.
+struct WrapOrder
+{
+  bool PrefersClosing; ///< one with most of its faces in the front, or any
+  bool IsRandom;       ///< of these any, or the most Delaunay-like one
+  std::uint64_t Seed;  ///< the triangles come in an order of its own for each seed but 0
+};
+
+/// Fills a pocket from its front inwards by constrained gift wrapping. Returns the triangles around
+/// what could not be filled.
 Front WrapFront(const ExactPoints& points, const PointNeighbors& neighbors, const Front& front,
-  std::vector<Cell>& cells);
+  const WrapOrder& order, std::vector<Cell>& cells);
 
 } // namespace tetralux
 
