@@ -22,17 +22,26 @@ ReferenceMesh RayScene::GetReferenceMesh() const
   return { this->Mesh.Points, this->Mesh.Cells, this->Scalars, this->CellScalars };
 }
 
+ReferenceOptics RayScene::GetReferenceOptics() const
+{
+  ReferenceOptics optics(this->Function, this->Model);
+  optics.Isosurfaces = this->Isosurfaces;
+  optics.Shaded = this->Shaded;
+  optics.Lights = this->Lights;
+  return optics;
+}
+
 ReferenceImage RayScene::RenderReference() const
 {
   return tetralux::RenderReference(
-    this->GetReferenceMesh(), this->Function, this->Grid, this->GetLimits());
+    this->GetReferenceMesh(), this->GetReferenceOptics(), this->Grid, this->GetLimits());
 }
 
 std::vector<double> RayScene::MeasureGrazing(
   const ReferenceImage& image, Span<const std::uint8_t> pixels) const
 {
-  return tetralux::MeasureGrazing(
-    this->GetReferenceMesh(), this->Function, this->Grid, this->GetLimits(), image, pixels);
+  return tetralux::MeasureGrazing(this->GetReferenceMesh(), this->GetReferenceOptics(), this->Grid,
+    this->GetLimits(), image, pixels);
 }
 
 RayCaster RayScene::MakeRayCaster() const
@@ -57,6 +66,8 @@ RayCaster RayScene::MakeRayCaster() const
     caster.SetPointScalars(std::move(scalars));
   }
   caster.SetTransferFunction(this->Function);
+  caster.SetOpticalModel(this->Model);
+  caster.SetIsosurfaces(this->Isosurfaces);
   return caster;
 }
 
@@ -67,8 +78,11 @@ RayPicture Cast(RayCaster& caster, const RayScene& scene, const RayCastOptions& 
   // Whatever is not written is noticed.
   picture.Colors.assign(4 * pixels, std::numeric_limits<float>::quiet_NaN());
   picture.Depths.assign(pixels, std::numeric_limits<float>::quiet_NaN());
+  RayCastOptions lit = options;
+  lit.Shaded = scene.Shaded;
+  lit.Lights = scene.Lights;
   picture.Statistics =
-    caster.Cast(scene.Grid, scene.GetLimits(), options, picture.Colors, picture.Depths);
+    caster.Cast(scene.Grid, scene.GetLimits(), lit, picture.Colors, picture.Depths);
   return picture;
 }
 

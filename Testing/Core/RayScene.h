@@ -18,19 +18,24 @@ struct RayScene
   std::vector<double> Scalars; ///< one for each point, or for each cell
   bool CellScalars = false;
   TransferFunction Function;
+  OpticalModel Model = OpticalModel::EmissionAbsorption;
+  std::vector<Isosurface> Isosurfaces; ///< ascending in value
+  bool Shaded = false;
+  std::vector<Light> Lights;
   RayGrid Grid;
   RayLimits Limits;
   std::vector<float> MaximumDistances; ///< empty: none
 
   RayLimits GetLimits() const;
   ReferenceMesh GetReferenceMesh() const;
+  ReferenceOptics GetReferenceOptics() const;
   ReferenceImage RenderReference() const;
 
   /// How much the given pixels are grazed, see MeasureGrazing.
   std::vector<double> MeasureGrazing(
     const ReferenceImage& image, Span<const std::uint8_t> pixels) const;
 
-  /// A ray caster with the mesh, the scalars in its order, and the transfer function.
+  /// A ray caster with the mesh, the scalars in its order, and what rays gather.
   RayCaster MakeRayCaster() const;
 };
 
