@@ -200,13 +200,18 @@ bool PointNames::Paint(vtkContext2D* painter)
     const std::array<float, 2> place = this->Place(point);
     float bounds[4]; // x, y, width, height
     painter->ComputeStringBounds(point.Label, bounds);
+    // Beside the mark; where that is taken, ever farther above and below.
     const float offset = MarkerSize / 2 + gap;
-    const float left = place[0] - offset - bounds[2];
-    const float right = place[0] + offset;
-    const std::array<float, 2> corners[] = { { right, place[1] }, { right, place[1] - bounds[3] },
-      { left, place[1] - bounds[3] }, { left, place[1] },
-      { place[0] - bounds[2] / 2, place[1] + offset },
-      { place[0] - bounds[2] / 2, place[1] - offset - bounds[3] } };
+    const float lefts[] = { place[0] + offset, place[0] - offset - bounds[2],
+      place[0] - bounds[2] / 2 };
+    std::vector<std::array<float, 2>> corners;
+    for (const float lines : { -0.5f, 0.f, -1.f, 1.f, -2.f })
+    {
+      for (const float left : lefts)
+      {
+        corners.push_back({ left, place[1] + lines * bounds[3] });
+      }
+    }
     for (const std::array<float, 2>& corner : corners)
     {
       const Box box{ corner[0], corner[1], corner[0] + bounds[2], corner[1] + bounds[3] };
@@ -237,7 +242,7 @@ void AddGroup(
   plot->SetInputData(MakeTable(points), 0, 1);
   const auto& color = Colors[index % Colors.size()];
   plot->SetColor(color[0], color[1], color[2], 255);
-  plot->SetMarkerStyle(Markers[index % Markers.size()]);
+  plot->SetMarkerStyle(Markers[(index + index / Colors.size()) % Markers.size()]);
   plot->SetMarkerSize(MarkerSize);
   plot->SetLabel(group);
 }
@@ -311,7 +316,7 @@ vtkSmartPointer<vtkImageData> DrawErrorChart(const BenchSceneResult& result)
         members.push_back(GetPoint(row));
       }
     }
-    AddGroup(chart, groups[i], members, i);
+    AddGroup(chart, groups[i], members, (i + 1) % groups.size()); // the default's is the first
   }
   chart->SetAutoSize(false);
   chart->SetSize(vtkRectf(0, 0, PlotWidth, ChartHeight));

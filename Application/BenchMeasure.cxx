@@ -104,7 +104,7 @@ void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasuremen
   const vtkSmartPointer<vtkImageData> image = MakeImage(picture);
   row.PictureFile = stem + ".png";
   WritePng(image, run.Folder.GetPath(row.PictureFile), row.PictureFile);
-  const bool isReference = &picture == &reference;
+  const bool isReference = row.Setting.Name == GetReferenceSetting().Name;
   if (isReference || row.Setting.Method != BenchMethod::RayCast)
   {
     row.PictureUri = MakePngUri(ShrinkToMean(image, isReference ? ReferenceSize : PeerSize));

@@ -21,8 +21,10 @@ th, td { padding: 0.2rem 0.55rem; text-align: right; border-bottom: 1px solid #d
 th:first-child, td:first-child, td.text { text-align: left; white-space: normal; min-width: 12rem; }
 thead th { background: #f3f3f3; }
 tr.group th { background: #fafafa; text-align: left; }
-tr.front td:first-child { border-left: 4px solid #0072b2; font-weight: 600; }
-td img { width: 64px; display: block; image-rendering: pixelated; background: #000; }
+tr.front td:first-child { border-left: 4px solid #0072b2; }
+tr.front td:first-child b { color: #0072b2; }
+td img { width: 48px; vertical-align: middle; background: #000; }
+.chart img { min-width: 44rem; }
 figure { display: inline-block; margin: 0 1rem 1rem 0; vertical-align: top; max-width: 16rem; }
 figcaption, .note { font-size: 0.85rem; color: #444; }
 dl { display: grid; grid-template-columns: max-content auto; gap: 0.1rem 1rem; font-size: 0.9rem; }
@@ -185,11 +187,10 @@ void WriteErrorsAskedFor(std::ostream& page, const std::vector<BenchSceneResult>
   page << "</tbody></table></div>\n";
 }
 
-void WriteFigure(
-  std::ostream& page, const std::string& uri, const std::string& file, const std::string& caption)
+void WriteFigure(std::ostream& page, const std::string& uri, const std::string& caption)
 {
   page << "<figure><img src=\"" << uri << "\" alt=\"" << Escape(caption) << "\"><figcaption>"
-       << Escape(caption) << "<br>" << Escape(file) << "</figcaption></figure>\n";
+       << Escape(caption) << "</figcaption></figure>\n";
 }
 
 /// What a setting costs and buys, measured by the default one.
@@ -212,7 +213,7 @@ void WriteRow(std::ostream& page, const BenchRow& row, const BenchRow* base)
   {
     title += Escape(assignment) + " ";
   }
-  title += "\">" + Escape(row.Setting.Name) + "<br><span class=\"note\">" +
+  title += "\"><b>" + Escape(row.Setting.Name) + "</b><br><span class=\"note\">" +
     Escape(row.Setting.Description) + "</span></td>";
   page << (row.OnFront ? "<tr class=\"front\">" : "<tr>") << title;
   if (!row.Failure.empty())
@@ -234,10 +235,24 @@ void WriteRow(std::ostream& page, const BenchRow& row, const BenchRow* base)
     page << PrintCell("") << "</tr>\n";
     return;
   }
-  page << "<td class=\"text\"><img src=\"" << row.DifferenceUri << "\" alt=\"difference of "
-       << Escape(row.Setting.Name) << "\"><span class=\"note\">&times; "
-       << FormatNumber(row.Amplification) << (row.EightBit ? ", 8 bit" : "") << "<br>"
-       << Escape(row.PictureFile) << "<br>" << Escape(row.DifferenceFile) << "</span></td></tr>\n";
+  page << "<td><img src=\"" << row.DifferenceUri << "\" alt=\"difference of "
+       << Escape(row.Setting.Name) << "\"> <span class=\"note\">&times; "
+       << FormatNumber(row.Amplification) << (row.EightBit ? ", 8 bit" : "")
+       << "</span></td></tr>\n";
+}
+
+void WriteFiles(std::ostream& page, const BenchSceneResult& result)
+{
+  page << "<details><summary>Files of this scene, beside the page</summary><p class=\"note\">"
+       << Escape(result.ChartFile);
+  for (const BenchRow& row : result.Rows)
+  {
+    for (const std::string& file : { row.PictureFile, row.DifferenceFile })
+    {
+      page << (file.empty() ? "" : "<br>") << Escape(file);
+    }
+  }
+  page << "</p></details>\n";
 }
 
 void WriteTable(std::ostream& page, const BenchSceneResult& result)
@@ -265,17 +280,17 @@ void WriteScene(std::ostream& page, const BenchSceneResult& result)
 {
   page << "<h2 id=\"" << Escape(result.Name) << "\">" << Escape(result.Name) << "</h2>\n<p>"
        << Escape(result.Description) << "; " << result.Width << " x " << result.Height
-       << " pixels.</p>\n<p><img src=\"" << result.ChartUri
-       << "\" alt=\"largest error against time of a frame\"><br><span class=\"note\">"
-       << Escape(result.ChartFile) << "</span></p>\n";
+       << " pixels.</p>\n<div class=\"scroll chart\"><img src=\"" << result.ChartUri
+       << "\" alt=\"largest error against time of a frame\"></div>\n";
   for (const BenchRow& row : result.Rows)
   {
     if (!row.PictureUri.empty())
     {
-      WriteFigure(page, row.PictureUri, row.PictureFile, row.Setting.Name);
+      WriteFigure(page, row.PictureUri, row.Setting.Name);
     }
   }
   WriteTable(page, result);
+  WriteFiles(page, result);
 }
 
 void WriteFeatures(std::ostream& page, const std::vector<BenchFeature>& features)
