@@ -45,22 +45,64 @@ void Check(const TransferFunction& function)
   }
 }
 
-IntervalTable::Interval MakeInterval(float lo, float hi, float reference, double width,
-  const TransferFunction::Value& left, const TransferFunction::Value& right)
+/// Slope of what is a at a distance of 0 and b at a distance of reach. Rounded towards zero as far as
+/// it takes for a + slope x to stay between a and b in single precision, whether product and sum are
+/// rounded once or twice: no colour comes out negative, and no attenuation.
+float GetSlope(float a, float b, float reach)
 {
+  if (reach == 0)
+  {
+    return 0;
+  }
+  constexpr double Largest = std::numeric_limits<float>::max();
+  const double exact = (static_cast<double>(b) - a) / reach;
+  auto slope = static_cast<float>(std::clamp(exact, -Largest, Largest));
+  const auto overshoots = [&]
+  {
+    const float product = slope * reach;
+    const float once = std::fma(slope, reach, a);
+    const float twice = product + a;
+    return a < b ? once > b || twice > b : once < b || twice < b;
+  };
+  while (overshoots())
+  {
+    slope = std::nextafter(slope, 0.f);
+  }
+  return slope;
+}
+
+IntervalTable::Interval MakeInterval(
+  float lo, float hi, const TransferFunction::Value& left, const TransferFunction::Value& right)
+{
+  // Seen from the end with less attenuation, nothing is ever subtracted from an attenuation: next to
+  // a scalar where it vanishes, it keeps its relative accuracy.
+  const bool fromLeft = left.Attenuation <= right.Attenuation;
+  const TransferFunction::Value& near = fromLeft ? left : right;
+  const TransferFunction::Value& far = fromLeft ? right : left;
+  // The distance of the rounded nodes, so that the values at both ends are met.
+  const float reach = fromLeft ? hi - lo : lo - hi;
   IntervalTable::Interval interval{};
   interval.Lo = lo;
   interval.Hi = hi;
-  interval.Reference = reference;
-  const auto slope = [width](double a, double b)
-  { return width > 0 ? static_cast<float>((b - a) / width) : 0.f; };
-  interval.Attenuation = static_cast<float>(left.Attenuation);
-  interval.AttenuationSlope = slope(left.Attenuation, right.Attenuation);
+  interval.Reference = fromLeft ? lo : hi;
+  interval.Attenuation = static_cast<float>(near.Attenuation);
+  interval.AttenuationSlope =
+    GetSlope(interval.Attenuation, static_cast<float>(far.Attenuation), reach);
   for (int c = 0; c < 3; ++c)
   {
-    interval.Color[c] = static_cast<float>(left.Color[c]);
-    interval.ColorSlope[c] = slope(left.Color[c], right.Color[c]);
+    interval.Color[c] = static_cast<float>(near.Color[c]);
+    interval.ColorSlope[c] = GetSlope(interval.Color[c], static_cast<float>(far.Color[c]), reach);
   }
+  return interval;
+}
+
+/// An interval without an end on one side.
+IntervalTable::Interval MakeConstantInterval(
+  float lo, float hi, float reference, const TransferFunction::Value& value)
+{
+  IntervalTable::Interval interval = MakeInterval(reference, reference, value, value);
+  interval.Lo = lo;
+  interval.Hi = hi;
   return interval;
 }
 
@@ -85,17 +127,14 @@ IntervalTable MakeIntervalTable(const TransferFunction& function)
 
   constexpr float Infinity = std::numeric_limits<float>::infinity();
   table.Intervals.push_back(
-    MakeInterval(-Infinity, map(first), map(first), 0, nodes.front().Left, nodes.front().Left));
+    MakeConstantInterval(-Infinity, map(first), map(first), nodes.front().Left));
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
   {
-    const float lo = map(nodes[k].Scalar);
-    const float hi = map(nodes[k + 1].Scalar);
-    // The width of the rounded nodes, so that the values at both ends are met.
-    table.Intervals.push_back(
-      MakeInterval(lo, hi, lo, static_cast<double>(hi) - lo, nodes[k].Right, nodes[k + 1].Left));
+    table.Intervals.push_back(MakeInterval(
+      map(nodes[k].Scalar), map(nodes[k + 1].Scalar), nodes[k].Right, nodes[k + 1].Left));
   }
   table.Intervals.push_back(
-    MakeInterval(map(last), Infinity, map(last), 0, nodes.back().Right, nodes.back().Right));
+    MakeConstantInterval(map(last), Infinity, map(last), nodes.back().Right));
 
   double previous = nodes.front().Left.Attenuation;
   for (const TransferFunction::Node& node : nodes)
