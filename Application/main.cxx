@@ -9,14 +9,19 @@
 #include "OptionValues.h"
 #include "ReadMesh.h"
 #include "Render.h"
+#include "Stability.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -256,7 +261,42 @@ void AddGenerateCommand(CLI::App& app, GenerateOptions& options, bool& list)
     });
 }
 
-void AddBenchCommand(CLI::App& app, BenchOptions& options)
+/// The first of some options goes with the others of them alone.
+void RefuseOtherOptions(const CLI::App* command, const std::vector<std::string>& names)
+{
+  for (const CLI::Option* option : command->get_options())
+  {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && std::find(names.begin(), names.end(), name) == names.end())
+    {
+      throw UsageError(names.front() + ": does not go with " + name);
+    }
+  }
+}
+
+/// What bench takes in place of everything else.
+CLI::Option* AddStabilityOptions(CLI::App* command, StabilityOptions& options)
+{
+  CLI::Option* stability = command->add_flag("--stability",
+    "Measure, in place of pictures, the ray integral over one segment where it is hard to get "
+    "right: each form of it against quadrature in extended precision");
+  AddOption(command, "--seed", "With --stability: seed of the random cases; default: 1",
+    [&options](const std::string& option, const std::string& text)
+    {
+      options.Seed =
+        static_cast<std::uint64_t>(ParseInteger(option, text, 0, std::numeric_limits<int>::max()));
+    })
+    ->type_name("N")
+    ->needs(stability);
+  AddOption(command, "--cases", "With --stability: number of random cases; default: 10000",
+    [&options](const std::string& option, const std::string& text)
+    { options.RandomCases = ParseInteger(option, text, 0, 100000000); })
+    ->type_name("N")
+    ->needs(stability);
+  return stability;
+}
+
+void AddBenchCommand(CLI::App& app, BenchOptions& options, StabilityOptions& stabilityOptions)
 {
   CLI::App* command = app.add_subcommand(
     "bench", "Measure error against run time, of methods and settings, and of VTK's own mappers");
@@ -295,9 +335,23 @@ void AddBenchCommand(CLI::App& app, BenchOptions& options)
       "Folder to write: index.html, results.csv, charts and pictures; one that an earlier run "
       "wrote "
       "is replaced")
-    ->required()
     ->type_name("FOLDER");
-  command->final_callback([&options] { RunBench(options); });
+  const CLI::Option* stability = AddStabilityOptions(command, stabilityOptions);
+  command->final_callback(
+    [command, stability, &options, &stabilityOptions]
+    {
+      if (*stability)
+      {
+        RefuseOtherOptions(command, { "--stability", "--seed", "--cases" });
+        RunStability(stabilityOptions);
+        return;
+      }
+      if (options.Output.empty())
+      {
+        throw UsageError("bench: --output is required: the folder to write");
+      }
+      RunBench(options);
+    });
 }
 
 /// CLI11's errors in words of this tool.
@@ -330,11 +384,12 @@ int main(int argc, char* argv[])
   InfoOptions infoOptions;
   GenerateOptions generateOptions;
   BenchOptions benchOptions;
+  StabilityOptions stabilityOptions;
   bool listGenerators = false;
   AddRenderCommand(app, renderOptions);
   AddInfoCommand(app, infoOptions);
   AddGenerateCommand(app, generateOptions, listGenerators);
-  AddBenchCommand(app, benchOptions);
+  AddBenchCommand(app, benchOptions, stabilityOptions);
 
   try
   {

@@ -20,23 +20,6 @@
 namespace tetralux
 {
 
-SegmentLanes GetSegmentLanesGeneric();
-#ifdef TETRALUX_HAVE_AVX2_KERNEL
-SegmentLanes GetSegmentLanesAvx2();
-#endif
-
-std::vector<SegmentLanes> GetSegmentLanes()
-{
-  std::vector<SegmentLanes> all{ GetSegmentLanesGeneric() };
-#ifdef TETRALUX_HAVE_AVX2_KERNEL
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-  {
-    all.push_back(GetSegmentLanesAvx2());
-  }
-#endif
-  return all;
-}
-
 namespace
 {
 
