@@ -5,11 +5,13 @@
 #include "PreIntegrationBuilder.h"
 #include "RayIntegral.h"
 #include "SegmentIntegral.h"
+#include "TexelFormats.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <utility>
 #include <vector>
@@ -516,7 +518,9 @@ std::vector<std::vector<ModelSegment>> MakeModelRays(
   return rays;
 }
 
-double GetRayError(const std::vector<ModelSegment>& ray, const PreIntegrationTable& table)
+/// Largest error of a channel of a ray; lookUp(front, back, length, rgba).
+template <class LookUp>
+double GetRayError(const std::vector<ModelSegment>& ray, const LookUp& lookUp)
 {
   SegmentRadiance exact;
   double color[3] = { 0, 0, 0 };
@@ -525,7 +529,7 @@ double GetRayError(const std::vector<ModelSegment>& ray, const PreIntegrationTab
   {
     exact.AddBehind(segment.Exact);
     float rgba[4];
-    table.Lookup(segment.Front, segment.Back, segment.Length, rgba);
+    lookUp(segment.Front, segment.Back, segment.Length, rgba);
     for (int c = 0; c < 3; ++c)
     {
       color[c] += transmittance * static_cast<double>(rgba[c]);
@@ -540,13 +544,19 @@ double GetRayError(const std::vector<ModelSegment>& ray, const PreIntegrationTab
   return error;
 }
 
+/// The largest of all rays, or of the first ones where it is beyond what is allowed.
+template <class LookUp>
 double GetRaysError(
-  const std::vector<std::vector<ModelSegment>>& rays, const PreIntegrationTable& table)
+  const std::vector<std::vector<ModelSegment>>& rays, double allowed, const LookUp& lookUp)
 {
   double error = 0;
   for (const std::vector<ModelSegment>& ray : rays)
   {
-    error = std::max(error, GetRayError(ray, table));
+    error = std::max(error, GetRayError(ray, lookUp));
+    if (error > allowed)
+    {
+      break;
+    }
   }
   return error;
 }
@@ -580,7 +590,10 @@ double CountPieces(
 double EstimatePictureError(
   const TransferFunction& function, const PreIntegrationTable& table, const RayModel& model)
 {
-  return GetRaysError(MakeModelRays(function, model), table);
+  constexpr double Any = std::numeric_limits<double>::infinity();
+  return GetRaysError(MakeModelRays(function, model), Any,
+    [&table](double front, double back, double length, float rgba[4])
+    { table.Lookup(front, back, length, rgba); });
 }
 
 // ------------------------------------------------------------------------------------------------
@@ -635,6 +648,70 @@ std::vector<PreIntegrationSettings> GetCandidates(const TableGoal& goal)
   return candidates;
 }
 
+/// A table whose texels are computed when they are looked up: for a few thousand lookups, much less
+/// work than to fill it.
+class VirtualTable
+{
+public:
+  VirtualTable(const TransferFunction& function, const PreIntegrationSettings& settings)
+    : Function(function)
+    , Format(settings.Format)
+  {
+    this->Axes.Scalars = MakeScalarAxis(function, settings);
+    this->Axes.Lengths = MakeLengthAxis(settings);
+  }
+
+  void LookUp(double front, double back, double length, float rgba[4]) const
+  {
+    this->Axes.Interpolate(front, back, length, rgba,
+      [this](int f, int b, int r, float texel[4]) { this->GetTexel(f, b, r, texel); });
+  }
+
+private:
+  void GetTexel(int f, int b, int r, float texel[4]) const
+  {
+    const SegmentRadiance exact = IntegrateEmissionAbsorption(
+      this->Function, this->GetScalar(f), this->GetScalar(b), this->Axes.Lengths.GetLength(r));
+    for (int c = 0; c < 4; ++c)
+    {
+      texel[c] = this->Round(static_cast<float>(c < 3 ? exact.Color[c] : exact.Opacity));
+    }
+  }
+
+  /// The two texels of a step are just beside it.
+  double GetScalar(int texel) const
+  {
+    const std::vector<double>& texels = this->Axes.Scalars.Texels;
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    const double s = texels[texel];
+    if (texel + 1 < this->Axes.Scalars.GetSize() && texels[texel + 1] == s)
+    {
+      return std::nextafter(s, -Infinity);
+    }
+    return texel > 0 && texels[texel - 1] == s ? std::nextafter(s, Infinity) : s;
+  }
+
+  float Round(float value) const
+  {
+    switch (this->Format)
+    {
+      case TexelFormat::UNorm8:
+        return UNorm8Channel::Decode(UNorm8Channel::Encode(value));
+      case TexelFormat::UNorm16:
+        return UNorm16Channel::Decode(UNorm16Channel::Encode(value));
+      case TexelFormat::Half:
+        return HalfChannel::Decode(HalfChannel::Encode(value));
+      case TexelFormat::Float:
+        break;
+    }
+    return value;
+  }
+
+  const TransferFunction& Function;
+  TexelFormat Format;
+  PreIntegrationTable Axes; ///< without texels
+};
+
 bool IsInteger(TexelFormat format)
 {
   return format == TexelFormat::UNorm8 || format == TexelFormat::UNorm16;
@@ -667,19 +744,14 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
 
   const double target = 0.5 * goal.MaximumError;
   const bool integersHold = HasColorsUpToOne(function);
-  PreIntegrationTable table;
   const auto isRight = [&](const PreIntegrationSettings& settings)
   {
-    BuildPreIntegrationTable(function, settings, table);
-    const double error = GetRaysError(rays, table);
-    if (choice.PictureError < 0 || error < choice.PictureError)
-    {
-      choice.PictureError = error;
-      choice.Settings = settings;
-    }
-    return error <= target;
+    const VirtualTable table(function, settings);
+    choice.PictureError = GetRaysError(rays, target,
+      [&table](double front, double back, double length, float rgba[4])
+      { table.LookUp(front, back, length, rgba); });
+    return choice.PictureError <= target;
   };
-  choice.PictureError = -1;
   for (PreIntegrationSettings& settings : GetCandidates(goal))
   {
     const auto fits = [&](TexelFormat format)
@@ -689,7 +761,7 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
         goal.MaximumBytes;
     };
     // In single precision first: what that can't do, no other format can.
-    if (goal.AnyFormat && fits(TexelFormat::Float) && !isRight(settings))
+    if (!fits(goal.AnyFormat ? TexelFormat::UNorm8 : goal.Format) || !isRight(settings))
     {
       continue;
     }
@@ -703,13 +775,12 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
       {
         choice.ClosedForm = false;
         choice.Settings = settings;
-        choice.PictureError = GetRaysError(rays, table);
         choice.Reason = "table: the smallest that is right enough on model rays";
         return choice;
       }
     }
   }
-  choice.PictureError = std::max(choice.PictureError, 0.);
+  choice.PictureError = 0;
   choice.Reason = "closed form: no table within the limits is right enough";
   return choice;
 }

@@ -99,15 +99,15 @@ struct TableChoice
 {
   /// No table: the closed form is as fast, or no table within the limits is right enough.
   bool ClosedForm = true;
-  PreIntegrationSettings Settings; ///< of the table; the best one tried where ClosedForm
-  double PictureError = 0;         ///< EstimatePictureError of that table, 0 where none was tried
+  PreIntegrationSettings Settings; ///< of the table
+  double PictureError = 0;         ///< what EstimatePictureError will find; 0 where ClosedForm
   double PiecesPerSegment = 1;     ///< of the model's rays, on average
   std::string Reason;              ///< one line
 };
 
 /// The smallest table whose EstimatePictureError is at most half of what is asked for, or none.
-/// Tables of growing size are built and measured until one is right: some 10 milliseconds to a
-/// second. Throws as BuildPreIntegrationTable does.
+/// Tables of growing size are tried until one is right, with no more texels computed than the model's
+/// rays look up: some 10 milliseconds to a second. Throws as BuildPreIntegrationTable does.
 TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(
   const TransferFunction& function, const TableGoal& goal);
 

@@ -53,8 +53,48 @@ void IntegrateLengths(const SegmentPiece* pieces, int numberOfPieces, const floa
   }
 }
 
-/// Rows whose sums are made together: each value that is loaded serves all of them.
+/// Rows, and registers of each, whose sums are made together: enough for no sum to wait for its last
+/// term, and each number that is loaded serves several.
 constexpr int RowsAtOnce = 4;
+constexpr int RegistersAtOnce = 2;
+
+template <int Rows, int Registers>
+TETRALUX_INLINE void CombineRegisters(const float* values, int stride, int numberOfValues,
+  const float* weights, Float8 least, Float8 most, float* result, long long resultStride)
+{
+  Float8 sums[Rows][Registers];
+  for (int r = 0; r < Rows; ++r)
+  {
+    for (int j = 0; j < Registers; ++j)
+    {
+      sums[r][j] = 0.f;
+    }
+  }
+  for (int k = 0; k < numberOfValues; ++k)
+  {
+    const float* row = values + static_cast<long long>(k) * stride;
+    Float8 value[Registers];
+    for (int j = 0; j < Registers; ++j)
+    {
+      value[j] = LoadFloat8(row + j * Width);
+    }
+    for (int r = 0; r < Rows; ++r)
+    {
+      const Float8 weight = weights[r * numberOfValues + k];
+      for (int j = 0; j < Registers; ++j)
+      {
+        sums[r][j] = Fma(weight, value[j], sums[r][j]);
+      }
+    }
+  }
+  for (int r = 0; r < Rows; ++r)
+  {
+    for (int j = 0; j < Registers; ++j)
+    {
+      Store(result + r * resultStride + j * Width, Min(Max(sums[r][j], least), most));
+    }
+  }
+}
 
 template <int Rows>
 TETRALUX_INLINE void Combine(const float* values, int stride, int numberOfValues,
@@ -64,39 +104,28 @@ TETRALUX_INLINE void Combine(const float* values, int stride, int numberOfValues
     3e38f, 1.f };
   const Float8 most = LoadFloat8(largest);
   int i = 0;
+  for (; i + RegistersAtOnce * Width <= size; i += RegistersAtOnce * Width)
+  {
+    CombineRegisters<Rows, RegistersAtOnce>(
+      values + i, stride, numberOfValues, weights, least, most, result + i, resultStride);
+  }
   for (; i + Width <= size; i += Width)
   {
-    Float8 sums[Rows];
-    for (int r = 0; r < Rows; ++r)
-    {
-      sums[r] = 0.f;
-    }
-    for (int k = 0; k < numberOfValues; ++k)
-    {
-      const Float8 value = LoadFloat8(values + static_cast<long long>(k) * stride + i);
-      for (int r = 0; r < Rows; ++r)
-      {
-        sums[r] = Fma(Float8(weights[r * numberOfValues + k]), value, sums[r]);
-      }
-    }
-    for (int r = 0; r < Rows; ++r)
-    {
-      Store(result + r * resultStride + i, Min(Max(sums[r], least), most));
-    }
+    CombineRegisters<Rows, 1>(
+      values + i, stride, numberOfValues, weights, least, most, result + i, resultStride);
   }
   // Half a register is left where the number of texels is odd.
   for (; i < size; ++i)
   {
     for (int r = 0; r < Rows; ++r)
     {
-      float sum = 0;
+      Float8 sum = 0.f;
       for (int k = 0; k < numberOfValues; ++k)
       {
-        sum = Lane(Fma(Float8(weights[r * numberOfValues + k]),
-                     Float8(values[static_cast<long long>(k) * stride + i]), Float8(sum)),
-          0);
+        sum = Fma(Float8(weights[r * numberOfValues + k]),
+          Float8(values[static_cast<long long>(k) * stride + i]), sum);
       }
-      result[r * resultStride + i] = Lane(Min(Max(Float8(sum), least), Float8(largest[i % 4])), 0);
+      result[r * resultStride + i] = Lane(Min(Max(sum, least), Float8(largest[i % 4])), 0);
     }
   }
 }

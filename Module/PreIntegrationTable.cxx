@@ -29,19 +29,6 @@ void Decode(const std::uint8_t* texel, float rgba[4])
   }
 }
 
-/// Where to interpolate on an axis.
-struct Place
-{
-  int Index;
-  float Share;
-
-  Place(float coordinate, int size)
-    : Index(std::min(static_cast<int>(coordinate), size - 2))
-    , Share(coordinate - static_cast<float>(this->Index))
-  {
-  }
-};
-
 /// From 4 KB on, memory comes from the system page by page; a table is many of them, and in large
 /// ones its first use takes half the time.
 constexpr std::size_t LargePage = std::size_t{ 1 } << 21;
@@ -154,35 +141,29 @@ void PreIntegrationTable::GetTexel(int front, int back, int length, float rgba[4
   }
 }
 
-void PreIntegrationTable::Lookup(
-  double frontScalar, double backScalar, double length, float rgba[4]) const
+void PreIntegrationTable::FindPlaces(
+  double frontScalar, double backScalar, double length, Place places[3]) const
 {
+  const auto find = [](float coordinate, int size)
+  {
+    const int index = std::min(static_cast<int>(coordinate), size - 2);
+    return Place{ index, coordinate - static_cast<float>(index) };
+  };
   const auto map = [this](double scalar)
   {
     const double x = (scalar - this->Scalars.Offset) / this->Scalars.Scale;
-    return Place(this->Scalars.GetCoordinate(static_cast<float>(x)), this->Scalars.GetSize());
+    return this->Scalars.GetCoordinate(static_cast<float>(x));
   };
-  const Place f = map(frontScalar);
-  const Place b = map(backScalar);
-  const Place r(this->Lengths.GetCoordinate(static_cast<float>(length)), this->Lengths.Size);
-  float corners[2][2][2][4];
-  for (int k = 0; k < 8; ++k)
-  {
-    const int df = k & 1, db = (k >> 1) & 1, dr = k >> 2;
-    this->GetTexel(f.Index + df, b.Index + db, r.Index + dr, corners[dr][db][df]);
-  }
-  for (int c = 0; c < 4; ++c)
-  {
-    const auto mix = [](float t, float from, float to) { return from + t * (to - from); };
-    float slices[2];
-    for (int k = 0; k < 2; ++k)
-    {
-      const float row0 = mix(f.Share, corners[k][0][0][c], corners[k][0][1][c]);
-      const float row1 = mix(f.Share, corners[k][1][0][c], corners[k][1][1][c]);
-      slices[k] = mix(b.Share, row0, row1);
-    }
-    rgba[c] = mix(r.Share, slices[0], slices[1]);
-  }
+  places[0] = find(map(frontScalar), this->Scalars.GetSize());
+  places[1] = find(map(backScalar), this->Scalars.GetSize());
+  places[2] = find(this->Lengths.GetCoordinate(static_cast<float>(length)), this->Lengths.Size);
+}
+
+void PreIntegrationTable::Lookup(
+  double frontScalar, double backScalar, double length, float rgba[4]) const
+{
+  this->Interpolate(frontScalar, backScalar, length, rgba,
+    [this](int f, int b, int r, float texel[4]) { this->GetTexel(f, b, r, texel); });
 }
 
 } // namespace tetralux

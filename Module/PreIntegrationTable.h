@@ -208,7 +208,52 @@ struct PreIntegrationTable
   /// Scalars in the units of the transfer function, length in world units.
   TETRALUXCORE_EXPORT void Lookup(
     double frontScalar, double backScalar, double length, float rgba[4]) const;
+
+  /// The same between texels from elsewhere: getTexel(front, back, length, rgba).
+  template <class GetTexelFunction>
+  void Interpolate(double frontScalar, double backScalar, double length, float rgba[4],
+    const GetTexelFunction& getTexel) const;
+
+private:
+  /// Where to interpolate on an axis.
+  struct Place
+  {
+    int Index;
+    float Share;
+  };
+  TETRALUXCORE_EXPORT void FindPlaces(
+    double frontScalar, double backScalar, double length, Place places[3]) const;
 };
+
+template <class GetTexelFunction>
+void PreIntegrationTable::Interpolate(double frontScalar, double backScalar, double length,
+  float rgba[4], const GetTexelFunction& getTexel) const
+{
+  Place places[3];
+  this->FindPlaces(frontScalar, backScalar, length, places);
+  float corners[8][4];
+  for (int k = 0; k < 8; ++k)
+  {
+    getTexel(places[0].Index + (k & 1), places[1].Index + (k >> 1 & 1), places[2].Index + (k >> 2),
+      corners[k]);
+  }
+  // Along the front scalar, then the back scalar, then the length.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int k = 0; k < 4 >> axis; ++k)
+    {
+      for (int c = 0; c < 4; ++c)
+      {
+        const float from = corners[2 * k][c];
+        corners[k][c] = from + places[axis].Share * (corners[2 * k + 1][c] - from);
+      }
+    }
+  }
+  for (int c = 0; c < 4; ++c)
+  {
+    rgba[c] = corners[0][c];
+  }
+}
 
 } // namespace tetralux
 
