@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StabilityForms.h"
 
+#include "PreIntegrationBuilder.h"
+#include "PreIntegrationTable.h"
 #include "RayCaster.h"
 #include "SegmentIntegral.h"
 #include "SegmentLanes.h"
@@ -9,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include <omp.h>
@@ -213,6 +216,60 @@ private:
   RayCastOptions Options;
 };
 
+std::optional<StabilityResult> LookUp(
+  PreIntegrationTable& table, PreIntegrationSettings settings, const StabilityCase& segment)
+{
+  const OneThread oneThread;
+  const auto& nodes = segment.Function.Nodes;
+  settings.ScalarSize = settings.LengthSize = StabilityTableSize;
+  settings.ScalarRange[0] =
+    std::min({ segment.FrontScalar, segment.BackScalar, nodes.front().Scalar });
+  settings.ScalarRange[1] =
+    std::max({ segment.FrontScalar, segment.BackScalar, nodes.back().Scalar });
+  // Of no size that puts the segment on a texel.
+  settings.LongestSegment = 1.7 * segment.Length;
+  try
+  {
+    BuildPreIntegrationTable(segment.Function, settings, table);
+  }
+  catch (const std::invalid_argument&)
+  {
+    return std::nullopt;
+  }
+  float color[4];
+  table.Lookup(segment.FrontScalar, segment.BackScalar, segment.Length, color);
+  StabilityResult result;
+  std::copy_n(color, 3, result.Radiance.Color);
+  result.Radiance.Opacity = color[3];
+  result.Radiance.Transmittance = 1.f - color[3];
+  result.AbsoluteLimit =
+    table.Bound.Segment + table.Bound.Rounding + GetBlur(segment, GetCasterRounding(segment));
+  return result;
+}
+
+/// Settings of the tables that are compared, by name.
+std::vector<std::pair<std::string, PreIntegrationSettings>> MakeTableSettings()
+{
+  std::vector<std::pair<std::string, PreIntegrationSettings>> all;
+  PreIntegrationSettings settings;
+  all.emplace_back("float, linear", settings);
+  settings.Axis = ScalarAxis::Uniform;
+  all.emplace_back("float, linear, uniform", settings);
+  settings.Axis = ScalarAxis::Nodes;
+  settings.Method = PreIntegrationMethod::Incremental;
+  all.emplace_back("float, linear, incremental", settings);
+  settings.Method = PreIntegrationMethod::ClosedForm;
+  settings.Scale = LengthScale::Logarithmic;
+  all.emplace_back("float, logarithmic", settings);
+  settings.Format = TexelFormat::Half;
+  all.emplace_back("half, logarithmic", settings);
+  settings.Format = TexelFormat::UNorm16;
+  all.emplace_back("16 bit, logarithmic", settings);
+  settings.Format = TexelFormat::UNorm8;
+  all.emplace_back("8 bit, logarithmic", settings);
+  return all;
+}
+
 } // namespace
 
 std::vector<StabilityForm> MakeStabilityForms()
@@ -238,6 +295,13 @@ std::vector<StabilityForm> MakeStabilityForms()
   };
   addCaster("single", Precision::Single);
   addCaster("double", Precision::Double);
+  for (const auto& [name, settings] : MakeTableSettings())
+  {
+    const auto table = std::make_shared<PreIntegrationTable>();
+    add("table, " + name, "its own bound, for scalars rounded to " + Format(CasterRounding),
+      [table, settings = settings](const StabilityCase& segment)
+      { return LookUp(*table, settings, segment); });
+  }
   return forms;
 }
 

@@ -7,6 +7,7 @@
 #include "StabilityCases.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,9 @@ struct StabilityForm
   std::string Name;
   std::string Promise; ///< its limits in words
   OpticalModel Model = OpticalModel::EmissionAbsorption;
-  std::function<StabilityResult(const StabilityCase&)> Integrate;
+
+  /// Nothing where the form refuses the case.
+  std::function<std::optional<StabilityResult>(const StabilityCase&)> Integrate;
 };
 
 /// All forms that the library has:
@@ -48,12 +51,20 @@ struct StabilityForm
 ///   least SegmentWeightError, for colours are numbers of single precision), plus the most that
 ///   attenuation and colour change within CasterRounding of a scalar on the segment, over the whole
 ///   length. With a function that is smooth on that scale it is next to nothing.
+/// * "table, ...": a lookup in a pre-integration table (PreIntegrationTable.h) of the segment's scalars
+///   and those of all nodes, of StabilityTableSize texels along each axis, in each format, over both
+///   scales of the length, with both axes of scalars, and by increments. To its own
+///   PreIntegrationTable::Bound of a segment, plus the same rounding of scalars. Such tables are
+///   coarse, and bounds of 1 are common: what counts are results that are never right. Functions and
+///   ranges that a table cannot hold are refused with an error and are not counted.
 std::vector<StabilityForm> MakeStabilityForms();
 
 /// How far apart scalars are that the ray caster may take for each other, in parts of half of the
 /// range of the transfer function's nodes, or of the distance from its middle if that is larger: four
 /// roundings to single precision, of the scalars, of their interpolation, and of the nodes.
 constexpr double CasterRounding = 1. / (1 << 22);
+
+constexpr int StabilityTableSize = 12;
 
 /// Largest error of "single", relative to the opacity: SegmentWeightError, and as much again for the
 /// sum over pieces and the colours.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 namespace tetralux
 {
@@ -45,9 +46,13 @@ Errors Compare(const SegmentRadiance& result, const Reference& reference, Optica
 void AddCase(StabilityRow& row, const StabilityForm& form, const StabilityCase& segment,
   const Reference& reference)
 {
+  const std::optional<StabilityResult> result = form.Integrate(segment);
+  if (!result)
+  {
+    return;
+  }
   ++row.NumberOfCases;
-  const StabilityResult result = form.Integrate(segment);
-  const SegmentRadiance& r = result.Radiance;
+  const SegmentRadiance& r = result->Radiance;
   const double channels[] = { r.Color[0], r.Color[1], r.Color[2], r.Opacity, r.Transmittance };
   const auto any = [&](auto is)
   { return std::any_of(std::begin(channels), std::end(channels), is); };
@@ -61,8 +66,8 @@ void AddCase(StabilityRow& row, const StabilityForm& form, const StabilityCase& 
   {
     row.RelativeError = std::max(row.RelativeError, errors.Channels / errors.Size);
     row.ShareOfPromise = std::max({ row.ShareOfPromise,
-      errors.Channels / (result.RelativeLimit * errors.Size + result.AbsoluteLimit),
-      errors.Behind / (result.RelativeLimit + result.AbsoluteLimit) });
+      errors.Channels / (result->RelativeLimit * errors.Size + result->AbsoluteLimit),
+      errors.Behind / (result->RelativeLimit + result->AbsoluteLimit) });
   }
 }
 

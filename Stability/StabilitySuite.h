@@ -20,7 +20,7 @@ struct StabilityRow
 {
   std::string Form;
   std::string Group;
-  int NumberOfCases = 0;
+  int NumberOfCases = 0; ///< that the form took
 
   /// Largest error over the exact opacity (over the optical depth where only light is emitted); of
   /// segments with an opacity above SmallestOpacity.

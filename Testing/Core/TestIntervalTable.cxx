@@ -226,4 +226,64 @@ TEST(IntervalTable, RefusesBadFunctionsInOneLine)
   }
 }
 
+TEST(IntervalTable, ValuesStayBetweenThoseOfTheNodes)
+{
+  // As the kernels evaluate it, with the product rounded or not. Half of all values are 0: below
+  // that a colour or an attenuation would be negative.
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto draw = [&](double largest)
+  { return generator() % 2 ? 0 : largest * std::pow(10, -6 * unit(generator)); };
+  for (int i = 0; i < 20000; ++i)
+  {
+    TransferFunction::Value left = { { draw(1), draw(1), draw(1) }, draw(1e3) };
+    TransferFunction::Value right = { { draw(1), draw(1), draw(1) }, draw(1e3) };
+    const double scalar = unit(generator);
+    const double width = std::pow(10, -7 * unit(generator));
+    TransferFunction function;
+    function.Nodes = { { -2, left, left }, { scalar, left, left }, { scalar + width, right, right },
+      { 2, right, right } };
+    const IntervalTable table = MakeIntervalTable(function);
+    const IntervalTable::Interval& interval = table.Intervals[2];
+    for (const double share : { 0., unit(generator), 0.999999, 1. })
+    {
+      const auto x = std::clamp(
+        static_cast<float>((scalar + share * width) / table.Scale), interval.Lo, interval.Hi);
+      const float d = x - interval.Reference;
+      const auto expectBetween = [&](float value, float slope, double a, double b)
+      {
+        const float product = slope * d;
+        for (const float result : { std::fma(slope, d, value), product + value })
+        {
+          ASSERT_GE(result, static_cast<float>(std::min(a, b)));
+          ASSERT_LE(result, static_cast<float>(std::max(a, b)));
+        }
+      };
+      expectBetween(
+        interval.Attenuation, interval.AttenuationSlope, left.Attenuation, right.Attenuation);
+      for (int c = 0; c < 3; ++c)
+      {
+        expectBetween(interval.Color[c], interval.ColorSlope[c], left.Color[c], right.Color[c]);
+      }
+    }
+  }
+}
+
+TEST(IntervalTable, SmallAttenuationsKeepTheirRelativeAccuracy)
+{
+  // Down to 0 at the upper node, and up from it: next to it only the difference of scalars is left.
+  for (const bool falling : { true, false })
+  {
+    const double ends[] = { falling ? 1e9 : 0, falling ? 0 : 1e9 };
+    const IntervalTable table =
+      MakeIntervalTable(MakeLinearFunction({ { -1, 1, 1, 1, ends[0] }, { 1, 1, 1, 1, ends[1] } }));
+    const IntervalTable::Interval& interval = table.Intervals[1];
+    const float x = falling ? std::nextafter(1.f, 0.f) : std::nextafter(-1.f, 0.f);
+    const float d = x - interval.Reference;
+    const double expected = 1e9 * (1 - std::abs(static_cast<double>(x))) / 2;
+    EXPECT_NEAR(
+      std::fma(interval.AttenuationSlope, d, interval.Attenuation), expected, 1e-6 * expected);
+  }
+}
+
 } // namespace

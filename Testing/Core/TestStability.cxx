@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -200,8 +201,8 @@ StabilityRow MeasureSpoilt(const Spoil& spoil)
   StabilityForm form = MakeStabilityForms().front();
   form.Integrate = [integrate = form.Integrate, spoil](const StabilityCase& segment)
   {
-    StabilityResult result = integrate(segment);
-    spoil(result.Radiance);
+    std::optional<StabilityResult> result = integrate(segment);
+    spoil(result->Radiance);
     return result;
   };
   return MeasureStability(groups, std::vector<StabilityForm>{ form }).front();
