@@ -273,11 +273,9 @@ public:
       const double width = this->Power(-12, -2);
       places.insert(places.end(), { center - width, center, center + width });
     }
-    std::vector<double> scalars;
-    for (const double place : places)
-    {
-      scalars.push_back(offset + scale * place);
-    }
+    std::vector<double> scalars(places.size());
+    std::transform(places.begin(), places.end(), scalars.begin(),
+      [&](double place) { return offset + scale * place; });
     std::sort(scalars.begin(), scalars.end());
     scalars.erase(std::unique(scalars.begin(), scalars.end()), scalars.end());
     for (const double scalar : scalars)
