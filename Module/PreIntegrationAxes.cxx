@@ -92,6 +92,7 @@ std::vector<Bend> SortByImportance(const std::vector<Bend>& bends, double range)
   }
   std::sort(order.begin(), order.end());
   std::vector<Bend> sorted;
+  sorted.reserve(order.size());
   for (const auto& entry : order)
   {
     sorted.push_back(bends[entry.second]);

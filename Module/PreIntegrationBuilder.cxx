@@ -325,8 +325,7 @@ class Filler
 {
 public:
   Filler(const TransferFunction& function, PreIntegrationTable& table)
-    : Function(function)
-    , Table(table)
+    : Table(table)
     , Size(table.Scalars.GetSize())
     , TexelSize(GetTexelSize(table.Settings.Format))
     , Longest(table.Settings.LongestSegment)
@@ -540,7 +539,6 @@ private:
     }
   }
 
-  const TransferFunction& Function;
   PreIntegrationTable& Table;
   int Size;
   std::size_t TexelSize;
@@ -611,13 +609,13 @@ void BuildPreIntegrationTable(const TransferFunction& function,
   const PreIntegrationSettings& settings, PreIntegrationTable& table)
 {
   ScalarAxisMap scalars = MakeScalarAxis(function, settings);
-  LengthAxisMap lengths = MakeLengthAxis(settings);
+  const LengthAxisMap lengths = MakeLengthAxis(settings);
   CheckColors(function, settings.Format);
   const std::size_t n = scalars.GetSize();
   table.Texels.Resize(n * n * lengths.Size * GetTexelSize(settings.Format));
   table.Settings = settings;
   table.Scalars = std::move(scalars);
-  table.Lengths = std::move(lengths);
+  table.Lengths = lengths;
   table.Bound = BoundPreIntegrationError(function, table);
   Filler(function, table)
     .Fill(std::vector<RowParts>(n, { static_cast<int>(n), static_cast<int>(n) }));
@@ -692,25 +690,22 @@ PreIntegrationSettings GetCoarseSettings(const PreIntegrationSettings& settings,
   };
   while (getBytes() > bytes)
   {
-    // With a linear scale lengths cost most and give least. A logarithmic one has few already, and
+    // Lengths of a linear scale cost most and give least. A logarithmic one has few already, and
     // without doublings it would begin at longer ones.
-    const bool shorten = coarse.Scale == LengthScale::Linear &&
-      coarse.LengthSize / 2 >= SmallestLengthSize && coarse.LengthSize > coarse.ScalarSize / 2;
-    if (shorten)
+    const bool fewerLengths =
+      coarse.Scale == LengthScale::Linear && coarse.LengthSize / 2 >= SmallestLengthSize;
+    const bool fewerScalars = coarse.ScalarSize / 2 >= SmallestScalarSize;
+    if (!fewerLengths && !fewerScalars)
     {
-      coarse.LengthSize /= 2;
+      break;
     }
-    else if (coarse.ScalarSize / 2 >= SmallestScalarSize)
-    {
-      coarse.ScalarSize /= 2;
-    }
-    else if (coarse.Scale == LengthScale::Linear && coarse.LengthSize / 2 >= SmallestLengthSize)
+    if (fewerLengths && (!fewerScalars || coarse.LengthSize > coarse.ScalarSize / 2))
     {
       coarse.LengthSize /= 2;
     }
     else
     {
-      break;
+      coarse.ScalarSize /= 2;
     }
   }
   return coarse;

@@ -24,9 +24,9 @@ enum class LengthScale
 
   /// Equal steps from 0 to delta l, then the same number of steps for every doubling (Kraus et al.
   /// 2004, equation 1, which has one). Between texels the scale is linear in the length, not in its
-  /// logarithm: thin segments, whose contribution is in proportion to their length, stay exact
-  /// (the logarithm in equation 1 makes them up to 8.6 % of delta l too opaque), and no logarithm
-  /// is taken: the coordinate is read off the bits of a floating point number.
+  /// logarithm: segments whose contribution is in proportion to their length stay exact (by the
+  /// logarithm they come out up to 6.1 % too opaque, all of them), and no logarithm is taken: the
+  /// coordinate is read off the bits of a floating point number.
   Logarithmic
 };
 

@@ -19,7 +19,8 @@ struct UNormChannel
   static T Encode(float value)
   {
     const float bounded = value < 1.f ? (value > 0.f ? value : 0.f) : 1.f;
-    return static_cast<T>(bounded * Largest + 0.5f);
+    constexpr float Integers = 8388608.f; // 2^23, from where on floats are integers: the sum rounds
+    return static_cast<T>((bounded * Largest + Integers) - Integers);
   }
   static float Decode(T bits) { return static_cast<float>(bits) / Largest; }
 };
