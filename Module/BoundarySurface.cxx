@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundarySurface.h"
 
+#include "FaceTable.h"
 #include "SimplexIntersection.h"
 
 #include <algorithm>
@@ -89,8 +90,8 @@ void SetPoint(Obstacle& obstacle, const TetrahedralMesh& mesh, std::int64_t cell
 }
 
 /// For each cell whether its order of points is turned against the orientation of its part.
-std::vector<std::uint8_t> OrientCells(
-  const TetrahedralMesh& mesh, const FaceNeighbors& neighbors, Obstacle& obstacle)
+std::vector<std::uint8_t> OrientCells(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors,
+  bool& hasInverted, Obstacle& obstacle)
 {
   enum : std::uint8_t
   {
@@ -110,10 +111,15 @@ std::vector<std::uint8_t> OrientCells(
     part.assign(1, static_cast<std::int32_t>(seed));
     turns[seed] = Kept;
     double volume = 0;
+    bool hasPositive = false;
+    bool hasNegative = false;
     for (std::size_t i = 0; i < part.size(); ++i)
     {
       const std::int64_t cell = part[i];
-      volume += (turns[cell] == Kept ? 1 : -1) * GetVolume(mesh, cell);
+      const double cellVolume = (turns[cell] == Kept ? 1 : -1) * GetVolume(mesh, cell);
+      hasPositive = hasPositive || cellVolume > 0;
+      hasNegative = hasNegative || cellVolume < 0;
+      volume += cellVolume;
       for (int face = 0; face < 4; ++face)
       {
         const std::int32_t neighbor = neighbors.Neighbors[4 * cell + face];
@@ -138,6 +144,7 @@ std::vector<std::uint8_t> OrientCells(
         }
       }
     }
+    hasInverted = hasInverted || (hasPositive && hasNegative);
     if (volume < 0)
     {
       for (const std::int32_t cell : part)
@@ -149,13 +156,49 @@ std::vector<std::uint8_t> OrientCells(
   return turns;
 }
 
+/// Refuses boundary triangles that, by points at the same place, are also between two cells.
+void RefuseCoveredFaces(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors,
+  const std::vector<std::int32_t>& first, const std::vector<Triangle>& triangles,
+  const std::vector<bool>& isKept, Obstacle& obstacle)
+{
+  FaceTable table(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    if (isKept[i])
+    {
+      const auto [a, b, c] = triangles[i];
+      table.Set(a, b, c, static_cast<std::int32_t>(i));
+    }
+  }
+  const auto numberOfFaces = static_cast<std::int64_t>(neighbors.Neighbors.size());
+  for (std::int64_t face = 0; face < numberOfFaces && obstacle.Reason.empty(); ++face)
+  {
+    if (neighbors.Neighbors[face] < 0)
+    {
+      continue;
+    }
+    const Triangle triangle = GetFace(mesh, face / 4, static_cast<int>(face % 4), false);
+    const std::int32_t a = first[triangle[0]], b = first[triangle[1]], c = first[triangle[2]];
+    const std::int32_t covered = a < 0 || b < 0 || c < 0 ? FaceTable::None : table.Find(a, b, c);
+    if (covered != FaceTable::None)
+    {
+      obstacle.Reason = "three cells share a face";
+      obstacle.Cells = { neighbors.BoundaryFaces[covered] / 4,
+        static_cast<std::int32_t>(face / 4) };
+      SetPoint(obstacle, mesh, face / 4);
+    }
+  }
+}
+
 } // namespace
 
 //----------------------------------------------------------------------------
 BoundarySurface FindBoundarySurface(
   const TetrahedralMesh& mesh, const FaceNeighbors& neighbors, Obstacle& obstacle)
 {
-  const std::vector<std::uint8_t> turns = OrientCells(mesh, neighbors, obstacle);
+  BoundarySurface surface;
+  const std::vector<std::uint8_t> turns =
+    OrientCells(mesh, neighbors, surface.HasInvertedCells, obstacle);
   if (!obstacle.Reason.empty())
   {
     return {};
@@ -171,7 +214,8 @@ BoundarySurface FindBoundarySurface(
   }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  const std::vector<std::int32_t> first = MergeCoincidentPoints(mesh, ids);
+  surface.MergedIds = MergeCoincidentPoints(mesh, ids);
+  const std::vector<std::int32_t>& first = surface.MergedIds;
   for (Triangle& triangle : triangles)
   {
     for (std::int32_t& id : triangle)
@@ -196,8 +240,15 @@ BoundarySurface FindBoundarySurface(
     const Triangle& key = keys[order[begin]];
     for (end = begin; end < order.size() && keys[order[end]] == key; ++end)
     {
-      const bool isFlat = key[0] == key[1] || key[1] == key[2];
-      isKept[order[end]] = !isFlat;
+      const bool isCollapsed = key[0] == key[1] || key[1] == key[2];
+      isKept[order[end]] = !isCollapsed;
+    }
+    if (end - begin > 2 && isKept[order[begin]] && obstacle.Reason.empty())
+    {
+      obstacle.Reason = "three cells share a face";
+      obstacle.Cells = { neighbors.BoundaryFaces[order[begin]] / 4,
+        neighbors.BoundaryFaces[order[begin + 1]] / 4 };
+      std::copy_n(&mesh.Points[3 * static_cast<std::size_t>(key[0])], 3, obstacle.Point.begin());
     }
     for (std::size_t i = begin; i < end; ++i)
     {
@@ -211,8 +262,12 @@ BoundarySurface FindBoundarySurface(
     }
   }
 
+  if (std::any_of(ids.begin(), ids.end(), [&](std::int32_t id) { return first[id] != id; }))
+  {
+    RefuseCoveredFaces(mesh, neighbors, first, triangles, isKept, obstacle);
+  }
+
   // Points that no kept triangle has are left out: they are inside the mesh.
-  BoundarySurface surface;
   constexpr std::int32_t unused = -1;
   constexpr std::int32_t used = -2;
   std::vector<std::int32_t> local(mesh.GetNumberOfPoints(), unused);

@@ -41,6 +41,13 @@ struct BoundarySurface
   /// For each triangle 4 * cell + face of the mesh.
   std::vector<std::int32_t> Faces;
 
+  /// For each point of the mesh the smallest id of the boundary's points at the same place; -1 for one
+  /// that no boundary face has.
+  std::vector<std::int32_t> MergedIds;
+
+  /// Whether a cell is turned against the others of its part, to rounding: it overlaps with them.
+  bool HasInvertedCells = false;
+
   std::int32_t GetNumberOfPoints() const
   {
     return static_cast<std::int32_t>(this->PointIds.size());

@@ -166,11 +166,11 @@ public:
            << ", " << obstacle.Point[2] << ")";
       if (obstacle.Cells[0] >= 0)
       {
-        line << ", cell " << obstacle.Cells[0];
+        line << ", cell " << this->GetOriginalCell(obstacle.Cells[0]);
       }
       if (obstacle.Cells[1] >= 0)
       {
-        line << " and cell " << obstacle.Cells[1];
+        line << " and cell " << this->GetOriginalCell(obstacle.Cells[1]);
       }
       this->Result.Refusal = line.str();
       this->Result.RefusalPoint = obstacle.Point;
@@ -180,6 +180,11 @@ public:
   }
 
 private:
+  std::int64_t GetOriginalCell(std::int32_t cell) const
+  {
+    return this->Mesh.OriginalCells.empty() ? cell : this->Mesh.OriginalCells[cell];
+  }
+
   bool Continue(double fraction)
   {
     this->Result.Aborted = this->Result.Aborted || (this->Progress && !this->Progress(fraction));
@@ -237,15 +242,24 @@ private:
 
     std::vector<Triangle> hull;
     obstacle = VerifyFilled(surface, coordinates, cells, flat, hull);
-    this->Result.FlatPocketFaces =
-      static_cast<std::int64_t>(std::count_if(surface.Triangles.begin(), surface.Triangles.end(),
-        [&](const Triangle& t) { return std::find(flat.begin(), flat.end(), t) != flat.end(); }));
+    FaceTable flatFaces(flat.size());
+    for (const auto& [a, b, c] : flat)
+    {
+      flatFaces.Set(a, b, c, 0);
+    }
+    this->Result.FlatPocketFaces = std::count_if(surface.Triangles.begin(), surface.Triangles.end(),
+      [&](const Triangle& triangle)
+      { return flatFaces.Find(triangle[0], triangle[1], triangle[2]) != FaceTable::None; });
     if (obstacle.Reason.empty())
     {
       this->Result.MeshVolume = MeasureEnclosedVolume(coordinates, surface.Triangles);
       this->Result.HullVolume = MeasureEnclosedVolume(coordinates, hull);
       this->Result.ImaginaryVolume = MeasureCells(coordinates, cells);
       this->Collect(surface, coordinates, cells);
+      if (surface.HasInvertedCells)
+      {
+        this->FindOverlap(surface.MergedIds, obstacle);
+      }
     }
     this->Result.VerificationSeconds = watch.Lap();
     this->Continue(1);
@@ -269,6 +283,39 @@ private:
     this->Result.SteinerPoints.assign(
       coordinates.begin() + static_cast<std::ptrdiff_t>(surface.Coordinates.size()),
       coordinates.end());
+  }
+
+  /// Where cells fold over each other, what they have in common may count as empty, and be filled.
+  void FindOverlap(const std::vector<std::int32_t>& mergedIds, Obstacle& obstacle)
+  {
+    FaceTable faces(this->Result.Cells.size() / 2);
+    for (std::size_t i = 0; i < this->Result.Cells.size(); i += 4)
+    {
+      const std::int32_t* cell = &this->Result.Cells[i];
+      for (const auto& face : OutwardFaces)
+      {
+        faces.Set(cell[face[0]], cell[face[1]], cell[face[2]], static_cast<std::int32_t>(i / 4));
+      }
+    }
+    for (std::size_t i = 0; i < this->Mesh.Cells.size(); ++i)
+    {
+      const std::int32_t* cell = &this->Mesh.Cells[i / 4 * 4];
+      const int* face = OutwardFaces[i % 4];
+      const std::int32_t a = mergedIds[cell[face[0]]];
+      const std::int32_t b = mergedIds[cell[face[1]]];
+      const std::int32_t c = mergedIds[cell[face[2]]];
+      if (this->Neighbors.Neighbors[i] >= 0 && a >= 0 && b >= 0 && c >= 0 &&
+        faces.Find(a, b, c) != FaceTable::None)
+      {
+        obstacle.Reason = "cells of the mesh fold over each other";
+        obstacle.Cells = { static_cast<std::int32_t>(i / 4), this->Neighbors.Neighbors[i] };
+        std::copy_n(&this->Mesh.Points[3 * static_cast<std::size_t>(cell[face[0]])], 3,
+          obstacle.Point.begin());
+        this->Result.Cells.clear();
+        this->Result.SteinerPoints.clear();
+        return;
+      }
+    }
   }
 
   const TetrahedralMesh& Mesh;

@@ -33,7 +33,7 @@ struct Convexification
   bool Convex = false;
 
   /// Empty where the space was filled and the result verified; else one line that says why not and
-  /// where. There are no cells and points then.
+  /// where, with the input's ids of cells (OriginalCells). There are no cells and points then.
   std::string Refusal;
 
   /// Where it was refused: a point, in the units of the mesh, and the cells of the mesh whose
