@@ -4,6 +4,7 @@
 #include "BenchSettings.h"
 #include "Methods.h"
 #include "vtkTetrahedraRayCastMapper.h"
+#include "vtkTetrahedraRayIntegrator.h"
 
 #include "vtkNew.h"
 #include "vtkProjectedTetrahedraMapper.h"
@@ -49,6 +50,13 @@ vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeMapper(
     {
       auto mapper = MakeBunykMapper();
       vtkNew<vtkUnstructuredGridPreIntegration> integrator;
+      mapper->SetRayIntegrator(integrator);
+      return mapper;
+    }
+    case BenchMethod::BunykClosedForm:
+    {
+      auto mapper = MakeBunykMapper();
+      vtkNew<vtkTetrahedraRayIntegrator> integrator;
       mapper->SetRayIntegrator(integrator);
       return mapper;
     }

@@ -135,6 +135,9 @@ void AddPeers(std::vector<BenchSetting>& settings)
     "vtkUnstructuredGridVolumeRayCastMapper (Bunyk) as it comes", BenchMethod::Bunyk, {} });
   settings.push_back({ "vtk-bunyk-preintegration", group,
     "the same with vtkUnstructuredGridPreIntegration", BenchMethod::BunykPreIntegration, {} });
+  settings.push_back({ GetMethodName(BenchMethod::BunykClosedForm), group,
+    "the same with vtkTetrahedraRayIntegrator, the closed form", BenchMethod::BunykClosedForm,
+    {} });
 }
 
 /// "Property=Value Property=Value" as a setting of that name.
@@ -212,6 +215,8 @@ std::string GetMethodName(BenchMethod method)
       return "vtk-bunyk";
     case BenchMethod::BunykPreIntegration:
       return "vtk-bunyk-preintegration";
+    case BenchMethod::BunykClosedForm:
+      return "vtk-bunyk-closed-form";
     default:
       return "ray-cast";
   }

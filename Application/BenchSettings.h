@@ -13,6 +13,7 @@ enum class BenchMethod
   ProjectedTetrahedra, ///< vtkProjectedTetrahedraMapper
   Bunyk,               ///< vtkUnstructuredGridVolumeRayCastMapper as it comes
   BunykPreIntegration, ///< the same with vtkUnstructuredGridPreIntegration
+  BunykClosedForm,     ///< the same with vtkTetrahedraRayIntegrator
 };
 
 /// A way to render: a method and what is set of it.

@@ -22,6 +22,9 @@ struct Node
 /// Half of the needle's width, as a part of the range: a quarter of a texel of 256 scalars.
 constexpr double NeedleHalfWidth = 0.25 / 256;
 
+/// Width of a step, as a part of the range: VTK's integrators know no steps but steep ramps.
+constexpr double StepWidth = 1e-6;
+
 /// How much shorter the unit distance is where surfaces are to be opaque.
 constexpr double OpaqueDensity = 200;
 
@@ -30,8 +33,6 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
 {
   vtkNew<vtkColorTransferFunction> color;
   vtkNew<vtkPiecewiseFunction> opacity;
-  color->AllowDuplicateScalarsOn(); // two nodes at one scalar are a step
-  opacity->AllowDuplicateScalarsOn();
   for (const Node& node : nodes)
   {
     const double scalar = range[0] + node.Place * (range[1] - range[0]);
@@ -75,7 +76,7 @@ vtkSmartPointer<vtkVolumeProperty> MakeSteps(const double range[2], double unitD
   {
     nodes.push_back(colors[i]);
     nodes.push_back(colors[i]);
-    nodes.back().Place = i + 1 < colors.size() ? colors[i + 1].Place : 1;
+    nodes.back().Place = i + 1 < colors.size() ? colors[i + 1].Place - StepWidth : 1;
   }
   return MakeProperty(nodes, range, unitDistance);
 }
@@ -95,7 +96,7 @@ const std::vector<BenchTransferFunction>& GetBenchTransferFunctions()
     { "smooth", "colour and opacity of six nodes", MakeSmooth },
     { "needle", "a peak of 1/512 of the scalar range, narrower than a texel of 256 scalars",
       MakeNeedle },
-    { "steps", "six constant pieces with steps between them", MakeSteps },
+    { "steps", "six constant pieces with steps of 1e-6 of the range between them", MakeSteps },
     { "opaque", "nothing, then surfaces that light does not get through", MakeOpaque },
   };
   return functions;

@@ -7,7 +7,7 @@
 #
 # The page is complete in itself; of the other files, those come along that something refers to: the
 # numbers, and the chart that the README shows. The folder with all pictures is left where the last
-# line says.
+# line says. The table of how stable the integrals are goes beside the page.
 set -eu
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -20,6 +20,7 @@ largest=2000 # kilobytes, for all that is committed
 result=$(mktemp -d)/bench
 "$tool" bench --data "$TETRALUX_DATA" --features "$@" --output "$result"
 mkdir -p "$page"
+"$tool" bench --stability > "$page/stability.txt"
 cp "$result/index.html" "$result/results.csv" "$result/charts/blunt-fin-smooth.png" "$page"
 size=$(du -sk "$page" | cut -f1)
 if [ "$size" -gt "$largest" ]; then
