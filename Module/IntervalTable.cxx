@@ -173,34 +173,6 @@ TransferFunction::Value Evaluate(const TransferFunction& function, double scalar
   return value;
 }
 
-bool FindConstantColor(const TransferFunction& function, double color[3])
-{
-  std::fill_n(color, 3, 0.);
-  bool found = false;
-  const auto agrees = [&](const TransferFunction::Value& value)
-  {
-    if (!found)
-    {
-      std::copy_n(value.Color, 3, color);
-      found = true;
-    }
-    return std::equal(color, color + 3, value.Color);
-  };
-  const auto& nodes = function.Nodes;
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
-  {
-    const TransferFunction::Value& left = nodes[k].Right;
-    const TransferFunction::Value& right = nodes[k + 1].Left;
-    if ((left.Attenuation > 0 || right.Attenuation > 0) && !(agrees(left) && agrees(right)))
-    {
-      return false;
-    }
-  }
-  const auto outside = [&](const TransferFunction::Value& value)
-  { return !(value.Attenuation > 0) || agrees(value); };
-  return outside(nodes.front().Left) && outside(nodes.back().Right);
-}
-
 double FindSteepestColor(const IntervalTable& table)
 {
   double steepest = 0;

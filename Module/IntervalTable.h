@@ -51,10 +51,6 @@ TETRALUXCORE_EXPORT IntervalTable MakeIntervalTable(const TransferFunction& func
 TETRALUXCORE_EXPORT TransferFunction::Value Evaluate(
   const TransferFunction& function, double scalar);
 
-/// Whether all scalars with any attenuation have the same colour, and which; black where there is
-/// no attenuation at all. The ray integral then needs the optical depth only.
-TETRALUXCORE_EXPORT bool FindConstantColor(const TransferFunction& function, double color[3]);
-
 /// Largest change of a premultiplied colour channel or of the attenuation per unit of x, between
 /// the steps.
 TETRALUXCORE_EXPORT double FindSteepestColor(const IntervalTable& table);

@@ -8,6 +8,7 @@
 #include "BoundaryBvh.h"
 #include "IntervalTable.h"
 #include "OpticalModel.h"
+#include "PreIntegrationTable.h"
 #include "RayGrid.h"
 #include "RayLimits.h"
 #include "SurfaceShading.h"
@@ -18,6 +19,19 @@
 
 namespace tetralux
 {
+
+/// A pre-integration table with texels in single precision.
+struct KernelTable
+{
+  const float* Texels; ///< four each, in the order of PreIntegrationTable
+  const ScalarAxisMap::Interval* Axis;
+  int AxisSize; ///< number of intervals
+  int ScalarSize;
+  int LengthSize;
+  bool Logarithmic;
+  int StepsPerDoubling;
+  float InverseDelta;
+};
 
 struct KernelInput
 {
@@ -40,6 +54,7 @@ struct KernelInput
   /// Values of surfaces i - 1 and i, for i from 0 up to their number.
   const std::array<float, 2>* SurfaceNeighbors;
   const float* SurfaceColors;    ///< red, green, blue, opacity of each surface, ascending in value
+  const KernelTable* Table;      ///< of Integrator::Table
   const SurfaceShading* Shading; ///< nullptr: flat surfaces
   double DistanceRounding;       ///< what distances along rays may be off by, in world units
 
@@ -89,6 +104,7 @@ using RayCastKernel = void (*)(
 enum class Integrator
 {
   ClosedForm,   ///< emission and absorption
+  Table,        ///< emission and absorption, scalars at points only
   OpticalDepth, ///< emission and absorption of a constant colour, or absorption alone
   Emission,     ///< emission alone
   Maximum,      ///< the largest scalar

@@ -27,6 +27,7 @@
 #include "RayCastCrossings.h"
 #include "RayCastLimits.h"
 #include "RayCastModels.h"
+#include "RayCastTable.h"
 
 #include <limits>
 
@@ -447,6 +448,7 @@ RayCastKernels MakeRayCastKernels()
     kernels.Cells[static_cast<int>(integrator)] = cells;
   };
   set(Integrator::ClosedForm, MakePair<ClosedForm, false>(), MakePair<ClosedForm, true>());
+  set(Integrator::Table, MakePair<Table, false>(), {});
   set(Integrator::OpticalDepth, MakePair<OpticalDepth, false>(), MakePair<OpticalDepth, true>());
   set(Integrator::Emission, MakePair<Emission, false>(), MakePair<Emission, true>());
   set(Integrator::Maximum, MakePair<Maximum, false>(), MakePair<Maximum, true>());

@@ -63,8 +63,9 @@ InstructionSet GetInstructionSet(bool portable)
   return { "generic", GetRayCastKernelsGeneric() };
 }
 
-/// The cheapest way of integrating that is exact for the model, and its name in statistics.
-Integrator ChooseIntegrator(OpticalModel model, bool constantColor, std::string& name)
+/// The cheapest way of integrating that is exact for the model, or by table, and its name in
+/// statistics.
+Integrator ChooseIntegrator(OpticalModel model, bool constantColor, bool table, std::string& name)
 {
   switch (model)
   {
@@ -83,8 +84,13 @@ Integrator ChooseIntegrator(OpticalModel model, bool constantColor, std::string&
     case OpticalModel::EmissionAbsorption:
       break;
   }
-  name = constantColor ? "optical depth" : "closed form";
-  return constantColor ? Integrator::OpticalDepth : Integrator::ClosedForm;
+  if (constantColor)
+  {
+    name = "optical depth";
+    return Integrator::OpticalDepth;
+  }
+  name = table ? "table" : "closed form";
+  return table ? Integrator::Table : Integrator::ClosedForm;
 }
 
 /// Isosurfaces as the kernels read them.
@@ -160,7 +166,7 @@ void RayCaster::SetMesh(std::shared_ptr<WalkMesh> mesh)
   this->Mesh = std::move(mesh);
   this->Scalars.clear();
   this->FloatScalars = this->DoubleScalars = ScalarMap();
-  this->CellValuesValid = this->VisibleTablesValid = false;
+  this->CellValuesValid = this->VisibleTablesValid = this->PlanValid = false;
 }
 
 void RayCaster::SetPointScalars(std::vector<double> scalars)
@@ -189,7 +195,7 @@ void RayCaster::SetScalars(std::vector<double> scalars, bool ofCells)
   this->Scalars = std::move(scalars);
   this->ScalarsOfCells = ofCells;
   this->FloatScalars = this->DoubleScalars = ScalarMap();
-  this->CellValuesValid = this->VisibleTablesValid = false;
+  this->CellValuesValid = this->VisibleTablesValid = this->PlanValid = false;
 
   bool allFinite = true;
   bool any = false;
@@ -234,7 +240,7 @@ void RayCaster::SetOpticalModel(OpticalModel model)
   if (model != this->Model)
   {
     this->Model = model;
-    this->CellValuesValid = this->VisibleTablesValid = false;
+    this->CellValuesValid = this->VisibleTablesValid = this->PlanValid = false;
   }
 }
 
@@ -242,14 +248,34 @@ void RayCaster::SetTransferFunction(const TransferFunction& function)
 {
   this->Table = MakeIntervalTable(function);
   this->Function = function;
-  this->FunctionColor = ConstantColor();
-  double color[3];
-  this->FunctionColor.Constant = FindConstantColor(function, color);
-  if (this->FunctionColor.Constant)
+  this->SetTable(nullptr, 0);
+  this->CellValuesValid = this->VisibleTablesValid = this->PlanValid = false;
+}
+
+void RayCaster::SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError)
+{
+  this->SegmentTable = std::move(table);
+  this->SegmentTableError = pictureError;
+  this->Texels.clear();
+  if (!this->SegmentTable || this->SegmentTable->Settings.Format == TexelFormat::Float)
   {
-    std::copy_n(color, 3, this->FunctionColor.Color);
+    return;
   }
-  this->CellValuesValid = this->VisibleTablesValid = false;
+  const int n = this->SegmentTable->Scalars.GetSize();
+  const int lengths = this->SegmentTable->Lengths.Size;
+  this->Texels.resize(4 * static_cast<std::size_t>(n) * n * lengths);
+#pragma omp parallel for schedule(static)
+  for (int length = 0; length < lengths; ++length)
+  {
+    float* texel = &this->Texels[4 * static_cast<std::size_t>(n) * n * length];
+    for (int back = 0; back < n; ++back)
+    {
+      for (int front = 0; front < n; ++front, texel += 4)
+      {
+        this->SegmentTable->GetTexel(front, back, length, texel);
+      }
+    }
+  }
 }
 
 void RayCaster::SetIsosurfaces(std::vector<Isosurface> surfaces)
@@ -416,6 +442,34 @@ void RayCaster::UpdateVisibleTables()
   this->VisibleTablesValid = true;
 }
 
+void RayCaster::UpdatePlan()
+{
+  if (!this->PlanValid)
+  {
+    this->Plan = this->Model == OpticalModel::Isosurfaces
+      ? IntegrationPlan()
+      : MakeIntegrationPlan(this->Model, this->Function, this->ScalarRange);
+    this->PlanValid = true;
+  }
+}
+
+const WalkTables& RayCaster::ChooseTables(
+  const RayCastOptions& options, RayCastStatistics& statistics)
+{
+  if (options.ReentryBy == Reentry::Imaginary)
+  {
+    this->Mesh->MakeConvex(options.Progress);
+    statistics.Aborted = !this->Mesh->GetConvexification();
+    if (!this->Mesh->GetConvexTables().Faces.empty())
+    {
+      statistics.ImaginaryCells = true;
+      return this->Mesh->GetConvexTables();
+    }
+  }
+  this->UpdateVisibleTables();
+  return this->NumberOfTransparentCells > 0 ? this->VisibleTables : this->Mesh->GetTables();
+}
+
 RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   const RayCastOptions& options, Span<float> colors, Span<float> depths)
 {
@@ -442,8 +496,9 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   }
 
   RayCastStatistics statistics;
-  const Integrator integrator =
-    ChooseIntegrator(this->Model, this->FunctionColor.Constant, statistics.Integration);
+  this->UpdatePlan();
+  const Integrator integrator = ChooseIntegrator(this->Model, this->Plan.ConstantColor,
+    this->SegmentTable && !this->ScalarsOfCells, statistics.Integration);
   const double worldRadius = GetWorldRadius(*this->Mesh, grid);
   const double geometryError = this->EstimateGeometryError(worldRadius);
   // Half of the error may come from ending rays early, a quarter from rounding.
@@ -455,8 +510,9 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   statistics.TerminationError = endsEarly ? 0.5 * options.MaximumError : 0;
   statistics.IntegralError = integrator == Integrator::ClosedForm ? SegmentWeightError : 0;
   statistics.GeometryError = statistics.DoublePrecision ? 0 : geometryError;
-  statistics.ErrorEstimate =
-    statistics.TerminationError + statistics.IntegralError + statistics.GeometryError;
+  statistics.TableError = integrator == Integrator::Table ? this->SegmentTableError : 0;
+  statistics.ErrorEstimate = statistics.TerminationError + statistics.IntegralError +
+    statistics.TableError + statistics.GeometryError;
 
   // Double precision coordinates are filled in together with the scalars.
   if (!this->ScalarsOfCells || statistics.DoublePrecision)
@@ -479,13 +535,15 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
     this->UpdateCellValues();
   }
 
-  this->UpdateVisibleTables();
+  const WalkTables& tables = this->ChooseTables(options, statistics);
+  if (statistics.Aborted)
+  {
+    return statistics;
+  }
 
   KernelInput in{};
   in.Points = statistics.DoublePrecision ? static_cast<const void*>(this->Mesh->GetPoints<double>())
                                          : static_cast<const void*>(this->Mesh->GetPoints<float>());
-  const WalkTables& tables =
-    this->NumberOfTransparentCells > 0 ? this->VisibleTables : this->Mesh->GetTables();
   in.Faces = tables.Faces.data();
   in.Entries = tables.Entries.data();
   in.Nodes = tables.Bvh.Nodes.empty() ? nullptr : tables.Bvh.Nodes.data();
@@ -506,6 +564,21 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   in.Shading = options.Shaded ? &shading : nullptr;
   in.DistanceRounding =
     worldRadius * (statistics.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);
+  KernelTable table{};
+  if (integrator == Integrator::Table)
+  {
+    const PreIntegrationTable& t = *this->SegmentTable;
+    table.Texels = this->Texels.empty() ? reinterpret_cast<const float*>(t.Texels.GetData())
+                                        : this->Texels.data();
+    table.Axis = t.Scalars.Intervals.data();
+    table.AxisSize = static_cast<int>(t.Scalars.Intervals.size());
+    table.ScalarSize = t.Scalars.GetSize();
+    table.LengthSize = t.Lengths.Size;
+    table.Logarithmic = t.Lengths.Scale == LengthScale::Logarithmic;
+    table.StepsPerDoubling = t.Lengths.StepsPerDoubling;
+    table.InverseDelta = t.Lengths.InverseDelta;
+  }
+  in.Table = &table;
   in.Grid = &grid;
   in.Planes = limits.Planes.empty() ? nullptr : &limits.Planes.front();
   in.NumberOfPlanes = static_cast<int>(limits.Planes.size());
@@ -514,9 +587,9 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   in.MaximumDistances = limits.MaximumDistances;
   in.MinimumTransmittance = static_cast<float>(statistics.TerminationError);
   in.MaximumDepth = -std::log(in.MinimumTransmittance);
-  if (this->Model == OpticalModel::EmissionAbsorption && this->FunctionColor.Constant)
+  if (this->Model == OpticalModel::EmissionAbsorption && this->Plan.ConstantColor)
   {
-    std::copy_n(this->FunctionColor.Color, 3, in.Color);
+    std::copy_n(this->Plan.Color, 3, in.Color);
   }
   in.Colors = colors.data();
   in.Depths = depths.data();
@@ -615,7 +688,7 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   statistics.Rays = static_cast<std::int64_t>(pixels);
   statistics.Segments = counts.Segments;
   statistics.Paths = counts.Paths;
-  statistics.TransparentCells = this->NumberOfTransparentCells;
+  statistics.TransparentCells = statistics.ImaginaryCells ? 0 : this->NumberOfTransparentCells;
   statistics.LaneUse = counts.Steps
     ? static_cast<double>(counts.Segments) / (8. * static_cast<double>(counts.Steps))
     : 0;

@@ -2,8 +2,10 @@
 #ifndef tetralux_RayCaster_h
 #define tetralux_RayCaster_h
 
+#include "IntegrationPlan.h"
 #include "IntervalTable.h"
 #include "OpticalModel.h"
+#include "PreIntegrationTable.h"
 #include "RayGrid.h"
 #include "RayLimits.h"
 #include "Span.h"
@@ -29,6 +31,15 @@ enum class Precision
   Double
 };
 
+/// How rays that left the mesh find where they enter it again.
+enum class Reentry
+{
+  Automatic, ///< whichever is faster, see RayCaster::Cast
+  Boundary,  ///< by a hierarchy over the boundary's faces
+  Imaginary  ///< through imaginary cells between the mesh and its hull (Weiler et al. 2003, section
+             ///< 3.4); by the boundary where the mesh can't be made convex
+};
+
 struct RayCastOptions
 {
   /// Largest error of a colour channel or of the opacity that is aimed at, 0..1. Rays end early
@@ -41,6 +52,8 @@ struct RayCastOptions
   bool Shaded = false;
   std::vector<Light> Lights;
   Material Surface;
+
+  Reentry ReentryBy = Reentry::Automatic;
 
   int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
 
@@ -58,18 +71,20 @@ struct RayCastStatistics
   bool Aborted = false;
   bool DoublePrecision = false;
   std::string InstructionSet;
-  /// How rays were integrated, and why so: "closed form", "optical depth", "emission",
-  /// "largest scalar" or "isosurfaces".
+  /// How rays were integrated: "closed form", "table", "optical depth", "emission", "largest scalar"
+  /// or "isosurfaces".
   std::string Integration;
   int NumberOfThreads = 0;
   std::int64_t Rays = 0;
   std::int64_t Segments = 0;         ///< cells walked through, over all rays
   std::int64_t Paths = 0;            ///< entries into the mesh, over all rays
+  bool ImaginaryCells = false;       ///< whether rays went through imaginary cells
   std::int64_t TransparentCells = 0; ///< left out of the walk; 0 where that would not pay
   double LaneUse = 0;                ///< share of vector lanes that carried a ray, 0..1
-  double ErrorEstimate = 0;          ///< sum of the three below
+  double ErrorEstimate = 0;          ///< sum of the four below
   double TerminationError = 0;       ///< at most, by ending rays early
   double IntegralError = 0;          ///< at most, by the weights of segments
+  double TableError = 0;             ///< estimated, by interpolation in a table
   double GeometryError = 0;          ///< estimated, by rounding coordinates and scalars; not that
                                      ///< of pixels where a ray grazes a surface or a step
 };
@@ -101,6 +116,12 @@ public:
   /// Throws std::invalid_argument as MakeIntervalTable does. Isosurfaces need none.
   void SetTransferFunction(const TransferFunction& function);
 
+  /// A table to look segments up in, of the present transfer function, instead of the closed form:
+  /// for OpticalModel::EmissionAbsorption of scalars at points; a constant colour needs none. Texels
+  /// are read in single precision, whatever they are stored in. pictureError: what pictures by it
+  /// are expected to be wrong by. nullptr: none, as it is at first and after SetTransferFunction.
+  void SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError);
+
   /// What OpticalModel::Isosurfaces shows, in any order; values that are repeated count once, the
   /// last one. Throws std::invalid_argument where a value or a colour is not finite.
   void SetIsosurfaces(std::vector<Isosurface> surfaces);
@@ -120,13 +141,6 @@ public:
     const IntervalTable& table, double worldRadius, double largestScalar);
 
 private:
-  /// Which colour, if there is any attenuation and it has only one.
-  struct ConstantColor
-  {
-    bool Constant = false;
-    float Color[3] = { 0, 0, 0 };
-  };
-
   /// Scalars in the tables are x = (s - Offset) / Scale.
   struct ScalarMap
   {
@@ -146,6 +160,8 @@ private:
   void UpdatePointScalars(bool doublePrecision);
   void UpdateCellValues();
   void UpdateVisibleTables();
+  void UpdatePlan();
+  const WalkTables& ChooseTables(const RayCastOptions& options, RayCastStatistics& statistics);
 
   std::shared_ptr<WalkMesh> Mesh;
   std::vector<double> Scalars;
@@ -155,13 +171,17 @@ private:
   OpticalModel Model = OpticalModel::EmissionAbsorption;
   TransferFunction Function;
   IntervalTable Table;
-  ConstantColor FunctionColor;
+  IntegrationPlan Plan; ///< of model, function and scalars
+  std::shared_ptr<const PreIntegrationTable> SegmentTable;
+  std::vector<float> Texels; ///< of SegmentTable, where it has not the format of the kernels
+  double SegmentTableError = 0;
   std::vector<Isosurface> Surfaces; ///< ascending in value
   std::vector<CellValue> CellValues;
   WalkTables VisibleTables; ///< empty where rays are walked through all cells
   std::int64_t NumberOfTransparentCells = 0;
   ScalarMap FloatScalars, DoubleScalars; ///< of the mesh's tables
   bool CellValuesValid = false;
+  bool PlanValid = false;
   bool VisibleTablesValid = false;
 };
 

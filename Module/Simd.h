@@ -115,6 +115,7 @@ TETRALUX_INLINE Int8 operator+(Int8 a, Int8 b) { return Int8(_mm256_add_epi32(a.
 TETRALUX_INLINE Int8 operator-(Int8 a, Int8 b) { return Int8(_mm256_sub_epi32(a.v, b.v)); }
 TETRALUX_INLINE Mask8 operator>(Int8 a, Int8 b) { return { _mm256_cmpgt_epi32(a.v, b.v) }; }
 TETRALUX_INLINE Mask8 operator==(Int8 a, Int8 b) { return { _mm256_cmpeq_epi32(a.v, b.v) }; }
+TETRALUX_INLINE Int8 operator*(Int8 a, Int8 b) { return Int8(_mm256_mullo_epi32(a.v, b.v)); }
 TETRALUX_INLINE Int8 ShiftLeft(Int8 a, int bits) { return Int8(_mm256_slli_epi32(a.v, bits)); }
 /// 1 where the mask is set, else 0.
 TETRALUX_INLINE Int8 Ones(Mask8 m) { return Int8(_mm256_srli_epi32(m.v, 31)); }
@@ -172,6 +173,7 @@ TETRALUX_INLINE Int8 RoundToInt(Float8 a) { return Int8(_mm256_cvtps_epi32(a.v))
 TETRALUX_INLINE Float8 ToFloat(Int8 a) { return Float8(_mm256_cvtepi32_ps(a.v)); }
 /// The float whose bits are a.
 TETRALUX_INLINE Float8 FromBits(Int8 a) { return Float8(_mm256_castsi256_ps(a.v)); }
+TETRALUX_INLINE Int8 ToBits(Float8 a) { return Int8(_mm256_castps_si256(a.v)); }
 
 // Double precision.
 TETRALUX_INLINE Double8 operator+(Double8 a, Double8 b)
@@ -532,6 +534,12 @@ TETRALUX_INLINE Float8 ToFloat(Int8 a)
   return Float8::Each([&](int i) { return static_cast<float>(a.v[i]); });
 }
 /// The float whose bits are a.
+TETRALUX_INLINE Int8 ToBits(Float8 a)
+{
+  Int8 r;
+  std::memcpy(r.v, a.v, sizeof(r.v));
+  return r;
+}
 TETRALUX_INLINE Float8 FromBits(Int8 a)
 {
   Float8 r;

@@ -32,17 +32,36 @@ template <class Real>
 void WalkMesh::FillCoordinates()
 {
   auto& table = this->GetPointTable<Real>();
-  const std::int64_t n = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
+  const std::int64_t ofMesh = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
+  const std::int64_t n = ofMesh + static_cast<std::int64_t>(this->SteinerPoints.size() / 3);
   table.resize(n);
 #pragma omp parallel for schedule(static)
   for (std::int64_t p = 0; p < n; ++p)
   {
     // Divided: where the radius is not a normal number, its inverse is infinite.
-    const double* x = &this->Mesh.Points[3 * p];
-    table[p] = { static_cast<Real>((x[0] - this->Center[0]) / this->Radius),
-      static_cast<Real>((x[1] - this->Center[1]) / this->Radius),
-      static_cast<Real>((x[2] - this->Center[2]) / this->Radius), 0 };
+    const double* x =
+      p < ofMesh ? &this->Mesh.Points[3 * p] : &this->SteinerPoints[3 * (p - ofMesh)];
+    table[p].X = static_cast<Real>((x[0] - this->Center[0]) / this->Radius);
+    table[p].Y = static_cast<Real>((x[1] - this->Center[1]) / this->Radius);
+    table[p].Z = static_cast<Real>((x[2] - this->Center[2]) / this->Radius);
   }
+}
+
+/// What lies behind each face of the cells, in the words of the tables.
+std::vector<WalkFace> MakeFaces(
+  const std::vector<std::int32_t>& cells, const FaceNeighbors& neighbors)
+{
+  const std::int64_t numberOfFaces = static_cast<std::int64_t>(neighbors.Neighbors.size());
+  std::vector<WalkFace> faces(numberOfFaces);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t f = 0; f < numberOfFaces; ++f)
+  {
+    const std::int32_t cell = neighbors.Neighbors[f];
+    const std::int32_t point =
+      cell < 0 ? 0 : cells[4 * static_cast<std::int64_t>(cell) + neighbors.NeighborFaces[f]];
+    faces[f] = { cell, point };
+  }
+  return faces;
 }
 
 WalkMesh::WalkMesh(TetrahedralMesh mesh)
@@ -80,31 +99,56 @@ WalkMesh::WalkMesh(TetrahedralMesh mesh)
   this->NumberOfNonManifoldFaces = neighbors.NumberOfNonManifoldFaces;
   this->NumberOfComponents = neighbors.NumberOfComponents;
 
-  const std::int64_t numberOfFaces = static_cast<std::int64_t>(neighbors.Neighbors.size());
-  std::vector<WalkFace> faces(numberOfFaces);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t f = 0; f < numberOfFaces; ++f)
+  this->Tables =
+    MakeWalkTables(MakeFaces(this->Mesh.Cells, neighbors), this->Mesh.Cells, this->FloatPoints);
+}
+
+void WalkMesh::MakeConvex(const std::function<bool(double)>& progress)
+{
+  if (this->Convex)
   {
-    const std::int32_t cell = neighbors.Neighbors[f];
-    const std::int32_t point = cell < 0
-      ? 0
-      : this->Mesh.Cells[4 * static_cast<std::int64_t>(cell) + neighbors.NeighborFaces[f]];
-    faces[f] = { cell, point };
+    return;
   }
-  this->Tables = MakeWalkTables(std::move(faces), this->Mesh.Cells, this->FloatPoints);
+  const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
+  auto convex = std::make_unique<Convexification>(
+    Convexify(this->Mesh, FindFaceNeighbors(this->Mesh.Cells, numberOfPoints), progress));
+  if (convex->Aborted)
+  {
+    return;
+  }
+  if (!convex->Cells.empty())
+  {
+    // As all cells of the tables: ascending point ids.
+    std::vector<std::int32_t> cells = this->Mesh.Cells;
+    cells.insert(cells.end(), convex->Cells.begin(), convex->Cells.end());
+    for (std::size_t cell = this->Mesh.Cells.size(); cell < cells.size(); cell += 4)
+    {
+      std::sort(&cells[cell], &cells[cell] + 4);
+    }
+    this->SteinerPoints = convex->SteinerPoints;
+    this->FillCoordinates<float>();
+    if (!this->DoublePoints.empty())
+    {
+      this->FillCoordinates<double>();
+    }
+    const FaceNeighbors neighbors =
+      FindFaceNeighbors(cells, numberOfPoints + convex->GetNumberOfSteinerPoints());
+    this->ConvexTables = MakeWalkTables(MakeFaces(cells, neighbors), cells, this->FloatPoints);
+  }
+  this->Convex = std::move(convex);
 }
 
 template <class Real>
 void WalkMesh::SetPointScalars(Span<const double> scalars, double offset, double scale)
 {
   auto& table = this->GetPointTable<Real>();
-  if (table.size() != this->Mesh.GetNumberOfPoints())
+  if (table.empty())
   {
     this->FillCoordinates<Real>();
   }
   // Far beyond any transfer function, and still finite when two of them are subtracted.
   constexpr double Largest = 1e30;
-  const std::int64_t n = static_cast<std::int64_t>(table.size());
+  const std::int64_t n = static_cast<std::int64_t>(scalars.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t p = 0; p < n; ++p)
   {
@@ -117,7 +161,8 @@ void WalkMesh::SetPointScalars(Span<const double> scalars, double offset, double
 std::size_t WalkMesh::GetTableSize() const
 {
   return this->FloatPoints.size() * sizeof(WalkPoint<float>) +
-    this->DoublePoints.size() * sizeof(WalkPoint<double>) + this->Tables.GetSize();
+    this->DoublePoints.size() * sizeof(WalkPoint<double>) + this->Tables.GetSize() +
+    this->ConvexTables.GetSize();
 }
 
 template const WalkPoint<float>* WalkMesh::GetPoints<float>() const;

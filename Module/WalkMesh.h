@@ -2,6 +2,7 @@
 #ifndef tetralux_WalkMesh_h
 #define tetralux_WalkMesh_h
 
+#include "Convexification.h"
 #include "MeshCleaning.h"
 #include "Span.h"
 #include "TetrahedralMesh.h"
@@ -9,6 +10,8 @@
 #include "WalkTables.h"
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace tetralux
@@ -55,6 +58,17 @@ public:
   template <class Real>
   void SetPointScalars(Span<const double> scalars, double offset, double scale);
 
+  /// Makes the mesh convex by imaginary cells (Convexify), unless that was tried before. progress as
+  /// there; after an abort it may be tried again.
+  void MakeConvex(const std::function<bool(double)>& progress = {});
+
+  /// What MakeConvex did; nullptr before it. Ids are those of GetMesh().
+  const Convexification* GetConvexification() const { return this->Convex.get(); }
+
+  /// The topology of all cells and the imaginary ones, which come behind; empty where there are none:
+  /// before MakeConvex, where it was refused, and where the mesh is convex.
+  const WalkTables& GetConvexTables() const { return this->ConvexTables; }
+
   /// Bytes of all tables, without GetMesh().
   std::size_t GetTableSize() const;
 
@@ -81,6 +95,9 @@ private:
   std::vector<WalkPoint<float>> FloatPoints;
   std::vector<WalkPoint<double>> DoublePoints;
   WalkTables Tables;
+  std::vector<double> SteinerPoints; ///< behind the points of the mesh in the tables
+  std::unique_ptr<Convexification> Convex;
+  WalkTables ConvexTables;
 };
 
 } // namespace tetralux
