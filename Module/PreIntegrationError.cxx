@@ -174,6 +174,26 @@ double GetMean(const Variation& variation, const Site& a, const Site& b, int c)
   return std::clamp(mean, va, vb);
 }
 
+/// The step of each channel at the end of the axis where one texel has to be both of its sides: a
+/// constant scalar there takes the upper side, and nothing else on the axis does.
+Channels GetStepOnLastTexel(const TransferFunction& function, const std::vector<double>& texels)
+{
+  Channels step{};
+  const double hi = texels.back();
+  const auto node = std::find_if(function.Nodes.begin(), function.Nodes.end(),
+    [hi](const TransferFunction::Node& n) { return n.Scalar == hi; });
+  if (node != function.Nodes.end() && texels[texels.size() - 2] < hi)
+  {
+    const Channels left = GetChannels(node->Left);
+    const Channels right = GetChannels(node->Right);
+    for (int c = 0; c < NumberOfChannels; ++c)
+    {
+      step[c] = std::abs(right[c] - left[c]);
+    }
+  }
+  return step;
+}
+
 /// What interpolation between texels does to the mean of each channel along a segment, at most:
 /// Error of the mean, and Spread of the texels' means around it.
 struct ScalarError
@@ -185,6 +205,7 @@ ScalarError BoundScalars(const TransferFunction& function, const ScalarAxisMap& 
 {
   const std::vector<double>& texels = axis.Texels;
   const Variation variation(function, texels.front(), texels.back());
+  const Channels lastStep = GetStepOnLastTexel(function, texels);
   struct Cell
   {
     Site Begin, End;
@@ -249,8 +270,11 @@ ScalarError BoundScalars(const TransferFunction& function, const ScalarAxisMap& 
       }
       for (int c = 0; c < NumberOfChannels; ++c)
       {
+        // Only segments of constant scalar meet the upper side.
+        const double step = i == j && j == n - 1 ? lastStep[c] : 0;
+        error[c] += step;
         const double spread =
-          GetMean(variation, a.End, b.End, c) - GetMean(variation, a.Begin, b.Begin, c);
+          step + GetMean(variation, a.End, b.End, c) - GetMean(variation, a.Begin, b.Begin, c);
         row.Spread[c] = std::max(row.Spread[c], spread);
         row.Error[c] = std::max(row.Error[c], exact ? std::min(error[c], spread) : spread);
       }
