@@ -330,7 +330,8 @@ struct Block
   vtkPolyData* Boundary;
 };
 
-/// The blocks of a composite, with empty results in its place in both outputs; else the input itself.
+/// The blocks of a composite, with empty results in its place in both outputs; else the input
+/// itself.
 std::vector<Block> MakeBlocks(vtkDataObject* input, vtkDataObject* grids, vtkDataObject* boundaries)
 {
   auto composite = vtkCompositeDataSet::SafeDownCast(input);

@@ -3,9 +3,9 @@
  * @class   vtkTetrahedraNeighbors
  * @brief   which cell lies behind each face of tetrahedra, their boundary, and their defects
  *
- * Takes a vtkUnstructuredGrid of tetrahedra, or a composite of such grids, each on its own. Face i of
- * a tetrahedron is the one opposite to its point i (Weiler et al., Hardware-Based Ray Casting for
- * Tetrahedral Meshes, 2003, section 3.2).
+ * Takes a vtkUnstructuredGrid of tetrahedra, or a composite of such grids, each on its own. Face i
+ * of a tetrahedron is the one opposite to its point i (Weiler et al., Hardware-Based Ray Casting
+ * for Tetrahedral Meshes, 2003, section 3.2).
  *
  * The first output is the input, no id or order of points and cells changed, with two more cell
  * arrays of four components (arrays of the same name are replaced):
@@ -17,10 +17,10 @@
  * cells share is outside for each of them, so that whoever walks from cell to cell is always on a
  * path from one boundary face to another.
  *
- * The second output is the boundary: a vtkPolyData of triangles, seen counter-clockwise from outside,
- * also those of inverted cells; with the points and the point data of the input (all of them, so
- * that ids agree), the cell data of the cells, and two more cell arrays, CellIds (vtkIdType) and
- * FaceIds (signed char), which say where each triangle came from. They ascend.
+ * The second output is the boundary: a vtkPolyData of triangles, seen counter-clockwise from
+ * outside, also those of inverted cells; with the points and the point data of the input (all of
+ * them, so that ids agree), the cell data of the cells, and two more cell arrays, CellIds
+ * (vtkIdType) and FaceIds (signed char), which say where each triangle came from. They ascend.
  *
  * Left out, and counted, are lower-dimensional cells, blanked cells (vtkGhostType HIDDENCELL,
  * REFINEDCELL or a HIDDENPOINT corner), and tetrahedra that name a point twice or one that does not

@@ -4,16 +4,17 @@
  * @brief   the ray integral in closed form, for VTK's own ray casting of unstructured grids
  *
  * Give it to vtkUnstructuredGridVolumeRayCastMapper::SetRayIntegrator in place of VTK's
- * pre-integration tables. The transfer functions are taken exactly as vtkVolumeProperty defines them,
- * and what a segment adds is evaluated in double precision, with a relative error below 1e-12 (see
+ * pre-integration tables. The transfer functions are taken exactly as vtkVolumeProperty defines
+ * them (VTK's own integrators leave out nodes of the opacity where the colour has none), and what a
+ * segment adds is evaluated in double precision, with a relative error below 1e-12 (see
  * RayIntegral.h; Weiler et al., Hardware-Based Ray Casting for Tetrahedral Meshes, 2003, section
  * 3.3). Attenuation is ScalarOpacity / ScalarOpacityUnitDistance, as in VTK's integrators.
  *
  * Scalars may have
  * - one component, of points or of cells;
  * - several independent components: clouds that share space, as in
- *   vtkUnstructuredGridLinearRayIntegrator: attenuations add up, colours are weighted by them where a
- *   function has a node and at the ends of the segment, and are linear in between;
+ *   vtkUnstructuredGridLinearRayIntegrator: attenuations add up, colours are weighted by them where
+ *   a function has a node and at the ends of the segment, and are linear in between;
  * - four that depend on each other, red, green, blue and opacity as they are, or two, grey and
  *   opacity, where vtkVolumeProperty::IndependentComponents is off.
  * Segments with a scalar that is not finite contribute nothing.
@@ -21,10 +22,10 @@
  * What it cannot mend is on the side of VTK 9.1's mapper and its
  * vtkUnstructuredGridBunykRayCastFunction: rays go through the lower left corners of pixels; in
  * perspective, scalars are interpolated in the image plane, which is wrong by about the share of a
- * cell's depth in its distance; a ray exactly through an edge of the boundary passes the mesh twice,
- * so that its optical depth doubles; integer scalars are rounded on every face; rays end at an opacity
- * of 0.99; and the picture has 8 bits a channel, rounded down.
- * vtkTetrahedraRayCastMapper has none of this.
+ * cell's depth in its distance; a ray exactly through an edge of the boundary passes the mesh
+ * twice, so that its optical depth doubles; integer scalars are rounded on every face; rays end at
+ * an opacity of 0.99; and the picture has 8 bits a channel, rounded down, and is stretched by a
+ * pixel. vtkTetrahedraRayCastMapper has none of this.
  *
  * Integrate may be called from several threads at once, Initialize not at the same time.
  *
@@ -48,9 +49,9 @@ public:
 
   ///@{
   /**
-   * Error of a premultiplied colour channel, 0..1, up to which functions of the property that are not
-   * piecewise linear (other colour spaces than RGB, sharpness, logarithmic scale) are subdivided.
-   * Default 1e-5. Piecewise linear ones are exact.
+   * Error of a premultiplied colour channel, 0..1, up to which functions of the property that are
+   * not piecewise linear (other colour spaces than RGB, sharpness, logarithmic scale) are
+   * subdivided. Default 1e-5. Piecewise linear ones are exact.
    */
   vtkSetClampMacro(MaximumError, double, 1e-9, 1.0);
   vtkGetMacro(MaximumError, double);

@@ -83,8 +83,8 @@ Face GetFace(const Cell& cell, int face)
   return points;
 }
 
-/// Some cells of a block of tetrahedra, in any order and any orientation: holes, separate parts, parts
-/// that touch in points and edges.
+/// Some cells of a block of tetrahedra, in any order and any orientation: holes, separate parts,
+/// parts that touch in points and edges.
 vtkSmartPointer<vtkUnstructuredGrid> MakeRandomGrid(std::uint64_t seed, double share)
 {
   CellPatch patch;

@@ -19,9 +19,9 @@ struct ReferenceSegment
   double FirstContribution = -1;
 };
 
-/// Emission, absorption or both along a segment of a ray over which the scalar goes linearly from s0
-/// to s1, in front of nothing. length: world units, at least 0. Throws std::invalid_argument for the
-/// models that are no integrals.
+/// Emission, absorption or both along a segment of a ray over which the scalar goes linearly from
+/// s0 to s1, in front of nothing. length: world units, at least 0. Throws std::invalid_argument for
+/// the models that are no integrals.
 ///
 /// Numerical quadrature, independent of any closed form: split at the nodes of the transfer
 /// function, then at every unit of optical depth, then Gauss-Legendre. The relative error is below

@@ -603,8 +603,8 @@ void Check(const ReferenceMesh& mesh, const ReferenceOptics& optics, const RayGr
     "RenderReference: pixels must hold one value for each pixel");
 }
 
-/// A cell as the renderer reads it. Its points ascend, so that both cells at a face see the very same
-/// numbers there and no surface slips through between them.
+/// A cell as the renderer reads it. Its points ascend, so that both cells at a face see the very
+/// same numbers there and no surface slips through between them.
 struct Cell
 {
   std::int32_t Points[4];

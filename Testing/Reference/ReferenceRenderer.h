@@ -76,7 +76,8 @@ struct ReferenceImage
 ///
 /// pixels: Width x Height, other than 0 where a pixel is wanted; empty: all. Unwanted pixels stay
 /// empty. The picture does not depend on the number of threads.
-/// Throws std::invalid_argument where sizes do not fit together, and for Isosurfaces of cell scalars.
+/// Throws std::invalid_argument where sizes do not fit together, and for Isosurfaces of cell
+/// scalars.
 ReferenceImage RenderReference(const ReferenceMesh& mesh, const ReferenceOptics& optics,
   const RayGrid& rays, const RayLimits& limits = {}, Span<const std::uint8_t> pixels = {});
 

@@ -231,7 +231,7 @@ TEST(TetrahedraRayIntegrator, ComponentsThatDependOnEachOtherAreColoursThemselve
 
 TEST(TetrahedraRayIntegrator, IndependentComponentsMixAsInVtk)
 {
-  // The clouds of both components, as VTK's integrator mixes them, which is single precision inside.
+  // The clouds of both components, as VTK's integrator mixes them, in single precision inside.
   const Functions functions;
   vtkNew<vtkColorTransferFunction> otherColor;
   otherColor->AddRGBPoint(0, 0, 1, 1);
@@ -488,8 +488,8 @@ public:
   ReferenceImage Reference;
 
 private:
-  /// From afar: the Bunyk function interpolates scalars in the image plane, as if a cell were as far
-  /// as its face, which is wrong by the share of a cell's depth in its distance.
+  /// From afar: the Bunyk function interpolates scalars in the image plane, which is wrong by the
+  /// share of a cell's depth in its distance.
   static constexpr double ViewAngle = 0.3; ///< degrees
   static constexpr double ParallelScale = 0.7;
   Vector Position{ 160.5, 110.5, 220.5 };
