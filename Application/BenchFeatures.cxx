@@ -97,6 +97,13 @@ Comparison CompareOpacityVariation(const BenchScene& ball)
     { "opacities that vary", WithVariation(ball, 1, 1), {}, {} } };
 }
 
+Comparison CompareTable(const BenchScene& ball)
+{
+  return { "3-D table", { "the integral in closed form", ball, { "Integration=1" }, {} }, {},
+    { "from a table of 128 x 128 x 16", ball,
+      { "Integration=2", "TableScalarSize=128", "TableLengthSize=16" }, {} } };
+}
+
 Comparison CompareClipping(const BenchScene& ball)
 {
   const double* bounds = ball.Mesh->GetBounds();
@@ -181,7 +188,8 @@ Comparison CompareNonConvexity(bool quick)
   const BenchScene whole = MakeGeneratedScene("random", { { "cells", cells }, { "removed", 0 } });
   const BenchScene holes =
     MakeGeneratedScene("random", { { "cells", cells }, { "removed", 0.05 } });
-  return { "non-convexity", { "a cube of tetrahedra", whole, {}, {} }, {},
+  return { "non-convexity", { "a cube of tetrahedra", whole, {}, {} },
+    { "the same, as if it had imaginary cells", whole, { "Reentry=2" }, {} },
     { "without a twentieth of its tetrahedra", holes, {}, {} } };
 }
 
@@ -197,9 +205,14 @@ Comparison ComparePrecision(const BenchScene& ball)
     { "in double precision", ball, { "Precision=2" }, {} } };
 }
 
+bool CanBeHad(const Variant& variant)
+{
+  return !variant.Description.empty() && HasProperties(variant.Assignments);
+}
+
 std::unique_ptr<BenchView> MakeView(const Variant& variant, const RenderOptions& view)
 {
-  if (variant.Description.empty())
+  if (!CanBeHad(variant))
   {
     return nullptr;
   }
@@ -241,8 +254,9 @@ BenchFeature MeasureFeature(const Comparison& comparison, const RenderOptions& o
   const double difference = views[1]
     ? MeasureErrors(views[1]->GetFloatPicture(), views[0]->GetFloatPicture()).Maximum
     : NoNumber;
-  return { comparison.Name, variants[0]->Description, variants[1]->Description,
-    variants[2]->Description, seconds[0], seconds[1], seconds[2], difference };
+  return { comparison.Name, variants[0]->Description,
+    views[1] ? variants[1]->Description : std::string(), variants[2]->Description, seconds[0],
+    seconds[1], seconds[2], difference };
 }
 
 } // namespace
@@ -254,10 +268,13 @@ std::vector<BenchFeature> MeasureFeatures(
   const BenchScene ball = MakeBallScene(cells, false);
   std::vector<BenchFeature> features;
   for (const Comparison& comparison : { CompareColorVariation(ball), CompareOpacityVariation(ball),
-         CompareClipping(ball), CompareCropping(ball), CompareGeometry(ball),
+         CompareTable(ball), CompareClipping(ball), CompareCropping(ball), CompareGeometry(ball),
          CompareNonConvexity(quick), CompareCellData(cells), ComparePrecision(ball) })
   {
-    features.push_back(MeasureFeature(comparison, view, frames, checkInterrupt));
+    if (CanBeHad(comparison.Plain) && CanBeHad(comparison.Used))
+    {
+      features.push_back(MeasureFeature(comparison, view, frames, checkInterrupt));
+    }
   }
   return features;
 }

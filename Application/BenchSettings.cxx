@@ -4,7 +4,6 @@
 #include "Bench.h"
 #include "BenchMappers.h"
 #include "CommandErrors.h"
-#include "Methods.h"
 
 #include <algorithm>
 #include <sstream>
@@ -170,8 +169,14 @@ BenchSetting ReadSetting(const std::string& text)
 
 BenchSetting GetReferenceSetting()
 {
-  return { "reference", "reference", "closed form, double precision, rays to their ends",
-    BenchMethod::RayCast, { DoublePrecision, ToTheEnd } };
+  BenchSetting setting = { "reference", "reference",
+    "closed form, double precision, rays to their ends", BenchMethod::RayCast,
+    { DoublePrecision, ToTheEnd } };
+  if (HasProperties({ ClosedForm }))
+  {
+    setting.Assignments.push_back(ClosedForm);
+  }
+  return setting;
 }
 
 std::vector<BenchSetting> ListSettings(const BenchOptions& options)
@@ -192,15 +197,8 @@ std::vector<BenchSetting> ListSettings(const BenchOptions& options)
     settings.push_back(ReadSetting(text));
   }
   AddPeers(settings);
-  const auto known = [](const BenchSetting& setting)
-  {
-    const std::vector<std::string> names = GetPropertyNames();
-    return std::all_of(setting.Assignments.begin(), setting.Assignments.end(),
-      [&](const std::string& a)
-      { return std::count(names.begin(), names.end(), a.substr(0, a.find('='))) > 0; });
-  };
   settings.erase(std::remove_if(settings.begin(), settings.end(),
-                   [&](const BenchSetting& s) { return !known(s); }),
+                   [](const BenchSetting& setting) { return !HasProperties(setting.Assignments); }),
     settings.end());
   return settings;
 }
