@@ -107,7 +107,17 @@ private:
     const std::int32_t* corners = this->GetPoints(cell);
     int signs[4];
     this->GetSigns(cell, triangle, signs);
-    if (CellMeetsTriangleProperly(this->Points, corners, triangle.data()))
+    // Most are on one side of the plane, but for the points that both have.
+    bool isApart = true;
+    int sides = 0;
+    for (int i = 0; i < 4 && isApart; ++i)
+    {
+      isApart = signs[i] != 0
+        ? sides == 0 || sides == signs[i]
+        : std::find(triangle.begin(), triangle.end(), corners[i]) != triangle.end();
+      sides = signs[i] != 0 ? signs[i] : sides;
+    }
+    if (isApart || CellMeetsTriangleProperly(this->Points, corners, triangle.data()))
     {
       return false;
     }

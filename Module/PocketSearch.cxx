@@ -24,6 +24,23 @@ bool AreSame(const Triangle& triangle0, const Triangle& triangle1)
     Contains(triangle0, triangle1[2]);
 }
 
+/// Whether the boxes around a cell and a triangle have no point in common.
+bool AreApart(const ExactPoints& points, const Cell& cell, const Triangle& triangle)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto [cellLow, cellHigh] = std::minmax({ points[cell[0]][axis], points[cell[1]][axis],
+      points[cell[2]][axis], points[cell[3]][axis] });
+    const auto [low, high] = std::minmax(
+      { points[triangle[0]][axis], points[triangle[1]][axis], points[triangle[2]][axis] });
+    if (low > cellHigh || high < cellLow)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Depth-first search for the cells of a small pocket: always at the triangle with the fewest
 /// choices.
 class CellSearch
@@ -271,7 +288,8 @@ bool CellFitsTriangle(const ExactPoints& points, const Cell& cell, const Triangl
   {
     return points.Orient(triangle[0], triangle[1], triangle[2], cell[other]) > 0;
   }
-  return CellMeetsTriangleProperly(points, cell.data(), triangle.data());
+  return (shared == 0 && AreApart(points, cell, triangle)) ||
+    CellMeetsTriangleProperly(points, cell.data(), triangle.data());
 }
 
 //----------------------------------------------------------------------------
