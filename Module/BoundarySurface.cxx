@@ -173,7 +173,8 @@ void RefuseCoveredFaces(const TetrahedralMesh& mesh, const FaceNeighbors& neighb
   const auto numberOfFaces = static_cast<std::int64_t>(neighbors.Neighbors.size());
   for (std::int64_t face = 0; face < numberOfFaces && obstacle.Reason.empty(); ++face)
   {
-    if (neighbors.Neighbors[face] < 0)
+    if (neighbors.Neighbors[face] < 0 || IsCollapsed(mesh, first, face / 4) ||
+      IsCollapsed(mesh, first, neighbors.Neighbors[face]))
     {
       continue;
     }
@@ -191,6 +192,18 @@ void RefuseCoveredFaces(const TetrahedralMesh& mesh, const FaceNeighbors& neighb
 }
 
 } // namespace
+
+//----------------------------------------------------------------------------
+bool IsCollapsed(
+  const TetrahedralMesh& mesh, const std::vector<std::int32_t>& mergedIds, std::int64_t cell)
+{
+  std::array<std::int32_t, 4> ids;
+  std::transform(&mesh.Cells[4 * cell], &mesh.Cells[4 * cell] + 4, ids.begin(),
+    [&mergedIds](std::int32_t id) { return mergedIds[id]; });
+  std::sort(ids.begin(), ids.end());
+  const auto known = std::find_if(ids.begin(), ids.end(), [](std::int32_t id) { return id >= 0; });
+  return std::adjacent_find(known, ids.end()) != ids.end();
+}
 
 //----------------------------------------------------------------------------
 BoundarySurface FindBoundarySurface(
@@ -243,7 +256,11 @@ BoundarySurface FindBoundarySurface(
       const bool isCollapsed = key[0] == key[1] || key[1] == key[2];
       isKept[order[end]] = !isCollapsed;
     }
-    if (end - begin > 2 && isKept[order[begin]] && obstacle.Reason.empty())
+    if (end - begin > 2 && isKept[order[begin]] && obstacle.Reason.empty() &&
+      std::count_if(order.begin() + static_cast<std::ptrdiff_t>(begin),
+        order.begin() + static_cast<std::ptrdiff_t>(end),
+        [&](std::int32_t i)
+        { return !IsCollapsed(mesh, first, neighbors.BoundaryFaces[i] / 4); }) > 2)
     {
       obstacle.Reason = "three cells share a face";
       obstacle.Cells = { neighbors.BoundaryFaces[order[begin]] / 4,

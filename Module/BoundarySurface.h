@@ -59,6 +59,10 @@ struct BoundarySurface
 BoundarySurface FindBoundarySurface(
   const TetrahedralMesh& mesh, const FaceNeighbors& neighbors, Obstacle& obstacle);
 
+/// Whether two points of a cell are at the same place. mergedIds: as of a BoundarySurface.
+bool IsCollapsed(
+  const TetrahedralMesh& mesh, const std::vector<std::int32_t>& mergedIds, std::int64_t cell);
+
 /// Whether triangles are the whole boundary of a convex body, each point of it once, seen from
 /// outside as BoundarySurface::Triangles are. Exact; linear time.
 bool IsConvexSurface(const ExactPoints& points, const std::vector<Triangle>& triangles);

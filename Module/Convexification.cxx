@@ -305,7 +305,9 @@ private:
       const std::int32_t b = mergedIds[cell[face[1]]];
       const std::int32_t c = mergedIds[cell[face[2]]];
       if (this->Neighbors.Neighbors[i] >= 0 && a >= 0 && b >= 0 && c >= 0 &&
-        faces.Find(a, b, c) != FaceTable::None)
+        faces.Find(a, b, c) != FaceTable::None &&
+        !IsCollapsed(this->Mesh, mergedIds, static_cast<std::int64_t>(i / 4)) &&
+        !IsCollapsed(this->Mesh, mergedIds, this->Neighbors.Neighbors[i]))
       {
         obstacle.Reason = "cells of the mesh fold over each other";
         obstacle.Cells = { static_cast<std::int32_t>(i / 4), this->Neighbors.Neighbors[i] };
