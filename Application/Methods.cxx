@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 
 namespace
 {
@@ -53,6 +54,25 @@ const std::vector<Property>& GetProperties()
 {
   static const std::vector<Property> properties = {
     MakeSwitch("AutoAdjustSampleDistances", &Mapper::SetAutoAdjustSampleDistances),
+    { "BlendMode",
+      [](Mapper* mapper, const std::string& option, const std::string& text)
+      {
+        const std::map<std::string, int> modes = { { "composite", Mapper::COMPOSITE_BLEND },
+          { "maximum-intensity", Mapper::MAXIMUM_INTENSITY_BLEND },
+          { "additive", Mapper::ADDITIVE_BLEND }, { "isosurface", Mapper::ISOSURFACE_BLEND },
+          { "absorption", Mapper::ABSORPTION_BLEND } };
+        const auto mode = modes.find(text);
+        if (mode == modes.end())
+        {
+          std::vector<std::string> names;
+          for (const auto& [name, number] : modes)
+          {
+            names.push_back(name);
+          }
+          throw UsageError(option + ": '" + text + "' is none of " + JoinNames(names));
+        }
+        mapper->SetBlendMode(mode->second);
+      } },
     MakeSwitch("Cropping", &Mapper::SetCropping),
     MakeInteger("CroppingRegionFlags", &Mapper::SetCroppingRegionFlags, 0, 0x7ffffff),
     { "CroppingRegionPlanes",
@@ -63,6 +83,8 @@ const std::vector<Property>& GetProperties()
         mapper->SetCroppingRegionPlanes(planes.data());
       } },
     MakeReal("ImageSampleDistance", &Mapper::SetImageSampleDistance, 0.1, 100),
+    MakeInteger(
+      "Integration", &Mapper::SetIntegration, Mapper::AUTOMATIC_INTEGRATION, Mapper::TABLE),
     MakeSwitch("IntermixIntersectingGeometry", &Mapper::SetIntermixIntersectingGeometry),
     MakeReal("MaximumError", &Mapper::SetMaximumError, 0, 1),
     MakeReal("MaximumImageSampleDistance", &Mapper::SetMaximumImageSampleDistance, 0.1, 100),
@@ -70,6 +92,16 @@ const std::vector<Property>& GetProperties()
     MakeInteger("NumberOfThreads", &Mapper::SetNumberOfThreads, 0, 1024),
     MakeInteger(
       "Precision", &Mapper::SetPrecision, Mapper::AUTOMATIC_PRECISION, Mapper::DOUBLE_PRECISION),
+    MakeInteger("Reentry", &Mapper::SetReentry, Mapper::AUTOMATIC_REENTRY, Mapper::IMAGINARY_CELLS),
+    MakeInteger(
+      "TableFormat", &Mapper::SetTableFormat, Mapper::AUTOMATIC_FORMAT, Mapper::FLOAT_FORMAT),
+    MakeInteger("TableLengthScale", &Mapper::SetTableLengthScale, Mapper::AUTOMATIC_SCALE,
+      Mapper::LOGARITHMIC_SCALE),
+    MakeInteger("TableLengthSize", &Mapper::SetTableLengthSize, 0, 4096),
+    MakeReal("TableMaximumBytes", &Mapper::SetTableMaximumBytes, 65536, 1e12),
+    MakeInteger(
+      "TableScalarAxis", &Mapper::SetTableScalarAxis, Mapper::AUTOMATIC_AXIS, Mapper::NODES_AXIS),
+    MakeInteger("TableScalarSize", &Mapper::SetTableScalarSize, 0, 4096),
   };
   return properties;
 }

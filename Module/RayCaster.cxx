@@ -442,7 +442,7 @@ void RayCaster::UpdateVisibleTables()
   this->VisibleTablesValid = true;
 }
 
-void RayCaster::UpdatePlan()
+const IntegrationPlan& RayCaster::GetPlan()
 {
   if (!this->PlanValid)
   {
@@ -451,6 +451,7 @@ void RayCaster::UpdatePlan()
       : MakeIntegrationPlan(this->Model, this->Function, this->ScalarRange);
     this->PlanValid = true;
   }
+  return this->Plan;
 }
 
 const WalkTables& RayCaster::ChooseTables(
@@ -496,8 +497,7 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   }
 
   RayCastStatistics statistics;
-  this->UpdatePlan();
-  const Integrator integrator = ChooseIntegrator(this->Model, this->Plan.ConstantColor,
+  const Integrator integrator = ChooseIntegrator(this->Model, this->GetPlan().ConstantColor,
     this->SegmentTable && !this->ScalarsOfCells, statistics.Integration);
   const double worldRadius = GetWorldRadius(*this->Mesh, grid);
   const double geometryError = this->EstimateGeometryError(worldRadius);

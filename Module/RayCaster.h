@@ -99,6 +99,9 @@ public:
   void SetMesh(std::shared_ptr<WalkMesh> mesh);
   const WalkMesh* GetMesh() const { return this->Mesh.get(); }
 
+  /// How segments are integrated for the present model, function and scalars, table aside.
+  const IntegrationPlan& GetPlan();
+
   /// One scalar for each point, or for each cell, of WalkMesh::GetMesh(); any values, those that
   /// are not finite make the cells that touch them contribute nothing. Throws
   /// std::invalid_argument where their number is wrong.
@@ -106,6 +109,11 @@ public:
   void SetPointScalars(std::vector<double> scalars);
   void SetCellScalars(std::vector<double> scalars);
   ///@}
+
+  /// Least and largest finite scalar; 0 and 0 where there is none.
+  const double* GetScalarRange() const { return this->ScalarRange; }
+
+  bool HasCellScalars() const { return this->ScalarsOfCells; }
 
   /// Cells that touch a scalar which is not finite.
   std::int64_t GetNumberOfBlankCells() const { return this->NumberOfBlankCells; }
@@ -160,7 +168,6 @@ private:
   void UpdatePointScalars(bool doublePrecision);
   void UpdateCellValues();
   void UpdateVisibleTables();
-  void UpdatePlan();
   const WalkTables& ChooseTables(const RayCastOptions& options, RayCastStatistics& statistics);
 
   std::shared_ptr<WalkMesh> Mesh;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InputSignature.h"
 
+#include "vtkContourValues.h"
 #include "vtkTetrahedraIntake.h"
 
 #include "vtkAbstractArray.h"
@@ -155,6 +156,10 @@ Signature GetPropertySignature(vtkVolumeProperty* property)
   {
     Add(signature, property->GetGrayTransferFunction(0));
   }
+  // Values count, not the time: a property makes its list of them when it is first asked.
+  vtkContourValues* surfaces = property->GetIsoSurfaceValues();
+  const int count = surfaces->GetNumberOfContours();
+  Add(signature, surfaces->GetValues(), count);
   return signature;
 }
 

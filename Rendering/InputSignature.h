@@ -26,7 +26,7 @@ Signature GetMeshSignature(vtkDataObject* input);
 /// Of all that scalars depend on beside the mesh: the selected array of each data set.
 Signature GetScalarsSignature(vtkDataObject* input, const ScalarSelection& selection);
 
-/// Of all that TransferFunctionFromProperty reads.
+/// Of all that TransferFunctionFromProperty reads, and of the values of isosurfaces.
 Signature GetPropertySignature(vtkVolumeProperty* property);
 
 } // namespace tetralux

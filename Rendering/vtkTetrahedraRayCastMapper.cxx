@@ -7,11 +7,14 @@
 #include "JsonObject.h"
 #include "OpaqueDistances.h"
 #include "RayCaster.h"
+#include "RendererLights.h"
+#include "SegmentTable.h"
 #include "TransferFunctionFromProperty.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkContourValues.h"
 #include "vtkDataSet.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -54,6 +57,12 @@ constexpr double SmallestFunctionError = 1e-7;
 /// takes a half, rounding a quarter.
 constexpr double FunctionErrorShare = 0.125;
 
+/// Share of MaximumError that looking segments up in a table may take.
+constexpr double TableErrorShare = 0.25;
+
+/// Frames that are to take less than this belong to an interaction, seconds.
+constexpr double InteractiveSeconds = 1;
+
 class Stopwatch
 {
 public:
@@ -95,6 +104,42 @@ void SetMeshFromWorld(vtkVolume* volume, double meshFromWorld[3][4])
   std::copy_n(inverse, 12, &meshFromWorld[0][0]);
 }
 
+/// How much longer than in the mesh a distance in the world can be: the largest singular value.
+double GetLargestScale(vtkVolume* volume)
+{
+  double linear[3][3], u[3][3], w[3], vt[3][3];
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      linear[row][column] = volume->GetMatrix()->GetElement(row, column);
+    }
+  }
+  vtkMath::SingularValueDecomposition3x3(linear, u, w, vt);
+  return std::max({ std::abs(w[0]), std::abs(w[1]), std::abs(w[2]) });
+}
+
+/// The longest edge of all cells, in the units of the mesh: no segment is longer.
+double GetLongestEdge(const tetralux::TetrahedralMesh& mesh)
+{
+  double longest = 0;
+  const std::int64_t n = static_cast<std::int64_t>(mesh.GetNumberOfCells());
+#pragma omp parallel for reduction(max : longest)
+  for (std::int64_t t = 0; t < n; ++t)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = i + 1; j < 4; ++j)
+      {
+        const double* a = &mesh.Points[3 * static_cast<std::size_t>(mesh.Cells[4 * t + i])];
+        const double* b = &mesh.Points[3 * static_cast<std::size_t>(mesh.Cells[4 * t + j])];
+        longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+      }
+    }
+  }
+  return longest;
+}
+
 /// A bound of the length of a ray in a volume, in world units, that changes seldom: a power of two.
 double GetLongestPath(const tetralux::WalkMesh& mesh, vtkVolume* volume)
 {
@@ -118,6 +163,99 @@ void AddClippingPlanes(vtkPlaneCollection* planes, RayLimits& limits)
     const double* normal = plane->GetNormal();
     limits.Planes.push_back(
       { normal[0], normal[1], normal[2], -vtkMath::Dot(normal, plane->GetOrigin()) });
+  }
+}
+
+using tetralux::OpticalModel;
+using Mapper = vtkTetrahedraRayCastMapper;
+
+OpticalModel GetOpticalModel(int blendMode)
+{
+  switch (blendMode)
+  {
+    case Mapper::COMPOSITE_BLEND:
+      return OpticalModel::EmissionAbsorption;
+    case Mapper::MAXIMUM_INTENSITY_BLEND:
+      return OpticalModel::MaximumIntensity;
+    case Mapper::ADDITIVE_BLEND:
+      return OpticalModel::EmissionOnly;
+    case Mapper::ISOSURFACE_BLEND:
+      return OpticalModel::Isosurfaces;
+    case Mapper::ABSORPTION_BLEND:
+      return OpticalModel::AbsorptionOnly;
+    default:
+      throw std::invalid_argument("BlendMode " + std::to_string(blendMode) +
+        " is none of this mapper's: composite, maximum intensity, additive, isosurface or "
+        "absorption");
+  }
+}
+
+const char* GetModelName(OpticalModel model)
+{
+  switch (model)
+  {
+    case OpticalModel::EmissionOnly:
+      return "emission only";
+    case OpticalModel::AbsorptionOnly:
+      return "absorption only";
+    case OpticalModel::MaximumIntensity:
+      return "maximum intensity";
+    case OpticalModel::Isosurfaces:
+      return "isosurfaces";
+    default:
+      return "emission and absorption";
+  }
+}
+
+/// The surfaces of a property, each with colour and opacity at its value.
+std::vector<tetralux::Isosurface> GetIsosurfaces(
+  vtkVolumeProperty* property, const tetralux::TransferFunction& opacities)
+{
+  vtkContourValues* values = property->GetIsoSurfaceValues();
+  if (values->GetNumberOfContours() == 0)
+  {
+    throw std::invalid_argument(
+      "the volume property has no IsoSurfaceValues, which the isosurface BlendMode shows");
+  }
+  std::vector<tetralux::Isosurface> surfaces;
+  for (int i = 0; i < values->GetNumberOfContours(); ++i)
+  {
+    const tetralux::TransferFunction::Value value =
+      tetralux::Evaluate(opacities, values->GetValue(i));
+    tetralux::Isosurface surface;
+    surface.Value = values->GetValue(i);
+    surface.Opacity = static_cast<float>(std::min(value.Attenuation, 1.));
+    for (int c = 0; c < 3; ++c)
+    {
+      surface.Color[c] = static_cast<float>(value.Color[c]);
+    }
+    surfaces.push_back(surface);
+  }
+  return surfaces;
+}
+
+/// Opacities for attenuations: of models in which lengths do not count.
+void RemoveUnitDistance(tetralux::TransferFunction& function, double unitDistance)
+{
+  for (tetralux::TransferFunction::Node& node : function.Nodes)
+  {
+    node.Left.Attenuation *= unitDistance;
+    node.Right.Attenuation *= unitDistance;
+  }
+}
+
+const char* GetFormatName(tetralux::TexelFormat format)
+{
+  switch (format)
+  {
+    case tetralux::TexelFormat::UNorm8:
+      return "8-bit";
+    case tetralux::TexelFormat::UNorm16:
+      return "16-bit";
+    case tetralux::TexelFormat::Half:
+      return "half";
+    default:
+      return "float";
   }
 }
 
@@ -169,11 +307,15 @@ private:
   void PrepareMesh(vtkDataObject* input);
   void PrepareScalars(vtkDataObject* input);
   void PrepareFunction(vtkVolume* volume);
+  void PrepareTable(vtkVolume* volume);
   double ChooseSampleDistance(vtkRenderer* renderer, vtkVolume* volume) const;
   void Cast(vtkRenderer* renderer, vtkVolume* volume, const CameraRays& rays);
   tetralux::Span<float> GetArray(const char* name, int components);
   void WarnOfMesh();
   void WarnOfShade(vtkVolumeProperty* property);
+  void WarnOfReentry();
+
+  std::string GetIntegrationReason();
 
   /// Tells how far a stage is, and asks whether to go on.
   bool Continue(unsigned long event, double fraction) const;
@@ -191,9 +333,15 @@ private:
   bool CellData = false;
   double FunctionError = 0;
   int NumberOfNodes = 0;
+  OpticalModel FunctionModel = OpticalModel::EmissionAbsorption;
+  tetralux::TransferFunction Function;
+  double LongestEdge = 0; ///< of the mesh, in its units; 0: not found yet
+  tetralux::SegmentTable Table;
+  bool TableSet = false;    ///< the ray caster has Table
   double SecondsPerRay = 0; ///< of the last frame that was cast; 0: none yet
   bool WarnedOfShade = false;
-  std::string MeshWarning; ///< the last one: the next time step may have the same
+  std::string ReentryWarning; ///< the last one
+  std::string MeshWarning;    ///< the last one: the next time step may have the same
 
   // The last frame.
   struct Frame
@@ -203,6 +351,7 @@ private:
     double MeshSeconds = 0;
     double ScalarsSeconds = 0;
     double FunctionSeconds = 0;
+    double TableSeconds = 0;
     double DepthSeconds = 0;
     double CastSeconds = 0;
     double CompositeSeconds = 0;
@@ -212,6 +361,7 @@ private:
     double SampleDistance = 1;
     bool Clipped = false;
     bool Opaque = false;
+    bool Shaded = false;
   };
   Frame Last;
 };
@@ -221,10 +371,7 @@ void vtkTetrahedraRayCastMapper::Internals::DrawFrame(vtkRenderer* renderer, vtk
 {
   const Stopwatch stopwatch;
   this->Last = Frame();
-  if (this->Self->BlendMode != COMPOSITE_BLEND)
-  {
-    throw std::invalid_argument("BlendMode must be composite");
-  }
+  this->Caster.SetOpticalModel(GetOpticalModel(this->Self->BlendMode));
   this->Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (!this->Window)
   {
@@ -238,6 +385,7 @@ void vtkTetrahedraRayCastMapper::Internals::DrawFrame(vtkRenderer* renderer, vtk
   this->PrepareMesh(input);
   this->PrepareScalars(input);
   this->PrepareFunction(volume);
+  this->PrepareTable(volume);
 
   this->Last.SampleDistance = this->ChooseSampleDistance(renderer, volume);
   const CameraRays rays(renderer, this->Last.SampleDistance);
@@ -287,6 +435,7 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareMesh(vtkDataObject* input)
   this->Intake = std::move(intake.Report);
   this->MeshSignature = std::move(signature);
   this->ScalarsSignature.clear();
+  this->LongestEdge = 0;
   this->Last.MeshSeconds = meshStopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("mesh");
   this->WarnOfMesh();
@@ -346,8 +495,10 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareFunction(vtkVolume* volume)
   const double maximumError =
     std::max(FunctionErrorShare * this->Self->MaximumError, SmallestFunctionError);
   tetralux::Signature signature = tetralux::GetPropertySignature(property);
+  const OpticalModel model = GetOpticalModel(this->Self->BlendMode);
+  this->WarnOfShade(property);
   // Error and path matter only where the property had to be approximated.
-  if (signature == this->FunctionSignature &&
+  if (signature == this->FunctionSignature && model == this->FunctionModel &&
     (this->FunctionError == 0 ||
       (maximumError == this->FunctionMaximumError && longestPath == this->FunctionLongestPath)))
   {
@@ -355,10 +506,20 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareFunction(vtkVolume* volume)
   }
   const Stopwatch stopwatch;
   this->FunctionSignature.clear();
-  this->WarnOfShade(property);
-  const tetralux::PropertyTransferFunction function =
+  tetralux::PropertyTransferFunction function =
     tetralux::TransferFunctionFromProperty(property, maximumError, longestPath);
+  if (model == OpticalModel::MaximumIntensity || model == OpticalModel::Isosurfaces)
+  {
+    RemoveUnitDistance(function.Function, property->GetScalarOpacityUnitDistance(0));
+  }
+  if (model == OpticalModel::Isosurfaces)
+  {
+    this->Caster.SetIsosurfaces(GetIsosurfaces(property, function.Function));
+  }
   this->Caster.SetTransferFunction(function.Function);
+  this->TableSet = false;
+  this->Function = function.Function;
+  this->FunctionModel = model;
   this->FunctionError = function.Error;
   this->NumberOfNodes = static_cast<int>(function.Function.Nodes.size());
   this->FunctionMaximumError = maximumError;
@@ -366,6 +527,63 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareFunction(vtkVolume* volume)
   this->FunctionSignature = std::move(signature);
   this->Last.FunctionSeconds = stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("transfer function");
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::Internals::PrepareTable(vtkVolume* volume)
+{
+  const tetralux::WalkMesh& mesh = *this->Caster.GetMesh();
+  if (this->Self->Integration == CLOSED_FORM ||
+    this->FunctionModel != OpticalModel::EmissionAbsorption || this->Caster.HasCellScalars() ||
+    mesh.GetNumberOfCells() == 0 || this->Caster.GetPlan().ConstantColor ||
+    this->Caster.GetPlan().Transparent)
+  {
+    if (this->TableSet)
+    {
+      this->Caster.SetTable(nullptr, 0);
+      this->TableSet = false;
+    }
+    return;
+  }
+  const Stopwatch stopwatch;
+  if (this->LongestEdge == 0)
+  {
+    this->LongestEdge = GetLongestEdge(mesh.GetMesh());
+  }
+  const double scale = GetLargestScale(volume);
+  tetralux::SegmentTable::Request request;
+  request.Forced = this->Self->Integration == TABLE;
+  request.Interactive = volume->GetAllocatedRenderTime() < InteractiveSeconds;
+  tetralux::TableGoal& goal = request.Goal;
+  goal.MaximumError = std::max(TableErrorShare * this->Self->MaximumError, SmallestFunctionError);
+  goal.MaximumBytes = static_cast<std::size_t>(this->Self->TableMaximumBytes);
+  goal.Rays.PathLength = 2 * mesh.GetRadius() * scale;
+  goal.Rays.LongestSegment = this->LongestEdge * scale;
+  std::copy_n(this->Caster.GetScalarRange(), 2, goal.Rays.ScalarRange);
+  goal.ScalarSize = this->Self->TableScalarSize;
+  goal.LengthSize = this->Self->TableLengthSize;
+  goal.AnyScale = this->Self->TableLengthScale == AUTOMATIC_SCALE;
+  goal.Scale = this->Self->TableLengthScale == LOGARITHMIC_SCALE
+    ? tetralux::LengthScale::Logarithmic
+    : tetralux::LengthScale::Linear;
+  goal.AnyAxis = this->Self->TableScalarAxis == AUTOMATIC_AXIS;
+  goal.Axis = this->Self->TableScalarAxis == NODES_AXIS ? tetralux::ScalarAxis::Nodes
+                                                        : tetralux::ScalarAxis::Uniform;
+  goal.AnyFormat = this->Self->TableFormat == AUTOMATIC_FORMAT;
+  goal.Format = goal.AnyFormat
+    ? tetralux::TexelFormat::Float
+    : static_cast<tetralux::TexelFormat>(this->Self->TableFormat - UNORM8_FORMAT);
+  const bool changed = this->Table.Update(this->Function, request);
+  if (changed || (!this->TableSet && this->Table.GetTable()))
+  {
+    this->Caster.SetTable(this->Table.GetTable(), this->Table.GetPictureError());
+    this->TableSet = this->Table.GetTable() != nullptr;
+  }
+  if (changed)
+  {
+    this->Last.Rebuilt.push_back("table");
+  }
+  this->Last.TableSeconds = stopwatch.GetSeconds();
 }
 
 //------------------------------------------------------------------------------------------------
@@ -420,6 +638,14 @@ void vtkTetrahedraRayCastMapper::Internals::Cast(
   options.Arithmetic = this->Self->Precision == SINGLE_PRECISION ? tetralux::Precision::Single
     : this->Self->Precision == DOUBLE_PRECISION                  ? tetralux::Precision::Double
                                                                  : tetralux::Precision::Automatic;
+  options.ReentryBy = this->Self->Reentry == IMAGINARY_CELLS ? tetralux::Reentry::Imaginary
+                                                             : tetralux::Reentry::Boundary;
+  if (this->FunctionModel == OpticalModel::Isosurfaces && volume->GetProperty()->GetShade(0))
+  {
+    this->Last.Shaded = options.Shaded = true;
+    options.Lights = tetralux::GetRendererLights(renderer);
+    options.Surface = tetralux::GetMaterial(volume->GetProperty());
+  }
   options.Progress = [this](double fraction)
   { return this->Continue(vtkCommand::VolumeMapperRenderProgressEvent, fraction); };
 
@@ -431,6 +657,7 @@ void vtkTetrahedraRayCastMapper::Internals::Cast(
     this->Caster.Cast(grid, limits, options, this->GetArray("RGBA", 4), this->GetArray("Depth", 1));
   this->Image->GetPointData()->SetActiveScalars("RGBA");
   this->Last.CastSeconds = stopwatch.GetSeconds();
+  this->WarnOfReentry();
   this->ErrorEstimate = this->Last.Rays.ErrorEstimate + this->FunctionError;
   if (this->Last.Rays.Aborted)
   {
@@ -493,14 +720,31 @@ void vtkTetrahedraRayCastMapper::Internals::WarnOfMesh()
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Internals::WarnOfShade(vtkVolumeProperty* property)
 {
-  const bool shade = property->GetShade(0) != 0 ||
+  const bool shade = (property->GetShade(0) != 0 && this->Self->BlendMode != ISOSURFACE_BLEND) ||
     (property->GetDisableGradientOpacity(0) == 0 && property->HasGradientOpacity(0));
   if (shade && !this->WarnedOfShade)
   {
     vtkWarningWithObjectMacro(
-      this->Self, "Shade and gradient opacity of the volume property are not used");
+      this->Self, "Shade, but of isosurfaces, and gradient opacity of the property are not used");
   }
   this->WarnedOfShade = shade;
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::Internals::WarnOfReentry()
+{
+  const tetralux::Convexification* convex = this->Caster.GetMesh()->GetConvexification();
+  const std::string warning =
+    convex && this->Self->Reentry == IMAGINARY_CELLS ? convex->Refusal : "";
+  if (warning != this->ReentryWarning)
+  {
+    this->ReentryWarning = warning;
+    if (!warning.empty())
+    {
+      vtkWarningWithObjectMacro(
+        this->Self, "the mesh can't be made convex, rays enter it by its boundary: " << warning);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -522,6 +766,28 @@ void vtkTetrahedraRayCastMapper::Internals::ReportOnce(const std::string& error)
 }
 
 //------------------------------------------------------------------------------------------------
+std::string vtkTetrahedraRayCastMapper::Internals::GetIntegrationReason()
+{
+  if (this->FunctionModel != OpticalModel::EmissionAbsorption)
+  {
+    return "exact for this optical model";
+  }
+  if (this->Caster.GetPlan().ConstantColor)
+  {
+    return "all that is visible has one colour";
+  }
+  if (this->CellData)
+  {
+    return "closed form: cells are constant";
+  }
+  if (this->Self->Integration == CLOSED_FORM)
+  {
+    return "closed form: asked for";
+  }
+  return this->Table.GetReason();
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Internals::WriteStatistics()
 {
   const Frame& last = this->Last;
@@ -532,6 +798,7 @@ void vtkTetrahedraRayCastMapper::Internals::WriteStatistics()
   times.Set("mesh", last.MeshSeconds);
   times.Set("scalars", last.ScalarsSeconds);
   times.Set("transfer_function", last.FunctionSeconds);
+  times.Set("table", last.TableSeconds);
   times.Set("depth_buffer", last.DepthSeconds);
   times.Set("cast", last.CastSeconds);
   times.Set("composite", last.CompositeSeconds);
@@ -567,6 +834,32 @@ void vtkTetrahedraRayCastMapper::Internals::WriteStatistics()
   tables.Set("removed_tetrahedra", removedCells);
   tables.Set("transfer_function_nodes", this->NumberOfNodes);
   tables.Set("bytes", mesh.GetTableSize());
+  if (const tetralux::Convexification* convex = mesh.GetConvexification())
+  {
+    tables.Set("imaginary_cells", convex->GetNumberOfCells());
+    tables.Set("steiner_points", convex->GetNumberOfSteinerPoints());
+    tables.Set("convexification_seconds", convex->GetSeconds());
+    tables.Set("convexification_refusal", convex->Refusal);
+  }
+
+  JsonObject segments;
+  segments.Set("optical_model", GetModelName(this->FunctionModel));
+  segments.Set("integration", last.Rays.Integration);
+  const std::shared_ptr<const tetralux::PreIntegrationTable> table =
+    this->TableSet ? this->Table.GetTable() : nullptr;
+  segments.Set("reason", this->GetIntegrationReason());
+  if (table)
+  {
+    segments.Set("table_scalar_size", table->Scalars.GetSize());
+    segments.Set("table_length_size", table->Lengths.Size);
+    segments.Set("table_length_scale",
+      table->Lengths.Scale == tetralux::LengthScale::Linear ? "linear" : "logarithmic");
+    segments.Set("table_scalar_axis",
+      table->Settings.Axis == tetralux::ScalarAxis::Uniform ? "uniform" : "nodes");
+    segments.Set("table_format", GetFormatName(table->Settings.Format));
+    segments.Set("table_bytes", static_cast<std::int64_t>(table->GetNumberOfBytes()));
+    segments.Set("table_is_coarse", this->Table.IsCoarse());
+  }
 
   JsonObject rays;
   rays.Set("width", last.Size[0]);
@@ -575,6 +868,8 @@ void vtkTetrahedraRayCastMapper::Internals::WriteStatistics()
   rays.Set("rays", last.Rays.Rays);
   rays.Set("segments", last.Rays.Segments);
   rays.Set("paths", last.Rays.Paths);
+  rays.Set("reentry", last.Rays.ImaginaryCells ? "imaginary cells" : "boundary hierarchy");
+  rays.Set("transparent_tetrahedra_left_out", last.Rays.TransparentCells);
   rays.Set("lane_use", last.Rays.LaneUse);
   rays.Set("precision", last.Rays.DoublePrecision ? "double" : "single");
   rays.Set("instruction_set", last.Rays.InstructionSet);
@@ -586,24 +881,34 @@ void vtkTetrahedraRayCastMapper::Internals::WriteStatistics()
   error.Set("estimate", this->ErrorEstimate);
   error.Set("early_termination", last.Rays.TerminationError);
   error.Set("integrals", last.Rays.IntegralError);
+  error.Set("table", last.Rays.TableError);
   error.Set("geometry", last.Rays.GeometryError);
   error.Set("transfer_function", this->FunctionError);
 
-  std::vector<std::string> leftOut;
-  const auto leaveOut = [&leftOut](bool used, const char* feature)
+  JsonObject leftOut;
+  const auto leaveOut = [&leftOut](bool leftOutHere, const char* feature, const char* reason)
   {
-    if (!used)
+    if (leftOutHere)
     {
-      leftOut.push_back(feature);
+      leftOut.Set(feature, reason);
     }
   };
-  leaveOut(last.Clipped, "clipping planes");
-  leaveOut(this->Self->Cropping, "cropping");
-  leaveOut(last.Opaque, "opaque geometry");
-  leaveOut(last.Rays.DoublePrecision, "double precision");
-  leaveOut(this->FunctionError > 0, "subdivided transfer function");
-  leaveOut(this->CellData, "constant cells");
-  leaveOut(!this->CellData, "scalars varying in cells");
+  const tetralux::IntegrationPlan& plan = this->Caster.GetPlan();
+  leaveOut(!last.Clipped, "clipping planes", "there are none");
+  leaveOut(!this->Self->Cropping, "cropping", "it is off");
+  leaveOut(!last.Opaque, "opaque geometry", "nothing opaque was drawn before");
+  leaveOut(!last.Rays.DoublePrecision, "double precision", "single precision is right enough");
+  leaveOut(this->FunctionError == 0, "subdivided transfer function", "it is piecewise linear");
+  leaveOut(this->CellData, "scalars varying in cells", "the array is of cells");
+  leaveOut(!this->CellData, "constant cells", "the array is of points");
+  leaveOut(last.Rays.Integration == "optical depth", "colours along rays",
+    this->FunctionModel == OpticalModel::AbsorptionOnly ? "absorption has none"
+                                                        : "all that is visible has one colour");
+  leaveOut(!table, "table", plan.ConstantColor ? "one colour needs none" : "see segments");
+  leaveOut(last.Rays.TransparentCells > 0, "transparent tetrahedra", "nothing of them is seen");
+  leaveOut(!last.Rays.ImaginaryCells, "imaginary cells", "rays enter by the boundary");
+  leaveOut(!(this->FunctionModel == OpticalModel::Isosurfaces && last.Shaded), "shading",
+    this->FunctionModel == OpticalModel::Isosurfaces ? "Shade is off" : "of isosurfaces only");
 
   JsonObject statistics;
   statistics.Set("method", "ray-cast");
@@ -611,6 +916,7 @@ void vtkTetrahedraRayCastMapper::Internals::WriteStatistics()
   statistics.Set("seconds", times);
   statistics.Set("input", input);
   statistics.Set("tables", tables);
+  statistics.Set("segments", segments);
   statistics.Set("rays", rays);
   statistics.Set("error", error);
   statistics.Set("left_out", leftOut);
@@ -760,6 +1066,15 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   const double* planes = this->CroppingRegionPlanes;
   os << indent << "MaximumError: " << this->MaximumError << "\n"
+     << indent << "BlendMode: " << this->BlendMode << "\n"
+     << indent << "Integration: " << this->Integration << "\n"
+     << indent << "TableScalarSize: " << this->TableScalarSize << "\n"
+     << indent << "TableLengthSize: " << this->TableLengthSize << "\n"
+     << indent << "TableLengthScale: " << this->TableLengthScale << "\n"
+     << indent << "TableScalarAxis: " << this->TableScalarAxis << "\n"
+     << indent << "TableFormat: " << this->TableFormat << "\n"
+     << indent << "TableMaximumBytes: " << this->TableMaximumBytes << "\n"
+     << indent << "Reentry: " << this->Reentry << "\n"
      << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n"
      << indent << "Precision: " << GetPrecisionName(this->Precision) << "\n"
      << indent << "VectorMode: " << this->VectorMode << "\n"

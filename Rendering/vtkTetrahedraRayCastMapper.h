@@ -16,9 +16,9 @@
  * ScalarOpacityUnitDistance, radiance is the integral of attenuation x colour x exp(-optical
  * depth). That is the model of VTK's own mappers of unstructured grids, not the 1 - (1 - a)^(l / d)
  * of its mappers of image data. The property's colour (RGB in any colour space, or grey), scalar
- * opacity and unit distance of component 0 are used at the exact scalars of their nodes, no table
- * is sampled; Shade and gradient opacity are not used, and one warning says so. BlendMode must be
- * composite.
+ * opacity and unit distance of component 0 are used at the exact scalars of their nodes. Other
+ * BlendModes are below. Shade counts for isosurfaces only, gradient opacity for nothing, and one
+ * warning says so.
  *
  * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
  * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper
@@ -79,6 +79,141 @@ public:
    */
   vtkSetClampMacro(MaximumError, double, 0.0, 1.0);
   vtkGetMacro(MaximumError, double);
+  ///@}
+
+  /**
+   * What BlendMode may be beside COMPOSITE_BLEND (default) and MAXIMUM_INTENSITY_BLEND, with the
+   * numbers of vtkVolumeMapper where it has them (Weiler et al. 2003, section 4).
+   *
+   * MAXIMUM_INTENSITY_BLEND: colour and scalar opacity of the largest scalar along a ray.
+   * ADDITIVE_BLEND: light adds up and nothing is absorbed; the opacity of the picture is 0.
+   * ISOSURFACE_BLEND: the surfaces of the property's IsoSurfaceValues, each with its colour and
+   * scalar opacity, composited front to back; where Shade is on, lit by the lights of the renderer
+   * from both sides. Scalars must be at points.
+   * ABSORPTION_BLEND: dark smoke, without colour, that hides what is behind.
+   */
+  enum FurtherBlendModes
+  {
+    ADDITIVE_BLEND = 4,
+    ISOSURFACE_BLEND = 5,
+    ABSORPTION_BLEND = 16
+  };
+  void SetBlendModeToAdditive() { this->SetBlendMode(ADDITIVE_BLEND); }
+  void SetBlendModeToIsoSurface() { this->SetBlendMode(ISOSURFACE_BLEND); }
+  void SetBlendModeToAbsorption() { this->SetBlendMode(ABSORPTION_BLEND); }
+
+  enum IntegrationType
+  {
+    AUTOMATIC_INTEGRATION,
+    CLOSED_FORM,
+    TABLE
+  };
+
+  ///@{
+  /**
+   * How segments of composite blending are integrated. Automatic (default): by a table where that is
+   * faster and right enough for a quarter of MaximumError, else in closed form, which is exact.
+   * TABLE: by a table in any case, the smallest that is right enough or else the best within
+   * TableMaximumBytes; GetErrorEstimate() says how right. Scalars at cells, constant colours and
+   * other blend modes need no table and have none.
+   */
+  vtkSetClampMacro(Integration, int, AUTOMATIC_INTEGRATION, TABLE);
+  vtkGetMacro(Integration, int);
+  void SetIntegrationToAutomatic() { this->SetIntegration(AUTOMATIC_INTEGRATION); }
+  void SetIntegrationToClosedForm() { this->SetIntegration(CLOSED_FORM); }
+  void SetIntegrationToTable() { this->SetIntegration(TABLE); }
+  ///@}
+
+  ///@{
+  /**
+   * Texels of a table along each of the two scalars and along the length of a segment, 2..4096; 0
+   * (default): chosen by MaximumError.
+   */
+  vtkSetClampMacro(TableScalarSize, int, 0, 4096);
+  vtkGetMacro(TableScalarSize, int);
+  vtkSetClampMacro(TableLengthSize, int, 0, 4096);
+  vtkGetMacro(TableLengthSize, int);
+  ///@}
+
+  enum TableLengthScaleType
+  {
+    AUTOMATIC_SCALE,
+    LINEAR_SCALE,
+    LOGARITHMIC_SCALE
+  };
+
+  ///@{
+  /**
+   * How texels lie along the length: in equal steps (Weiler et al. 2003), or in steps that double
+   * (Kraus et al. 2004, equation 1). Automatic by default.
+   */
+  vtkSetClampMacro(TableLengthScale, int, AUTOMATIC_SCALE, LOGARITHMIC_SCALE);
+  vtkGetMacro(TableLengthScale, int);
+  ///@}
+
+  enum TableScalarAxisType
+  {
+    AUTOMATIC_AXIS,
+    UNIFORM_AXIS,
+    NODES_AXIS
+  };
+
+  ///@{
+  /**
+   * How texels lie along the scalars: in equal steps, or on the nodes of the transfer function.
+   * Automatic by default.
+   */
+  vtkSetClampMacro(TableScalarAxis, int, AUTOMATIC_AXIS, NODES_AXIS);
+  vtkGetMacro(TableScalarAxis, int);
+  ///@}
+
+  enum TableFormatType
+  {
+    AUTOMATIC_FORMAT,
+    UNORM8_FORMAT,
+    UNORM16_FORMAT,
+    HALF_FORMAT,
+    FLOAT_FORMAT
+  };
+
+  ///@{
+  /**
+   * What texels are rounded to; automatic by default. The formats of textures, whose error can so be
+   * studied: rays read texels in single precision in any case, and only that needs no copy of them.
+   */
+  vtkSetClampMacro(TableFormat, int, AUTOMATIC_FORMAT, FLOAT_FORMAT);
+  vtkGetMacro(TableFormat, int);
+  ///@}
+
+  ///@{
+  /**
+   * The most bytes that a table may take, default 64 MiB.
+   */
+  vtkSetClampMacro(TableMaximumBytes, vtkIdType, 65536, VTK_ID_MAX);
+  vtkGetMacro(TableMaximumBytes, vtkIdType);
+  ///@}
+
+  enum ReentryType
+  {
+    AUTOMATIC_REENTRY,
+    BOUNDARY_HIERARCHY,
+    IMAGINARY_CELLS
+  };
+
+  ///@{
+  /**
+   * How rays that left the mesh find where they enter it again: by a hierarchy over its boundary
+   * faces, or through imaginary cells between the mesh and its convex hull (Weiler et al. 2003,
+   * section 3.4, see vtkConvexifyTetrahedra), which are made in the first frame that needs them.
+   * Automatic (default) is BOUNDARY_HIERARCHY: it was faster in every scene that was measured. A mesh
+   * that can't be made convex is entered by its boundary, and one warning says why. The picture is
+   * the same.
+   */
+  vtkSetClampMacro(Reentry, int, AUTOMATIC_REENTRY, IMAGINARY_CELLS);
+  vtkGetMacro(Reentry, int);
+  void SetReentryToAutomatic() { this->SetReentry(AUTOMATIC_REENTRY); }
+  void SetReentryToBoundaryHierarchy() { this->SetReentry(BOUNDARY_HIERARCHY); }
+  void SetReentryToImaginaryCells() { this->SetReentry(IMAGINARY_CELLS); }
   ///@}
 
   ///@{
@@ -256,6 +391,14 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
 
   double MaximumError = 1e-4;
+  int Integration = AUTOMATIC_INTEGRATION;
+  int TableScalarSize = 0;
+  int TableLengthSize = 0;
+  int TableLengthScale = AUTOMATIC_SCALE;
+  int TableScalarAxis = AUTOMATIC_AXIS;
+  int TableFormat = AUTOMATIC_FORMAT;
+  vtkIdType TableMaximumBytes = 64 << 20;
+  int Reentry = AUTOMATIC_REENTRY;
   int NumberOfThreads = 0;
   int Precision = AUTOMATIC_PRECISION;
   int VectorMode = DISABLED;

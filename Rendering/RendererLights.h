@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RendererLights_h
+#define tetralux_RendererLights_h
+
+#include "OpticalModel.h"
+
+#include <vector>
+
+class vtkRenderer;
+class vtkVolumeProperty;
+
+namespace tetralux
+{
+
+/// The lights of a renderer that are switched on, as VTK's mappers of volumes take them: diffuse and
+/// specular light have the diffuse colour. The ambient light of the renderer comes with the first.
+std::vector<Light> GetRendererLights(vtkRenderer* renderer);
+
+/// How component 0 of a property answers to lights.
+Material GetMaterial(vtkVolumeProperty* property);
+
+} // namespace tetralux
+
+#endif

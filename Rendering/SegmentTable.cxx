@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SegmentTable.h"
+
+#include "PreIntegrationBuilder.h"
+
+#include <algorithm>
+
+namespace tetralux
+{
+namespace
+{
+
+/// A table for the time of an interaction: built in a few milliseconds.
+constexpr std::size_t CoarseBytes = std::size_t{ 1 } << 20;
+
+bool operator==(const TransferFunction::Value& a, const TransferFunction::Value& b)
+{
+  return std::equal(a.Color, a.Color + 3, b.Color) && a.Attenuation == b.Attenuation;
+}
+
+bool AreEqual(const TransferFunction& a, const TransferFunction& b)
+{
+  return std::equal(a.Nodes.begin(), a.Nodes.end(), b.Nodes.begin(), b.Nodes.end(),
+    [](const TransferFunction::Node& x, const TransferFunction::Node& y)
+    { return x.Scalar == y.Scalar && x.Left == y.Left && x.Right == y.Right; });
+}
+
+bool AreEqual(const SegmentTable::Request& a, const SegmentTable::Request& b)
+{
+  const TableGoal& x = a.Goal;
+  const TableGoal& y = b.Goal;
+  return a.Forced == b.Forced && x.MaximumError == y.MaximumError &&
+    x.MaximumBytes == y.MaximumBytes && x.LookupCost == y.LookupCost &&
+    x.Rays.PathLength == y.Rays.PathLength && x.Rays.LongestSegment == y.Rays.LongestSegment &&
+    std::equal(x.Rays.ScalarRange, x.Rays.ScalarRange + 2, y.Rays.ScalarRange) &&
+    x.ScalarSize == y.ScalarSize && x.LengthSize == y.LengthSize && x.AnyScale == y.AnyScale &&
+    x.Scale == y.Scale && x.AnyAxis == y.AnyAxis && x.Axis == y.Axis &&
+    x.AnyFormat == y.AnyFormat && x.Format == y.Format;
+}
+
+} // namespace
+
+bool SegmentTable::Update(const TransferFunction& function, const Request& request)
+{
+  const bool sameFunction = this->Decided && AreEqual(function, this->Function);
+  const bool sameRequest = this->Decided && AreEqual(request, this->Last);
+  if (sameFunction && sameRequest && (!this->Coarse || request.Interactive))
+  {
+    return false;
+  }
+  const bool hadTable = this->Table != nullptr;
+  this->Decided = false;
+
+  if (request.Interactive && request.Forced)
+  {
+    // Whichever the right settings are, coarse ones of the same axes do for now.
+    PreIntegrationSettings settings;
+    settings.Axis = request.Goal.AnyAxis ? ScalarAxis::Nodes : request.Goal.Axis;
+    settings.Scale = request.Goal.AnyScale ? LengthScale::Logarithmic : request.Goal.Scale;
+    settings.Format = request.Goal.AnyFormat ? TexelFormat::Float : request.Goal.Format;
+    settings.ScalarSize = request.Goal.ScalarSize > 0 ? request.Goal.ScalarSize : 128;
+    settings.LengthSize = request.Goal.LengthSize > 0 ? request.Goal.LengthSize : 64;
+    std::copy_n(request.Goal.Rays.ScalarRange, 2, settings.ScalarRange);
+    settings.LongestSegment = request.Goal.Rays.LongestSegment;
+    this->Coarse = true;
+    this->Build(function, GetCoarseSettings(settings, CoarseBytes));
+    this->Reason = "a coarse table during interaction";
+  }
+  else
+  {
+    TableGoal goal = request.Goal;
+    if (request.Forced)
+    {
+      goal.LookupCost = 0;
+    }
+    const TableChoice choice = ChoosePreIntegrationTable(function, goal);
+    this->Coarse = false;
+    this->Reason = choice.Reason;
+    if (choice.ClosedForm && !request.Forced)
+    {
+      this->Table.reset();
+      this->PictureError = 0;
+    }
+    else
+    {
+      this->Build(function, choice.Settings);
+    }
+  }
+  if (this->Table)
+  {
+    this->PictureError = EstimatePictureError(function, *this->Table, request.Goal.Rays);
+  }
+  this->Function = function;
+  this->Last = request;
+  this->Decided = true;
+  return hadTable || this->Table;
+}
+
+void SegmentTable::Build(const TransferFunction& function, const PreIntegrationSettings& settings)
+{
+  const auto isSame = [&](const PreIntegrationSettings& s)
+  {
+    return s.ScalarSize == settings.ScalarSize && s.LengthSize == settings.LengthSize &&
+      s.Scale == settings.Scale && s.StepsPerDoubling == settings.StepsPerDoubling &&
+      s.Axis == settings.Axis && s.Method == settings.Method && s.Format == settings.Format &&
+      std::equal(s.ScalarRange, s.ScalarRange + 2, settings.ScalarRange) &&
+      s.LongestSegment == settings.LongestSegment;
+  };
+  if (this->Table && !this->Function.Nodes.empty() && isSame(this->Table->Settings))
+  {
+    UpdatePreIntegrationTable(this->Function, function, *this->Table);
+    return;
+  }
+  this->Function.Nodes.clear(); // no longer what the table is of, should the next line throw
+  if (!this->Table)
+  {
+    this->Table = std::make_shared<PreIntegrationTable>();
+  }
+  BuildPreIntegrationTable(function, settings, *this->Table);
+}
+
+} // namespace tetralux
