@@ -277,10 +277,10 @@ int vtkPreIntegrationTable::RequestData(
       {
         table = tetralux::MakeMeanTable(function, range, this->ScalarSize);
       }
-      std::vector<double> texels;
+      std::vector<double> texels(table.Size);
       for (int i = 0; i < table.Size; ++i)
       {
-        texels.push_back(table.GetScalar(i));
+        texels[i] = table.GetScalar(i);
       }
       AddNumbers(image, "ScalarTexels", texels);
       SetTexels<vtkFloatArray>(image, table.Texels.data(), table.Texels.size() / 4);
@@ -290,10 +290,10 @@ int vtkPreIntegrationTable::RequestData(
     tetralux::PreIntegrationTable table;
     tetralux::BuildPreIntegrationTable(function, plan.Settings, table);
     const tetralux::LengthAxisMap& lengths = table.Lengths;
-    std::vector<double> lengthTexels;
+    std::vector<double> lengthTexels(lengths.Size);
     for (int r = 0; r < lengths.Size; ++r)
     {
-      lengthTexels.push_back(lengths.GetLength(r));
+      lengthTexels[r] = lengths.GetLength(r);
     }
     AddNumbers(image, "ScalarTexels", table.Scalars.Texels);
     AddNumbers(image, "LengthTexels", lengthTexels);
@@ -301,7 +301,7 @@ int vtkPreIntegrationTable::RequestData(
     const int steps = lengths.Scale == tetralux::LengthScale::Linear ? 0 : lengths.StepsPerDoubling;
     AddField<vtkIntArray>(image, "StepsPerDoubling", &steps, 1);
     AddField<vtkFloatArray>(image, "ScalarAxisIntervals", &table.Scalars.Intervals.front().Lo,
-      static_cast<vtkIdType>(4 * table.Scalars.Intervals.size()), 4);
+      4 * static_cast<vtkIdType>(table.Scalars.Intervals.size()), 4);
     AddNumbers(image, "ScalarOffsetAndScale", { table.Scalars.Offset, table.Scalars.Scale });
     AddError(image, "ErrorBound", table.Bound);
     AddError(image, "ErrorEstimate", tetralux::EstimatePreIntegrationError(function, table));
