@@ -16,6 +16,8 @@
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkColorTransferFunction.h"
+#include "vtkContourValues.h"
+#include "vtkDataSet.h"
 #include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPlane.h"
@@ -26,6 +28,8 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -102,6 +106,47 @@ Comparison CompareTable(const BenchScene& ball)
   return { "3-D table", { "the integral in closed form", ball, { "Integration=1" }, {} }, {},
     { "from a table of 128 x 128 x 16", ball,
       { "Integration=2", "TableScalarSize=128", "TableLengthSize=16" }, {} } };
+}
+
+/// Five surfaces over the range of the scalars, in a property of the view's own.
+void MakeIsosurfaces(BenchView& view)
+{
+  double range[2];
+  vtkDataSet::SafeDownCast(view.GetMapper()->GetDataObjectInput())->GetScalarRange(range);
+  vtkVolumeProperty* property = view.GetVolume()->GetProperty();
+  for (int i = 0; i < 5; ++i)
+  {
+    property->GetIsoSurfaceValues()->SetValue(i, range[0] + (i + 1) * (range[1] - range[0]) / 6);
+  }
+}
+
+/// Lights them, by as much ambient light as is said, and by the camera's for the rest.
+void Shade(BenchView& view, double ambient)
+{
+  MakeIsosurfaces(view);
+  vtkVolumeProperty* property = view.GetVolume()->GetProperty();
+  property->ShadeOn();
+  property->SetAmbient(ambient);
+  property->SetDiffuse(1 - ambient);
+  property->SetSpecular(0.2 * (1 - ambient));
+}
+
+Comparison CompareShading(const BenchScene& ball)
+{
+  const std::vector<std::string> isosurface = { "BlendMode=isosurface" };
+  return {
+    "shading", { "five isosurfaces, flat", WithVariation(ball, 1, 1), isosurface, MakeIsosurfaces },
+    { "shaded by ambient light alone", WithVariation(ball, 1, 1), isosurface,
+      [](BenchView& view) { Shade(view, 1); } },
+    { "shaded", WithVariation(ball, 1, 1), isosurface, [](BenchView& view) { Shade(view, 0.1); } }
+  };
+}
+
+/// An optical model in place of the full one: mode as BlendMode takes it.
+Comparison CompareModel(const BenchScene& ball, const std::string& name, const std::string& mode)
+{
+  return { name, { "emission and absorption", WithVariation(ball, 1, 1), {}, {} }, {},
+    { name, WithVariation(ball, 1, 1), { "BlendMode=" + mode }, MakeIsosurfaces } };
 }
 
 Comparison CompareClipping(const BenchScene& ball)
@@ -205,14 +250,9 @@ Comparison ComparePrecision(const BenchScene& ball)
     { "in double precision", ball, { "Precision=2" }, {} } };
 }
 
-bool CanBeHad(const Variant& variant)
-{
-  return !variant.Description.empty() && HasProperties(variant.Assignments);
-}
-
 std::unique_ptr<BenchView> MakeView(const Variant& variant, const RenderOptions& view)
 {
-  if (!CanBeHad(variant))
+  if (variant.Description.empty())
   {
     return nullptr;
   }
@@ -226,6 +266,12 @@ std::unique_ptr<BenchView> MakeView(const Variant& variant, const RenderOptions&
   }
   made->Render();
   return made;
+}
+
+/// What the mapper says it left out of the last frame, with the reasons.
+nlohmann::json GetLeftOut(const BenchView& view)
+{
+  return nlohmann::json::parse(view.GetStatistics()).at("left_out");
 }
 
 BenchFeature MeasureFeature(const Comparison& comparison, const RenderOptions& options, int frames,
@@ -254,9 +300,18 @@ BenchFeature MeasureFeature(const Comparison& comparison, const RenderOptions& o
   const double difference = views[1]
     ? MeasureErrors(views[1]->GetFloatPicture(), views[0]->GetFloatPicture()).Maximum
     : NoNumber;
-  return { comparison.Name, variants[0]->Description,
-    views[1] ? variants[1]->Description : std::string(), variants[2]->Description, seconds[0],
-    seconds[1], seconds[2], difference };
+  const nlohmann::json plain = GetLeftOut(*views[0]);
+  const nlohmann::json used = GetLeftOut(*views[2]);
+  std::string leftOut;
+  for (const auto& [name, reason] : plain.items())
+  {
+    if (!used.contains(name))
+    {
+      leftOut += (leftOut.empty() ? "" : ", ") + name + " (" + reason.get<std::string>() + ")";
+    }
+  }
+  return { comparison.Name, variants[0]->Description, variants[1]->Description,
+    variants[2]->Description, leftOut, seconds[0], seconds[1], seconds[2], difference };
 }
 
 } // namespace
@@ -268,13 +323,14 @@ std::vector<BenchFeature> MeasureFeatures(
   const BenchScene ball = MakeBallScene(cells, false);
   std::vector<BenchFeature> features;
   for (const Comparison& comparison : { CompareColorVariation(ball), CompareOpacityVariation(ball),
-         CompareTable(ball), CompareClipping(ball), CompareCropping(ball), CompareGeometry(ball),
-         CompareNonConvexity(quick), CompareCellData(cells), ComparePrecision(ball) })
+         CompareTable(ball), CompareShading(ball), CompareClipping(ball), CompareCropping(ball),
+         CompareGeometry(ball), CompareNonConvexity(quick), CompareCellData(cells),
+         ComparePrecision(ball), CompareModel(ball, "emission only", "additive"),
+         CompareModel(ball, "absorption only", "absorption"),
+         CompareModel(ball, "maximum intensity", "maximum-intensity"),
+         CompareModel(ball, "five flat isosurfaces", "isosurface") })
   {
-    if (CanBeHad(comparison.Plain) && CanBeHad(comparison.Used))
-    {
-      features.push_back(MeasureFeature(comparison, view, frames, checkInterrupt));
-    }
+    features.push_back(MeasureFeature(comparison, view, frames, checkInterrupt));
   }
   return features;
 }

@@ -17,6 +17,8 @@ struct BenchFeature
     Forced;         ///< how it is made to be computed though it changes nothing; empty: it can't be
   std::string Used; ///< the scene that uses it
 
+  std::string LeftOut; ///< what the mapper left out of the plain frame only, and why
+
   double PlainSeconds;
   double ForcedSeconds; ///< not a number where it can't be
   double UsedSeconds;

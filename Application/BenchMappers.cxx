@@ -11,8 +11,6 @@
 #include "vtkUnstructuredGridPreIntegration.h"
 #include "vtkUnstructuredGridVolumeRayCastMapper.h"
 
-#include <algorithm>
-
 namespace
 {
 
@@ -65,17 +63,6 @@ vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeMapper(
     default:
       return MakeRayCastMapper(setting, numberOfThreads);
   }
-}
-
-bool HasProperties(const std::vector<std::string>& assignments)
-{
-  const std::vector<std::string> names = GetPropertyNames();
-  return std::all_of(assignments.begin(), assignments.end(),
-    [&names](const std::string& assignment)
-    {
-      const std::string name = assignment.substr(0, assignment.find('='));
-      return std::find(names.begin(), names.end(), name) != names.end();
-    });
 }
 
 void CheckSetting(const BenchSetting& setting) { MakeRayCastMapper(setting, 0); }

@@ -4,9 +4,6 @@
 
 #include "vtkSmartPointer.h"
 
-#include <string>
-#include <vector>
-
 struct BenchSetting;
 class vtkUnstructuredGridVolumeMapper;
 
@@ -14,9 +11,6 @@ class vtkUnstructuredGridVolumeMapper;
 /// does not say otherwise; numberOfThreads: of our own methods, 0 as many as there are cores.
 vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeMapper(
   const BenchSetting& setting, int numberOfThreads);
-
-/// Whether the mapper has the properties of all assignments.
-bool HasProperties(const std::vector<std::string>& assignments);
 
 /// Throws UsageError where an assignment is none that the mapper takes.
 void CheckSetting(const BenchSetting& setting);

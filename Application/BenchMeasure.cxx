@@ -24,14 +24,17 @@ constexpr int ReferenceSize = 256;
 constexpr int PeerSize = 128;
 constexpr int DifferenceSize = 64;
 
-/// The sum of all members named "bytes", however deep; not a number where there is none.
+/// Whether a member of the statistics is a size of a table.
+bool IsBytes(const std::string& name) { return name == "bytes" || name == "table_bytes"; }
+
+/// The sum of the sizes of all tables, however deep; not a number where there is none.
 double SumBytes(const nlohmann::json& statistics)
 {
   double sum = NoNumber;
   for (const auto& [name, value] : statistics.items())
   {
     const double bytes = value.is_object() ? SumBytes(value)
-      : name == "bytes"                    ? value.get<double>()
+      : IsBytes(name)                      ? value.get<double>()
                                            : NoNumber;
     if (!std::isnan(bytes))
     {

@@ -296,7 +296,8 @@ void WriteScene(std::ostream& page, const BenchSceneResult& result)
 void WriteFeatures(std::ostream& page, const std::vector<BenchFeature>& features)
 {
   page << R"(<h2 id="features">What features cost, and do not cost unused</h2>
-<p>Best frames, measured in turns. <em>Without</em>: what runs where a scene does not use a feature.
+<p>Best frames, measured in turns. <em>Without</em>: what runs where a scene does not use a feature,
+and what the mapper says it left out.
 <em>Forced</em>: the same picture, but the general code for the feature runs, since the scene seems to
 use it: what an unused feature would cost if it were not left out; beside it the largest difference of
 that picture. <em>Used</em>: the feature changes the picture, and with it how much there is to do.</p>
@@ -307,8 +308,12 @@ that picture. <em>Used</em>: the feature changes the picture, and with it how mu
   {
     const bool forced = !feature.Forced.empty();
     page << "<tr>" << PrintCell(Escape(feature.Name)) << "<td class=\"text\">"
-         << Escape(feature.Plain) << "</td>" << PrintCell(PrintMilliseconds(feature.PlainSeconds))
-         << "<td class=\"text\">" << (forced ? Escape(feature.Forced) : "cannot be had") << "</td>"
+         << Escape(feature.Plain)
+         << (feature.LeftOut.empty()
+                ? ""
+                : "<br><span class=\"note\">left out: " + Escape(feature.LeftOut) + "</span>")
+         << "</td>" << PrintCell(PrintMilliseconds(feature.PlainSeconds)) << "<td class=\"text\">"
+         << (forced ? Escape(feature.Forced) : "cannot be had") << "</td>"
          << PrintCell(PrintMilliseconds(feature.ForcedSeconds))
          << PrintCell(Print("%.2f", feature.ForcedSeconds / feature.PlainSeconds))
          << PrintCell(forced ? PrintError(feature.ForcedDifference) : "&ndash;")

@@ -121,7 +121,7 @@ void AddReentry(std::vector<BenchSetting>& settings)
   settings.push_back({ "reentry-hierarchy", group, "by a hierarchy of the boundary",
     BenchMethod::RayCast, { "Reentry=1" } });
   settings.push_back({ "reentry-imaginary", group,
-    "through imaginary cells of a convexified mesh (Weiler 2003, section 3.2)",
+    "through imaginary cells of a convexified mesh (Weiler 2003, section 3.4)",
     BenchMethod::RayCast, { "Reentry=2" } });
 }
 
@@ -169,14 +169,8 @@ BenchSetting ReadSetting(const std::string& text)
 
 BenchSetting GetReferenceSetting()
 {
-  BenchSetting setting = { "reference", "reference",
-    "closed form, double precision, rays to their ends", BenchMethod::RayCast,
-    { DoublePrecision, ToTheEnd } };
-  if (HasProperties({ ClosedForm }))
-  {
-    setting.Assignments.push_back(ClosedForm);
-  }
-  return setting;
+  return { "reference", "reference", "closed form, double precision, rays to their ends",
+    BenchMethod::RayCast, { ClosedForm, DoublePrecision, ToTheEnd } };
 }
 
 std::vector<BenchSetting> ListSettings(const BenchOptions& options)
@@ -197,9 +191,6 @@ std::vector<BenchSetting> ListSettings(const BenchOptions& options)
     settings.push_back(ReadSetting(text));
   }
   AddPeers(settings);
-  settings.erase(std::remove_if(settings.begin(), settings.end(),
-                   [](const BenchSetting& setting) { return !HasProperties(setting.Assignments); }),
-    settings.end());
   return settings;
 }
 

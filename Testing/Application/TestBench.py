@@ -115,6 +115,16 @@ class Bench(ToolTest):
                 self.assertLessEqual(row["largest_error"], float(asked[1]), where)
                 self.assertLess(float(row["error_estimate"]), 3 * float(asked[1]), where)
         self.assertLessEqual(settings["default"]["largest_error"], 1e-4)
+        for worse, better in (
+            ("kraus-8-bit", "kraus"), ("kraus-linear", "kraus"), ("weiler", "weiler-float"),
+            ("table-32x16", "table-64x16"), ("table-128x8", "table-128x32"),
+        ):
+            self.assertGreater(
+                settings[worse]["rms_error"], 1.2 * settings[better]["rms_error"], (worse, better)
+            )
+        self.assertGreater(
+            int(settings["table-128x32"]["bytes"]), int(settings["table-32x16"]["bytes"])
+        )
         for peer in PEERS:
             self.assertEqual(settings[peer]["bits"], "8")
             self.assertEqual(settings[peer]["bytes"], "")
@@ -183,13 +193,14 @@ class Bench(ToolTest):
         page = self.read_page("out")
         table = page[page.index('id="features"'):]
         for feature in (
-            "colour variation", "opacity variation", "clipping", "cropping", "opaque geometry",
-            "non-convexity", "cell data",
+            "colour variation", "opacity variation", "3-D table", "shading", "clipping", "cropping",
+            "opaque geometry", "non-convexity", "cell data", "maximum intensity",
         ):
             self.assertIn(f"<td>{feature}</td>", table)
         # What is forced changes nothing that the eye could see.
         for row in re.findall(r"<tr><td>.*?</tr>", table):
             cells = re.findall(r"<td[^>]*>(.*?)</td>", row)
+            self.assertGreater(float(cells[8]), 0, cells)
             if cells[3] != "cannot be had":
                 self.assertLess(float(cells[6]), 1e-4, cells)
                 self.assertGreater(float(cells[4]), 0, cells)
