@@ -25,6 +25,7 @@ public:
   /// returns the front of both. They stay in the complex.
   Front Grow(const Front& front, std::vector<std::int32_t>& absorbed) const;
 
+  const Cell& GetCell(std::int32_t number) const { return this->Cells[number]; }
   std::vector<Cell> GetCells() const;
 
   /// A front without what cells in front of it cover.

@@ -45,9 +45,9 @@ struct Convexification
   bool Aborted = false;
 
   std::int64_t BoundaryFaces = 0; ///< of the mesh
-  /// Boundary faces that are on the hull only to rounding: what lies between them and the hull is
-  /// flat to 16 roundings of the largest coordinate and has no cells, where it can't be filled with
-  /// the points that it has. (Planes that were turned away from the axes are of that kind.)
+  /// Boundary faces that are on the hull only to rounding: what lies between them and the hull has no
+  /// more volume than its surface times 16 roundings of the largest coordinate, and no cells, where it
+  /// can't be filled with the points that it has. (Planes turned away from the axes are of that kind.)
   std::int64_t FlatPocketFaces = 0;
 
   std::int64_t MissingFaces = 0; ///< those of them that are no faces of the Delaunay triangulation

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <random>
 #include <tuple>
 #include <unordered_map>
 
@@ -20,21 +19,16 @@ namespace
 class MovingFront
 {
 public:
-  MovingFront(const ExactPoints& points, const PointNeighbors& neighbors, const Front& front,
-    const WrapOrder& order)
+  MovingFront(
+    const ExactPoints& points, const PointNeighbors& neighbors, const Front& front, WrapOrder order)
     : Points(points)
     , Neighbors(neighbors)
     , Order(order)
-    , Random(order.Seed)
     , Table(front.size())
   {
     for (const Triangle& triangle : front)
     {
       this->Add(triangle);
-    }
-    if (order.Seed != 0)
-    {
-      std::shuffle(this->Waiting.begin(), this->Waiting.end(), this->Random);
     }
   }
 
@@ -145,7 +139,7 @@ private:
   int CountClosed(const Triangle& base, std::int32_t apex) const
   {
     int count = 0;
-    for (int i = 0; i < 3 && this->Order.PrefersClosing; ++i)
+    for (int i = 0; i < 3 && this->Order == WrapOrder::Closing; ++i)
     {
       count += this->Table.Find(base[i], base[(i + 1) % 3], apex) != FaceTable::None;
     }
@@ -184,8 +178,7 @@ private:
     {
       if (this->Points.Orient(a, b, c, id) > 0)
       {
-        this->Candidates.emplace_back(-this->CountClosed(base, id),
-          this->Order.IsRandom ? static_cast<double>(this->Random()) : order(id), id);
+        this->Candidates.emplace_back(-this->CountClosed(base, id), order(id), id);
       }
     }
     std::sort(this->Candidates.begin(), this->Candidates.end());
@@ -199,7 +192,6 @@ private:
   const ExactPoints& Points;
   const PointNeighbors& Neighbors;
   WrapOrder Order;
-  std::mt19937_64 Random;
   std::vector<Triangle> Triangles;
   std::vector<std::int32_t> Leaves; ///< of the tree, -1 for triangles that are no longer there
   std::deque<std::int32_t> Waiting;
@@ -252,7 +244,7 @@ PointNeighbors::PointNeighbors(const BoundaryTriangulation& triangulation)
 
 //----------------------------------------------------------------------------
 Front WrapFront(const ExactPoints& points, const PointNeighbors& neighbors, const Front& front,
-  const WrapOrder& order, std::vector<Cell>& cells)
+  WrapOrder order, std::vector<Cell>& cells)
 {
   MovingFront moving(points, neighbors, front, order);
   moving.Advance(cells);

@@ -37,17 +37,16 @@ private:
 };
 
 /// Which of the cells that fit in front of a triangle is taken.
-struct WrapOrder
+enum class WrapOrder
 {
-  bool PrefersClosing; ///< one with most of its faces in the front, or any
-  bool IsRandom;       ///< of these any, or the most Delaunay-like one
-  std::uint64_t Seed;  ///< the triangles come in an order of its own for each seed but 0
+  Delaunay, ///< the most Delaunay-like one
+  Closing   ///< one with most of its faces in the front, of these the most Delaunay-like one
 };
 
 /// Fills a pocket from its front inwards by constrained gift wrapping. Returns the triangles around
 /// what could not be filled.
 Front WrapFront(const ExactPoints& points, const PointNeighbors& neighbors, const Front& front,
-  const WrapOrder& order, std::vector<Cell>& cells);
+  WrapOrder order, std::vector<Cell>& cells);
 
 } // namespace tetralux
 

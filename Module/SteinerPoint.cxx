@@ -214,7 +214,7 @@ private:
 };
 
 /// How many tests of a cell against a triangle a search for a point may cost.
-constexpr std::int64_t MaximumTests = 2000000;
+constexpr std::int64_t MaximumTests = 200000;
 
 } // namespace
 

@@ -232,17 +232,38 @@ int GetReferenceSign(const double* a, const double* b, const double* c, const do
   {
     return determinant > 0 ? 1 : -1;
   }
-  using Rational = boost::multiprecision::cpp_rational;
-  Rational q[3][3];
+  // All coordinates as whole numbers of the smallest unit that any of them has.
+  using Integer = boost::multiprecision::cpp_int;
+  constexpr int digits = std::numeric_limits<double>::digits;
+  int unit = std::numeric_limits<int>::max();
+  for (const double* point : { a, b, c, d })
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      int exponent;
+      if (std::frexp(point[k], &exponent) != 0)
+      {
+        unit = std::min(unit, exponent - digits);
+      }
+    }
+  }
+  const auto toInteger = [unit](double x)
+  {
+    int exponent;
+    const double fraction = std::frexp(x, &exponent);
+    Integer integer = static_cast<std::int64_t>(std::ldexp(fraction, digits));
+    return fraction == 0 ? integer : integer << (exponent - digits - unit);
+  };
+  Integer q[3][3];
   for (int i = 0; i < 3; ++i)
   {
     const double* from = i == 0 ? b : i == 1 ? c : d;
     for (int k = 0; k < 3; ++k)
     {
-      q[i][k] = Rational(from[k]) - Rational(a[k]);
+      q[i][k] = toInteger(from[k]) - toInteger(a[k]);
     }
   }
-  const Rational exact = q[0][0] * (q[1][1] * q[2][2] - q[1][2] * q[2][1]) +
+  const Integer exact = q[0][0] * (q[1][1] * q[2][2] - q[1][2] * q[2][1]) +
     q[0][1] * (q[1][2] * q[2][0] - q[1][0] * q[2][2]) +
     q[0][2] * (q[1][0] * q[2][1] - q[1][1] * q[2][0]);
   return exact.sign();
