@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <sstream>
 
 namespace tetralux
@@ -237,6 +238,16 @@ private:
     this->Result.FillSeconds = watch.Lap();
     if (!obstacle.Reason.empty() || this->Result.Aborted)
     {
+      return;
+    }
+
+    constexpr std::size_t maximumPoints = std::numeric_limits<std::int32_t>::max();
+    constexpr std::size_t maximumCells = (std::size_t{ 1 } << 29) - 1;
+    const std::size_t steinerPoints = (coordinates.size() - surface.Coordinates.size()) / 3;
+    if (this->Mesh.GetNumberOfPoints() + steinerPoints > maximumPoints ||
+      this->Mesh.GetNumberOfCells() + cells.size() > maximumCells)
+    {
+      obstacle.Reason = "with the imaginary cells there are more points or cells than are possible";
       return;
     }
 

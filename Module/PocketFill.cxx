@@ -221,7 +221,7 @@ bool AddSteinerPoint(const PointNeighbors& neighbors, const Front& front,
 }
 
 /// Steiner points for each triangle of the stuck pockets, after which they are given up.
-constexpr std::size_t MaximumSteinerPoints = 4;
+constexpr std::size_t MaximumSteinerPoints = 1;
 
 } // namespace
 
