@@ -77,6 +77,9 @@ BenchView::BenchView(vtkHeadlessRenderWindow* window, const BenchScene& scene,
   this->Volume->SetMapper(this->Mapper);
   this->Volume->SetProperty(scene.Property);
   this->Window->AddRenderer(this->Renderer);
+  // VTK's Bunyk mapper reads the aspect before anything has computed it.
+  const int* size = this->Window->GetSize();
+  this->Renderer->SetAspect(static_cast<double>(size[0]) / size[1], 1);
   PlaceCamera(view, scene.Mesh->GetBounds(), this->Renderer);
   this->Window->Render();
   this->Renderer->AddVolume(this->Volume);

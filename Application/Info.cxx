@@ -143,6 +143,37 @@ void PrintBounds(const std::vector<double>& points)
   PrintRow("bounds", text);
 }
 
+/// What it takes to make the mesh convex, or why it can't be.
+void PrintConvexification(tetralux::WalkMesh& walk)
+{
+  {
+    ProgressLine progress("convexifying");
+    walk.MakeConvex(
+      [&progress](double fraction)
+      {
+        progress.Show(fraction);
+        return true;
+      });
+  }
+  const tetralux::Convexification& convex = *walk.GetConvexification();
+  const std::string seconds = FormatSeconds(convex.GetSeconds());
+  if (convex.Convex)
+  {
+    PrintRow("convexification", "none needed: the mesh is convex, " + seconds + " to find out");
+    return;
+  }
+  if (!convex.Refusal.empty())
+  {
+    PrintRow("convexification", "not possible: " + convex.Refusal + ", " + seconds);
+    return;
+  }
+  const double cells = static_cast<double>(walk.GetNumberOfCells());
+  PrintRow("convexification",
+    std::to_string(convex.GetNumberOfCells()) + " imaginary cells (" +
+      FormatNumber(100 * static_cast<double>(convex.GetNumberOfCells()) / cells) + " %), " +
+      std::to_string(convex.GetNumberOfSteinerPoints()) + " Steiner points, " + seconds);
+}
+
 } // namespace
 
 void PrintInfo(const InfoOptions& options)
@@ -212,4 +243,5 @@ void PrintInfo(const InfoOptions& options)
       " microseconds a tetrahedron";
   }
   PrintRow("time to prepare", time);
+  PrintConvexification(*walk);
 }

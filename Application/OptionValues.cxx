@@ -65,25 +65,35 @@ int ParseInteger(const std::string& option, const std::string& text, int minimum
   return value;
 }
 
+std::vector<double> ParseNumbers(const std::string& option, const std::string& text)
+{
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin <= text.size();)
+  {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    double value;
+    if (!ReadFinite(text.substr(begin, end - begin), value))
+    {
+      throw UsageError(option + ": '" + text + "' is not a list of numbers with commas between");
+    }
+    values.push_back(value);
+    begin = end + 1;
+  }
+  return values;
+}
+
 std::vector<double> ParseNumbers(
   const std::string& option, const std::string& text, std::size_t count, const std::string& shape)
 {
   std::vector<double> values;
-  std::size_t begin = 0;
-  bool good = true;
-  while (good)
+  try
   {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    double value;
-    good = ReadFinite(text.substr(begin, end - begin), value);
-    values.push_back(value);
-    if (end == text.size())
-    {
-      break;
-    }
-    begin = end + 1;
+    values = ParseNumbers(option, text);
   }
-  if (!good || values.size() != count)
+  catch (const UsageError&)
+  {
+  }
+  if (values.size() != count)
   {
     throw UsageError(option + ": '" + text + "' is not " + shape + ", " + std::to_string(count) +
       " numbers with commas between");

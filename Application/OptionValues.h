@@ -16,6 +16,9 @@ double ParsePositive(const std::string& option, const std::string& text);
 
 int ParseInteger(const std::string& option, const std::string& text, int minimum, int maximum);
 
+/// One number or more, with commas between.
+std::vector<double> ParseNumbers(const std::string& option, const std::string& text);
+
 /// count numbers with commas between; shape shows them in the error, as "X,Y,Z".
 std::vector<double> ParseNumbers(
   const std::string& option, const std::string& text, std::size_t count, const std::string& shape);

@@ -17,6 +17,7 @@
 
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
+#include "vtkContourValues.h"
 #include "vtkCullerCollection.h"
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
@@ -64,9 +65,18 @@ void ConfigureMapper(const RenderOptions& options, vtkTetrahedraRayCastMapper* m
     mapper->SetMaximumError(*options.MaximumError);
   }
   mapper->SetNumberOfThreads(options.NumberOfThreads);
+  if (!options.Isovalues.empty())
+  {
+    mapper->SetBlendModeToIsoSurface();
+  }
   for (const std::string& setting : options.Settings)
   {
     SetProperty(mapper, setting);
+  }
+  if ((mapper->GetBlendMode() == vtkTetrahedraRayCastMapper::ISOSURFACE_BLEND) !=
+    !options.Isovalues.empty())
+  {
+    throw UsageError("--isovalues A,B,... and BlendMode=isosurface belong together");
   }
 }
 
@@ -82,13 +92,13 @@ void SelectScalars(const ArrayChoice& choice, vtkTetrahedraRayCastMapper* mapper
 
 bool IsEmpty(vtkImageData* image)
 {
-  vtkDataArray* colors = image->GetPointData()->GetArray("RGBA");
-  if (!colors)
+  vtkDataArray* depths = image->GetPointData()->GetArray("Depth");
+  if (!depths)
   {
     return true;
   }
-  const auto pixels = vtk::DataArrayTupleRange<4>(colors);
-  return std::all_of(pixels.begin(), pixels.end(), [](const auto& pixel) { return pixel[3] == 0; });
+  const auto pixels = vtk::DataArrayValueRange<1>(depths);
+  return std::all_of(pixels.begin(), pixels.end(), [](double depth) { return depth == -1; });
 }
 
 /// A picture of nothing, because there is nothing that can be rendered, is a failure.
@@ -218,6 +228,14 @@ void RenderPicture(const RenderOptions& options)
   property->SetScalarOpacity(functions.Opacity);
   property->SetScalarOpacityUnitDistance(options.OpacityUnitDistance.value_or(
     DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
+  for (std::size_t i = 0; i < options.Isovalues.size(); ++i)
+  {
+    property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
+  }
+  if (!options.Isovalues.empty())
+  {
+    property->ShadeOn(); // flat surfaces have no shape
+  }
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);
   volume->SetProperty(property);

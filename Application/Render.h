@@ -19,6 +19,7 @@ struct RenderOptions
   std::string Method = "auto";
   std::string TransferFile;
   std::optional<double> OpacityUnitDistance;
+  std::vector<double> Isovalues; ///< empty: a volume, not surfaces
 
   std::optional<Vector> CameraPosition;
   std::optional<Vector> CameraFocalPoint;

@@ -111,6 +111,12 @@ void AddScalarOptions(CLI::App* command, RenderOptions& options)
 
 void AddCameraOptions(CLI::App* command, RenderOptions& options)
 {
+  AddOption(command, "--isovalues",
+    "Show the surfaces of these scalars, lit, instead of a volume; each has its colour and opacity",
+    [&options](const std::string& option, const std::string& text)
+    { options.Isovalues = ParseNumbers(option, text); })
+    ->type_name("A,B,...");
+
   AddOption(command, "--camera-position",
     "Where the camera is; default: where it sees everything, 30 degrees to the right and 20 up",
     ReadVector(options.CameraPosition))

@@ -736,6 +736,13 @@ private:
   PreIntegrationTable Axes; ///< without texels
 };
 
+/// Whether a table is within the limit of bytes.
+bool Fits(const PreIntegrationSettings& settings, TexelFormat format, const TableGoal& goal)
+{
+  return GetTexelSize(format) * settings.ScalarSize * settings.ScalarSize * settings.LengthSize <=
+    goal.MaximumBytes;
+}
+
 bool IsInteger(TexelFormat format)
 {
   return format == TexelFormat::UNorm8 || format == TexelFormat::UNorm16;
@@ -760,7 +767,7 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
   TableChoice choice;
   const std::vector<std::vector<ModelSegment>> rays = MakeModelRays(function, goal.Rays);
   choice.PiecesPerSegment = CountPieces(function, rays);
-  if (choice.PiecesPerSegment <= goal.LookupCost)
+  if (choice.PiecesPerSegment <= goal.LookupCost && !goal.AlwaysTable)
   {
     choice.Reason = "closed form: a segment has few pieces, a lookup takes longer";
     return choice;
@@ -768,22 +775,22 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
 
   const double target = 0.5 * goal.MaximumError;
   const bool integersHold = HasColorsUpToOne(function);
-  const auto isRight = [&](const PreIntegrationSettings& settings)
+  const auto getError = [&](const PreIntegrationSettings& settings, double allowed)
   {
     const VirtualTable table(function, settings);
-    choice.PictureError = GetRaysError(rays, target,
+    return GetRaysError(rays, allowed,
       [&table](double front, double back, double length, float rgba[4])
       { table.LookUp(front, back, length, rgba); });
+  };
+  const auto isRight = [&](const PreIntegrationSettings& settings)
+  {
+    choice.PictureError = getError(settings, target);
     return choice.PictureError <= target;
   };
-  for (PreIntegrationSettings& settings : GetCandidates(goal))
+  std::vector<PreIntegrationSettings> candidates = GetCandidates(goal);
+  for (PreIntegrationSettings& settings : candidates)
   {
-    const auto fits = [&](TexelFormat format)
-    {
-      return GetTexelSize(format) * settings.ScalarSize * settings.ScalarSize *
-        settings.LengthSize <=
-        goal.MaximumBytes;
-    };
+    const auto fits = [&](TexelFormat format) { return Fits(settings, format, goal); };
     // In single precision first: what that can't do, no other format can.
     if (!fits(goal.AnyFormat ? TexelFormat::UNorm8 : goal.Format) || !isRight(settings))
     {
@@ -806,6 +813,27 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
   }
   choice.PictureError = 0;
   choice.Reason = "closed form: no table within the limits is right enough";
+  if (!goal.AlwaysTable)
+  {
+    return choice;
+  }
+  for (PreIntegrationSettings& settings : candidates)
+  {
+    settings.Format = goal.AnyFormat ? TexelFormat::Float : goal.Format;
+    if (!Fits(settings, settings.Format, goal))
+    {
+      continue;
+    }
+    const double error = getError(
+      settings, choice.ClosedForm ? std::numeric_limits<double>::infinity() : choice.PictureError);
+    if (choice.ClosedForm || error < choice.PictureError)
+    {
+      choice.ClosedForm = false;
+      choice.Settings = settings;
+      choice.PictureError = error;
+      choice.Reason = "table: asked for; none is right enough, this is the most exact one";
+    }
+  }
   return choice;
 }
 

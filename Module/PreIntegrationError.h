@@ -84,6 +84,10 @@ struct TableGoal
   /// LookupCost pieces, see Module/Notes.md; a GPU's texture units make it a fraction.
   double LookupCost = 3;
 
+  /// A table also where the closed form would be chosen: the most exact one within the limits, where
+  /// none is right enough.
+  bool AlwaysTable = false;
+
   // What is not to be chosen: sizes of 0 are free.
   int ScalarSize = 0;
   int LengthSize = 0;
@@ -105,7 +109,8 @@ struct TableChoice
   std::string Reason;              ///< one line
 };
 
-/// The smallest table whose EstimatePictureError is at most half of what is asked for, or none.
+/// The smallest table whose EstimatePictureError is at most half of what is asked for; else none, or
+/// with AlwaysTable the one of the least error.
 /// Tables of growing size are tried until one is right, with no more texels computed than the model's
 /// rays look up: some 10 milliseconds to a second. Throws as BuildPreIntegrationTable does.
 TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(

@@ -66,8 +66,8 @@ struct KernelInput
   std::uint32_t CroppingFlags;
   const float* MaximumDistances; ///< nullptr: none
 
-  /// A ray ends where less than this share of the light behind would reach the eye.
-  float MinimumTransmittance;
+  /// A ray ends where it is this opaque: too little of the light behind would reach the eye.
+  float MaximumOpacity;
   float MaximumDepth; ///< the same as an optical depth
 
   float* Colors; ///< four a pixel, premultiplied

@@ -187,23 +187,26 @@ TETRALUX_INLINE Float8 LoadCell(
 template <class Real>
 using LanesOfReal = typename LanesOf<Real>::Type;
 
-/// Light that is attenuated by what is in front of it, composited front to back.
+/// Light that is attenuated by what is in front of it, composited front to back. The opacity is what
+/// adds up, not the transmittance what is multiplied: segments too thin for 1 - opacity to differ
+/// from 1 in single precision still count, however many there are.
 struct Radiance
 {
   Float8 Red = 0.f, Green = 0.f, Blue = 0.f;
-  Float8 Transmittance = 1.f;
+  Float8 Opacity = 0.f;
 
-  TETRALUX_INLINE void Add(Mask8 valid, Float8 red, Float8 green, Float8 blue, Float8 transmittance)
+  TETRALUX_INLINE void Add(Mask8 valid, Float8 red, Float8 green, Float8 blue, Float8 opacity)
   {
-    this->Red = Select(valid, Fma(this->Transmittance, red, this->Red), this->Red);
-    this->Green = Select(valid, Fma(this->Transmittance, green, this->Green), this->Green);
-    this->Blue = Select(valid, Fma(this->Transmittance, blue, this->Blue), this->Blue);
-    this->Transmittance = Select(valid, this->Transmittance * transmittance, this->Transmittance);
+    const Float8 transmittance = Float8(1.f) - this->Opacity;
+    this->Red = Fma(transmittance, Keep(valid, red), this->Red);
+    this->Green = Fma(transmittance, Keep(valid, green), this->Green);
+    this->Blue = Fma(transmittance, Keep(valid, blue), this->Blue);
+    this->Opacity = Fma(transmittance, Keep(valid, opacity), this->Opacity);
   }
 
   TETRALUX_INLINE Mask8 IsDone(const KernelInput& in) const
   {
-    return this->Transmittance <= Float8(in.MinimumTransmittance);
+    return Float8(in.MaximumOpacity) <= this->Opacity;
   }
 
   TETRALUX_INLINE void GetColors(ColorsOfLanes& colors) const
@@ -211,7 +214,7 @@ struct Radiance
     Store(colors[0], this->Red);
     Store(colors[1], this->Green);
     Store(colors[2], this->Blue);
-    Store(colors[3], Float8(1.f) - this->Transmittance);
+    Store(colors[3], this->Opacity);
   }
 };
 
@@ -246,7 +249,7 @@ public:
         const SegmentWeights w = IntegrateSegment(piece.D0, piece.D1);
         const auto mix = [&](int c)
         { return Fma(piece.GetFront(c), w.Front, piece.GetBack(c) * w.Back); };
-        this->Gathered.Add(contributes, mix(0), mix(1), mix(2), w.Transmittance);
+        this->Gathered.Add(contributes, mix(0), mix(1), mix(2), w.Front + w.Back);
         this->First.Add(contributes, z);
       });
   }
@@ -262,7 +265,7 @@ public:
     }
     Float8 opacity, transmittance;
     IntegrateConstant(depth, opacity, transmittance);
-    this->Gathered.Add(contributes, red * opacity, green * opacity, blue * opacity, transmittance);
+    this->Gathered.Add(contributes, red * opacity, green * opacity, blue * opacity, opacity);
     this->First.Add(contributes, z0);
   }
 
@@ -577,8 +580,7 @@ private:
     {
       this->Shade(in, lanes, this->WaitingCell, this->WaitingDistance, color);
     }
-    this->Gathered.Add(
-      lanes, color[0] * opacity, color[1] * opacity, color[2] * opacity, Float8(1.f) - opacity);
+    this->Gathered.Add(lanes, color[0] * opacity, color[1] * opacity, color[2] * opacity, opacity);
     this->First.Add(lanes & (Float8(0.f) < opacity), this->WaitingDistance);
     this->WaitingSurface = Select(lanes, Int8(-1), this->WaitingSurface);
   }

@@ -68,7 +68,7 @@ public:
     }
     const std::array<Float8, 4> rgba = Mix(length.Share, slices[0], slices[1]);
     const Mask8 contributes = valid & (Float8(0.f) < rgba[3]);
-    this->Gathered.Add(contributes, rgba[0], rgba[1], rgba[2], Float8(1.f) - rgba[3]);
+    this->Gathered.Add(contributes, rgba[0], rgba[1], rgba[2], rgba[3]);
     this->First.Add(contributes, z0);
   }
 

@@ -508,7 +508,9 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   const bool endsEarly =
     this->Model != OpticalModel::EmissionOnly && this->Model != OpticalModel::MaximumIntensity;
   statistics.TerminationError = endsEarly ? 0.5 * options.MaximumError : 0;
-  statistics.IntegralError = integrator == Integrator::ClosedForm ? SegmentWeightError : 0;
+  const bool hasWeights =
+    this->Model != OpticalModel::MaximumIntensity && this->Model != OpticalModel::Isosurfaces;
+  statistics.IntegralError = hasWeights ? SegmentWeightError : 0;
   statistics.GeometryError = statistics.DoublePrecision ? 0 : geometryError;
   statistics.TableError = integrator == Integrator::Table ? this->SegmentTableError : 0;
   statistics.ErrorEstimate = statistics.TerminationError + statistics.IntegralError +
@@ -585,8 +587,8 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   in.CroppingPlanes = limits.Cropping ? limits.CroppingPlanes : nullptr;
   in.CroppingFlags = limits.CroppingFlags;
   in.MaximumDistances = limits.MaximumDistances;
-  in.MinimumTransmittance = static_cast<float>(statistics.TerminationError);
-  in.MaximumDepth = -std::log(in.MinimumTransmittance);
+  in.MaximumOpacity = static_cast<float>(1 - statistics.TerminationError);
+  in.MaximumDepth = static_cast<float>(-std::log(statistics.TerminationError));
   if (this->Model == OpticalModel::EmissionAbsorption && this->Plan.ConstantColor)
   {
     std::copy_n(this->Plan.Color, 3, in.Color);
@@ -689,6 +691,13 @@ RayCastStatistics RayCaster::Cast(const RayGrid& grid, const RayLimits& limits,
   statistics.Segments = counts.Segments;
   statistics.Paths = counts.Paths;
   statistics.TransparentCells = statistics.ImaginaryCells ? 0 : this->NumberOfTransparentCells;
+  if (counts.Paths > 0)
+  {
+    // A sum is rounded once for each segment.
+    const double segments = static_cast<double>(counts.Segments) / counts.Paths;
+    statistics.SummationError = segments * std::numeric_limits<float>::epsilon() / 2;
+    statistics.ErrorEstimate += statistics.SummationError;
+  }
   statistics.LaneUse = counts.Steps
     ? static_cast<double>(counts.Segments) / (8. * static_cast<double>(counts.Steps))
     : 0;

@@ -81,9 +81,10 @@ struct RayCastStatistics
   bool ImaginaryCells = false;       ///< whether rays went through imaginary cells
   std::int64_t TransparentCells = 0; ///< left out of the walk; 0 where that would not pay
   double LaneUse = 0;                ///< share of vector lanes that carried a ray, 0..1
-  double ErrorEstimate = 0;          ///< sum of the four below
+  double ErrorEstimate = 0;          ///< sum of the five below
   double TerminationError = 0;       ///< at most, by ending rays early
   double IntegralError = 0;          ///< at most, by the weights of segments
+  double SummationError = 0;         ///< estimated, by adding segments up; of a path of mean length
   double TableError = 0;             ///< estimated, by interpolation in a table
   double GeometryError = 0;          ///< estimated, by rounding coordinates and scalars; not that
                                      ///< of pixels where a ray grazes a surface or a step

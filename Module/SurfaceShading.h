@@ -4,6 +4,7 @@
 
 #include "OpticalModel.h"
 #include "TetrahedralMesh.h"
+#include "TetraluxCoreModule.h"
 
 #include <cstdint>
 #include <vector>
@@ -26,8 +27,8 @@ struct SurfaceShading
 /// scalar in the cell, turned to the viewer; a cell without a gradient faces the viewer. Ambient and
 /// diffuse light times the surface's colour, and Blinn's specular light, as in VTK's mappers of
 /// volumes; the sum is clamped to 0..1.
-void ShadeSurface(const SurfaceShading& shading, std::int32_t cell, const double position[3],
-  const double direction[3], float color[3]);
+TETRALUXCORE_EXPORT void ShadeSurface(const SurfaceShading& shading, std::int32_t cell,
+  const double position[3], const double direction[3], float color[3]);
 
 } // namespace tetralux
 

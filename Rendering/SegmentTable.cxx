@@ -4,6 +4,7 @@
 #include "PreIntegrationBuilder.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace tetralux
 {
@@ -29,7 +30,7 @@ bool AreEqual(const SegmentTable::Request& a, const SegmentTable::Request& b)
 {
   const TableGoal& x = a.Goal;
   const TableGoal& y = b.Goal;
-  return a.Forced == b.Forced && x.MaximumError == y.MaximumError &&
+  return x.AlwaysTable == y.AlwaysTable && x.MaximumError == y.MaximumError &&
     x.MaximumBytes == y.MaximumBytes && x.LookupCost == y.LookupCost &&
     x.Rays.PathLength == y.Rays.PathLength && x.Rays.LongestSegment == y.Rays.LongestSegment &&
     std::equal(x.Rays.ScalarRange, x.Rays.ScalarRange + 2, y.Rays.ScalarRange) &&
@@ -51,7 +52,7 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
   const bool hadTable = this->Table != nullptr;
   this->Decided = false;
 
-  if (request.Interactive && request.Forced)
+  if (request.Interactive && request.Goal.AlwaysTable)
   {
     // Whichever the right settings are, coarse ones of the same axes do for now.
     PreIntegrationSettings settings;
@@ -68,15 +69,15 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
   }
   else
   {
-    TableGoal goal = request.Goal;
-    if (request.Forced)
-    {
-      goal.LookupCost = 0;
-    }
-    const TableChoice choice = ChoosePreIntegrationTable(function, goal);
+    const TableChoice choice = ChoosePreIntegrationTable(function, request.Goal);
     this->Coarse = false;
     this->Reason = choice.Reason;
-    if (choice.ClosedForm && !request.Forced)
+    if (choice.ClosedForm && request.Goal.AlwaysTable)
+    {
+      throw std::invalid_argument(
+        "no table of the sizes that are asked for fits into TableMaximumBytes");
+    }
+    if (choice.ClosedForm)
     {
       this->Table.reset();
       this->PictureError = 0;

@@ -19,7 +19,6 @@ class SegmentTable
 public:
   struct Request
   {
-    bool Forced = false; ///< a table also where the closed form is as fast or more exact
     TableGoal Goal;
     /// A frame of an interaction: a coarse table at once where the right one is not built yet.
     bool Interactive = false;

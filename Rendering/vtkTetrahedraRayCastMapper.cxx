@@ -552,7 +552,6 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareTable(vtkVolume* volume)
   }
   const double scale = GetLargestScale(volume);
   tetralux::SegmentTable::Request request;
-  request.Forced = this->Self->Integration == TABLE;
   request.Interactive = volume->GetAllocatedRenderTime() < InteractiveSeconds;
   tetralux::TableGoal& goal = request.Goal;
   goal.MaximumError = std::max(TableErrorShare * this->Self->MaximumError, SmallestFunctionError);
@@ -560,6 +559,7 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareTable(vtkVolume* volume)
   goal.Rays.PathLength = 2 * mesh.GetRadius() * scale;
   goal.Rays.LongestSegment = this->LongestEdge * scale;
   std::copy_n(this->Caster.GetScalarRange(), 2, goal.Rays.ScalarRange);
+  goal.AlwaysTable = this->Self->Integration == TABLE;
   goal.ScalarSize = this->Self->TableScalarSize;
   goal.LengthSize = this->Self->TableLengthSize;
   goal.AnyScale = this->Self->TableLengthScale == AUTOMATIC_SCALE;
@@ -881,6 +881,7 @@ void vtkTetrahedraRayCastMapper::Internals::WriteStatistics()
   error.Set("estimate", this->ErrorEstimate);
   error.Set("early_termination", last.Rays.TerminationError);
   error.Set("integrals", last.Rays.IntegralError);
+  error.Set("summation", last.Rays.SummationError);
   error.Set("table", last.Rays.TableError);
   error.Set("geometry", last.Rays.GeometryError);
   error.Set("transfer_function", this->FunctionError);

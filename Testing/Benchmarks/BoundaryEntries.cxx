@@ -59,14 +59,13 @@ void FindByHierarchy(const KernelInput& in, Found&& found)
 {
   OwnedCrossings buffer;
   PacketCrossings crossings;
-  Double8 origin[3], direction[3];
   for (int tile = 0; tile < TilesAcross * TilesAcross; ++tile)
   {
     for (int packet = 0; packet < PacketsOfTile; ++packet)
     {
       const int x = tile % TilesAcross * TileSize + packet % PacketsAcross * 4;
       const int y = tile / TilesAcross * TileSize + packet / PacketsAcross * 2;
-      const Rays<float> rays = MakeRays<float>(in, x, y, origin, direction);
+      const Rays<float> rays = MakeRays<float>(in, MakeWorldRays(*in.Grid, x, y));
       while (!FindCrossings(in, rays, MaskFromBits(0xff), buffer, crossings))
       {
       }
@@ -195,11 +194,11 @@ private:
     const int tileX = tile % TilesAcross * TileSize;
     const int tileY = tile / TilesAcross * TileSize;
     Rays<float> rays[PacketsOfTile];
-    Double8 origin[3], direction[3];
     for (int packet = 0; packet < PacketsOfTile; ++packet)
     {
-      rays[packet] = MakeRays<float>(this->In, tileX + packet % PacketsAcross * 4,
-        tileY + packet / PacketsAcross * 2, origin, direction);
+      rays[packet] = MakeRays<float>(this->In,
+        MakeWorldRays(
+          *this->In.Grid, tileX + packet % PacketsAcross * 4, tileY + packet / PacketsAcross * 2));
       std::fill_n(this->Crossings[packet].Count, Width, 0);
     }
     for (std::int32_t k = this->BinBegins[tile]; k < this->BinBegins[tile + 1]; ++k)
@@ -243,7 +242,8 @@ private:
       return true;
     }
     float z[Width];
-    Store(z, Interpolate(t.BC, t.CA, t.AB, c[0].Z, c[1].Z, c[2].Z, t.BC + t.CA + t.AB));
+    const Float8 scale = Float8(1.f) / (t.BC + t.CA + t.AB);
+    Store(z, Blend(t.CA * scale, t.AB * scale, c[0].Z, c[1].Z, c[2].Z));
     for (int lane = 0; bits != 0; ++lane, bits >>= 1)
     {
       if (!(bits & 1u))

@@ -110,11 +110,12 @@ public:
     this->In.Entries = this->Mesh.Tables.Entries.data();
     this->In.Nodes = this->Mesh.Tables.Bvh.Nodes.data();
     this->In.Triangles = this->Mesh.Tables.Bvh.Triangles.data();
-    this->In.NumberOfCells = static_cast<std::int64_t>(mesh.GetNumberOfCells());
+    this->In.NumberOfCells = static_cast<std::int32_t>(mesh.GetNumberOfCells());
     std::copy_n(this->Mesh.Center, 3, this->In.Center);
     this->In.Radius = this->Mesh.Radius;
     this->In.Intervals = this->Medium.Intervals.data();
     this->In.Grid = &this->View.Grid;
+    this->In.MaximumOpacity = 1;
     this->In.Colors = this->Colors.data();
     this->In.Depths = this->Depths.data();
   }
@@ -123,7 +124,8 @@ public:
 
   void Render()
   {
-    const RayCastKernel kernel = MakeRayCastKernels().PointFloat;
+    const RayCastKernel kernel =
+      MakeRayCastKernels().Points[static_cast<int>(Integrator::ClosedForm)].Single;
     KernelCounts counts;
     const double seconds = MeasureBest(1,
       [&]

@@ -7,6 +7,7 @@
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkCommand.h"
+#include "vtkContourValues.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkHardwareSelector.h"
@@ -185,6 +186,7 @@ TEST(RayCastMapperCaching, ApproximatedFunctionFollowsMaximumError)
 {
   RayCastScene scene;
   scene.Color->SetColorSpaceToLab();
+  scene.Mapper->SetIntegrationToClosedForm();
   scene.Window->Render();
   const double fine = scene.Mapper->GetErrorEstimate();
   scene.Volume->SetScale(1.01, 1, 1); // not twice the size
@@ -469,8 +471,14 @@ TEST(RayCastMapperBehavior, RefusesWhatCannotBeDrawn)
     [](RayCastScene& scene) { scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(0); });
   expectError(
     "matrix has no inverse", [](RayCastScene& scene) { scene.Volume->SetScale(1, 0, 1); });
-  expectError("BlendMode must be composite",
-    [](RayCastScene& scene) { scene.Mapper->SetBlendModeToMaximumIntensity(); });
+  expectError("BlendMode 2 is none of this mapper's",
+    [](RayCastScene& scene) { scene.Mapper->SetBlendMode(2); });
+  expectError("has no IsoSurfaceValues",
+    [](RayCastScene& scene)
+    {
+      scene.Mapper->SetBlendModeToIsoSurface();
+      scene.Volume->GetProperty()->GetIsoSurfaceValues()->SetNumberOfContours(0);
+    });
   expectError(
     "point arrays: none", [](RayCastScene& scene) { scene.Grid->GetPointData()->Initialize(); });
 }
