@@ -2,6 +2,7 @@
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include "CameraRays.h"
+#include "CellVolumes.h"
 #include "ImageCompositor.h"
 #include "InputSignature.h"
 #include "JsonObject.h"
@@ -117,27 +118,6 @@ double GetLargestScale(vtkVolume* volume)
   }
   vtkMath::SingularValueDecomposition3x3(linear, u, w, vt);
   return std::max({ std::abs(w[0]), std::abs(w[1]), std::abs(w[2]) });
-}
-
-/// The longest edge of all cells, in the units of the mesh: no segment is longer.
-double GetLongestEdge(const tetralux::TetrahedralMesh& mesh)
-{
-  double longest = 0;
-  const std::int64_t n = static_cast<std::int64_t>(mesh.GetNumberOfCells());
-#pragma omp parallel for reduction(max : longest)
-  for (std::int64_t t = 0; t < n; ++t)
-  {
-    for (int i = 0; i < 4; ++i)
-    {
-      for (int j = i + 1; j < 4; ++j)
-      {
-        const double* a = &mesh.Points[3 * static_cast<std::size_t>(mesh.Cells[4 * t + i])];
-        const double* b = &mesh.Points[3 * static_cast<std::size_t>(mesh.Cells[4 * t + j])];
-        longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
-      }
-    }
-  }
-  return longest;
 }
 
 /// A bound of the length of a ray in a volume, in world units, that changes seldom: a power of two.
@@ -548,7 +528,7 @@ void vtkTetrahedraRayCastMapper::Internals::PrepareTable(vtkVolume* volume)
   const Stopwatch stopwatch;
   if (this->LongestEdge == 0)
   {
-    this->LongestEdge = GetLongestEdge(mesh.GetMesh());
+    this->LongestEdge = tetralux::MeasureCells(mesh.GetMesh()).LongestEdge; // no segment is longer
   }
   const double scale = GetLargestScale(volume);
   tetralux::SegmentTable::Request request;

@@ -7,6 +7,7 @@
 
 #include "vtkActor.h"
 #include "vtkCellData.h"
+#include "vtkContourValues.h"
 #include "vtkDoubleArray.h"
 #include "vtkOutlineSource.h"
 #include "vtkPlane.h"
@@ -16,6 +17,7 @@
 #include "vtkSphereSource.h"
 
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -199,6 +201,59 @@ TEST(RayCastMapperImages, CoarseRays)
   PipeScene scene;
   scene.Mapper->SetImageSampleDistance(4);
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastCoarse", Tolerance));
+}
+
+// The optical models beside emission and absorption.
+TEST(RayCastMapperImages, MaximumIntensity)
+{
+  PipeScene scene;
+  scene.Mapper->SetBlendModeToMaximumIntensity();
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastMaximum", Tolerance));
+}
+
+TEST(RayCastMapperImages, Additive)
+{
+  PipeScene scene;
+  scene.Mapper->SetBlendModeToAdditive();
+  scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(2);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastAdditive", Tolerance));
+}
+
+TEST(RayCastMapperImages, Absorption)
+{
+  PipeScene scene;
+  scene.Mapper->SetBlendModeToAbsorption();
+  scene.AddSphere(0, 0, 0.5, 0.4);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastAbsorption", Tolerance));
+}
+
+TEST(RayCastMapperImages, ShadedIsosurfaces)
+{
+  PipeScene scene;
+  scene.Mapper->SetBlendModeToIsoSurface();
+  scene.Opacity->RemoveAllPoints();
+  scene.Opacity->AddPoint(-1, 0.3);
+  scene.Opacity->AddPoint(1, 1);
+  vtkContourValues* values = scene.Volume->GetProperty()->GetIsoSurfaceValues();
+  values->SetValue(0, -0.5);
+  values->SetValue(1, 0.1);
+  values->SetValue(2, 0.6);
+  scene.Volume->GetProperty()->ShadeOn();
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastIsosurfaces", Tolerance));
+}
+
+// The same picture as that of Parallel but for the error that is asked for.
+TEST(RayCastMapperImages, Table)
+{
+  PipeScene scene;
+  scene.AddSphere(-0.6, -0.47, 1.3, 0.4);
+  vtkCamera* camera = scene.Renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(1.5);
+  scene.Mapper->SetIntegrationToTable();
+  scene.Mapper->SetMaximumError(1e-2);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastParallel", Tolerance));
+  EXPECT_NE(scene.Mapper->GetStatistics().find("\"integration\": \"table\""), std::string::npos);
 }
 
 } // namespace
