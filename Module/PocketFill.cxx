@@ -42,6 +42,41 @@ std::size_t CountTriangles(const std::vector<Front>& fronts)
   return count;
 }
 
+/// How thin a pocket is that can't hold a point of its own: its volume is no more than its surface
+/// times so many roundings of the largest coordinate.
+constexpr double ThinRoundings = 16;
+
+/// Whether what some triangles enclose is thin.
+bool IsThin(const ExactPoints& points, const Front& front)
+{
+  double largest = 0;
+  double volume = 0;
+  double area = 0;
+  const double* origin = points[front[0][0]];
+  for (const Triangle& triangle : front)
+  {
+    const double* p = points[triangle[0]];
+    const double* q = points[triangle[1]];
+    const double* r = points[triangle[2]];
+    double normal[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      const int b = (a + 1) % 3;
+      const int c = (a + 2) % 3;
+      normal[a] = (q[b] - p[b]) * (r[c] - p[c]) - (q[c] - p[c]) * (r[b] - p[b]);
+      volume += normal[a] * (p[a] - origin[a]) / 6;
+      largest = std::max({ largest, std::abs(p[a]), std::abs(q[a]), std::abs(r[a]) });
+    }
+    area += std::hypot(normal[0], normal[1], normal[2]) / 2;
+  }
+  return std::abs(volume) <=
+    ThinRoundings * std::numeric_limits<double>::epsilon() * largest * area;
+}
+
+/// Thin pockets of more triangles are not wrapped: walls of thousands of triangles that are plane only
+/// to rounding would take minutes, and most can be left empty.
+constexpr std::size_t LargestThinWrap = 1000;
+
 /// Fills a pocket with the points that it has. Returns the fronts of what could not be filled; none
 /// of them where all was.
 std::vector<Front> FillPocket(const ExactPoints& points, const PointNeighbors& neighbors,
@@ -52,6 +87,10 @@ std::vector<Front> FillPocket(const ExactPoints& points, const PointNeighbors& n
     return {};
   }
   std::vector<Front> best = { front };
+  if (front.size() > LargestThinWrap && IsThin(points, front))
+  {
+    return best;
+  }
   std::vector<Cell> bestCells;
   for (const WrapOrder order : { WrapOrder::Delaunay, WrapOrder::Closing })
   {
@@ -88,37 +127,6 @@ std::vector<Front> FillPocket(const ExactPoints& points, const PointNeighbors& n
 /// grow to.
 constexpr int MaximumGrowth = 2;
 constexpr std::size_t LargestGrown = 120;
-
-/// How thin a pocket is that can't hold a point of its own: its volume is no more than its surface
-/// times so many roundings of the largest coordinate.
-constexpr double ThinRoundings = 16;
-
-/// Whether what some triangles enclose is thin.
-bool IsThin(const ExactPoints& points, const Front& front)
-{
-  double largest = 0;
-  double volume = 0;
-  double area = 0;
-  const double* origin = points[front[0][0]];
-  for (const Triangle& triangle : front)
-  {
-    const double* p = points[triangle[0]];
-    const double* q = points[triangle[1]];
-    const double* r = points[triangle[2]];
-    double normal[3];
-    for (int a = 0; a < 3; ++a)
-    {
-      const int b = (a + 1) % 3;
-      const int c = (a + 2) % 3;
-      normal[a] = (q[b] - p[b]) * (r[c] - p[c]) - (q[c] - p[c]) * (r[b] - p[b]);
-      volume += normal[a] * (p[a] - origin[a]) / 6;
-      largest = std::max({ largest, std::abs(p[a]), std::abs(q[a]), std::abs(r[a]) });
-    }
-    area += std::hypot(normal[0], normal[1], normal[2]) / 2;
-  }
-  return std::abs(volume) <=
-    ThinRoundings * std::numeric_limits<double>::epsilon() * largest * area;
-}
 
 Front GetFaces(const Cell& cell)
 {
@@ -220,8 +228,9 @@ bool AddSteinerPoint(const PointNeighbors& neighbors, const Front& front,
   return !parts.empty() || rest.empty();
 }
 
-/// Steiner points for each triangle of the stuck pockets, after which they are given up.
-constexpr std::size_t MaximumSteinerPoints = 1;
+/// Steiner points after which stuck pockets are given up: some, and one for so many of their triangles.
+constexpr std::size_t MinimumSteinerPoints = 64;
+constexpr std::size_t TrianglesPerSteinerPoint = 4;
 
 } // namespace
 
@@ -252,7 +261,8 @@ std::vector<Cell> FillPockets(EmptySpace space, const PointNeighbors& neighbors,
   CellComplex complex(std::move(space.Cells));
   const auto numberOfStuck = static_cast<double>(stuckFronts.size());
   double done = 0;
-  std::size_t pointsLeft = MaximumSteinerPoints * CountTriangles(stuckFronts);
+  std::size_t pointsLeft =
+    MinimumSteinerPoints + CountTriangles(stuckFronts) / TrianglesPerSteinerPoint;
   std::reverse(stuckFronts.begin(), stuckFronts.end());
   while (!stuckFronts.empty())
   {

@@ -87,8 +87,7 @@ private:
       if (this->SignedFor[point] != this->TriangleId)
       {
         this->SignedFor[point] = this->TriangleId;
-        this->Signs[point] = static_cast<std::int8_t>(
-          this->Points.Orient(triangle[0], triangle[1], triangle[2], point));
+        this->Signs[point] = this->Points.Orient(triangle[0], triangle[1], triangle[2], point);
       }
       signs[i] = this->Signs[point];
     }
@@ -154,7 +153,7 @@ private:
   ExactPoints Points;
   std::vector<std::int32_t> VisitedFor; ///< for each cell the last triangle that came there
   std::vector<std::int32_t> SignedFor;  ///< for each point the last triangle that it has a sign for
-  std::vector<std::int8_t> Signs;
+  std::vector<int> Signs;
   std::vector<std::int32_t> Stack;
   std::int32_t TriangleId = -1;
 };

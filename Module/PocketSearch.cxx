@@ -108,6 +108,7 @@ private:
     {
       const DelaunayOrder order(this->Points, base);
       std::vector<std::pair<double, std::int32_t>> sorted;
+      sorted.reserve(choices.size());
       for (const std::int32_t apex : choices)
       {
         sorted.emplace_back(order(apex), apex);

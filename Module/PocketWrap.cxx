@@ -15,6 +15,11 @@ namespace tetralux
 namespace
 {
 
+/// Points that are tried in front of a triangle, the best ones; and how often all triangles are
+/// tried that had none which fits.
+constexpr std::size_t MaximumCandidates = 24;
+constexpr int MaximumPasses = 4;
+
 /// A front that moves on, with all that finds its triangles.
 class MovingFront
 {
@@ -36,8 +41,8 @@ public:
   {
     // A triangle that had no choice may have one when others have gone.
     std::deque<std::int32_t> stuck;
-    std::size_t cellsBefore = cells.size();
-    do
+    std::size_t cellsBefore = 0;
+    for (int pass = 0; pass < MaximumPasses && (pass == 0 || cells.size() != cellsBefore); ++pass)
     {
       cellsBefore = cells.size();
       while (!this->Waiting.empty())
@@ -59,7 +64,7 @@ public:
         cells.push_back({ base[0], base[1], base[2], apex });
       }
       std::swap(this->Waiting, stuck);
-    } while (cells.size() != cellsBefore);
+    }
   }
 
   Front GetRest() const
@@ -181,7 +186,10 @@ private:
         this->Candidates.emplace_back(-this->CountClosed(base, id), order(id), id);
       }
     }
-    std::sort(this->Candidates.begin(), this->Candidates.end());
+    const std::size_t size = std::min(this->Candidates.size(), MaximumCandidates);
+    std::partial_sort(this->Candidates.begin(),
+      this->Candidates.begin() + static_cast<std::ptrdiff_t>(size), this->Candidates.end());
+    this->Candidates.resize(size);
     const auto found = std::find_if(this->Candidates.begin(), this->Candidates.end(),
       [&, a = a, b = b, c = c](const auto& candidate) {
         return this->Fits({ a, b, c, std::get<2>(candidate) });

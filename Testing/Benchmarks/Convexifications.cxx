@@ -161,7 +161,7 @@ int main(int argc, char* argv[])
   for (double size = 1e4; size < 1.01 * largest; size *= std::sqrt(10))
   {
     // Four boundary faces for each hexahedron of a pipe with a thin wall, twelve for a cube.
-    const double edge = std::round(std::sqrt(size / 4));
+    const double edge = 2 * std::round(std::sqrt(size / 16));
     PrintGrowth("pipe",
       Generate("cylinder-with-hole", { { "across", 1 }, { "around", edge }, { "along", edge } }));
     PrintGrowth("checkerboard",

@@ -211,6 +211,15 @@ TEST(Convexification, FlatCells)
   FillAndCheck(mesh);
 }
 
+TEST(Convexification, CollapsedCells)
+{
+  // Of a pyramid of two cells and one that is collapsed, since two of its points are at the same
+  // place, as along the axis of a structured grid that runs around it.
+  TetrahedralMesh mesh = { { 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 1, 1, 2, 1, 1, 2, 3, 1, 4 },
+    { 0, 1, 2, 4, 0, 2, 4, 5, 0, 2, 3, 5, 1, 2, 4, 6 }, {}, {}, {} };
+  FillAndCheck(mesh);
+}
+
 TEST(Convexification, SameForAnyNumberOfThreads)
 {
   TetrahedralMesh mesh = Generate("gear", { { "teeth", 6 }, { "across", 2 }, { "along", 4 } });
