@@ -107,10 +107,37 @@ mapper.SetInputData(blocks)
 assert mapper.GetBounds() == (0, 1, 0, 1, 0, 1)
 check(thickness=1)
 
+# Other optical models: the cube's one colour at its one scalar.
+inside = (slice(25, 55), slice(45, 75))
+mapper.SetBlendModeToMaximumIntensity()
+rgba, _, statistics = render()
+assert statistics["segments"]["integration"] == "largest scalar"
+assert numpy.abs(rgba[inside] - 0.25 * numpy.array([0.5, 1, 0.25, 1])).max() < 1e-6
+mapper.SetBlendModeToAdditive()
+rgba, _, _ = render()
+assert numpy.abs(rgba[inside] - 0.25 / 0.2 * numpy.array([0.5, 1, 0.25, 0])).max() < 1e-5
+mapper.SetBlendModeToAbsorption()
+rgba, _, _ = render()
+opacity = 1 - math.exp(-0.25 / 0.2)
+assert numpy.abs(rgba[inside] - opacity * numpy.array([0, 0, 0, 1])).max() < 1e-5
+mapper.SetBlendModeToComposite()
+
+# Through imaginary cells, of which a cube needs none.
+mapper.SetReentryToImaginaryCells()
+assert check(thickness=1)["rays"]["reentry"] == "boundary hierarchy"
+mapper.SetReentryToAutomatic()
+
 for name, value in (
     ("MaximumError", 1e-3),
     ("NumberOfThreads", 1),
     ("Precision", mapper.DOUBLE_PRECISION),
+    ("Integration", mapper.TABLE),
+    ("TableScalarSize", 64),
+    ("TableLengthSize", 32),
+    ("TableLengthScale", mapper.LOGARITHMIC_SCALE),
+    ("TableScalarAxis", mapper.NODES_AXIS),
+    ("TableFormat", mapper.HALF_FORMAT),
+    ("TableMaximumBytes", 1 << 20),
     ("VectorMode", mapper.MAGNITUDE),
     ("AutoAdjustSampleDistances", 0),
     ("IntermixIntersectingGeometry", 0),
