@@ -483,6 +483,56 @@ TEST(RayCastMapperBehavior, RefusesWhatCannotBeDrawn)
     "point arrays: none", [](RayCastScene& scene) { scene.Grid->GetPointData()->Initialize(); });
 }
 
+// At once during an interaction, right when there is time; and only then.
+TEST(RayCastMapperBehavior, TablesAreCoarseDuringInteraction)
+{
+  RayCastScene scene;
+  scene.Mapper->SetIntegrationToTable();
+  scene.Mapper->SetMaximumError(1e-2);
+  scene.Mapper->AutoAdjustSampleDistancesOff();
+  scene.Window->SetDesiredUpdateRate(30);
+  scene.Window->Render();
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_is_coarse"), "true");
+  const double coarse = scene.Mapper->GetErrorEstimate();
+  scene.Window->SetDesiredUpdateRate(1e-4);
+  scene.Window->Render();
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_is_coarse"), "false");
+  EXPECT_LT(scene.Mapper->GetErrorEstimate(), coarse);
+
+  // What is right stays during the next interaction, until the function changes.
+  scene.Window->SetDesiredUpdateRate(30);
+  scene.Window->Render();
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_is_coarse"), "false");
+  scene.Opacity->AddPoint(0.05, 0.9);
+  scene.Window->Render();
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_is_coarse"), "true");
+}
+
+TEST(RayCastMapperBehavior, TablesHaveTheSizesThatAreSet)
+{
+  RayCastScene scene;
+  scene.Mapper->SetIntegrationToTable();
+  scene.Mapper->SetTableScalarSize(48);
+  scene.Mapper->SetTableLengthSize(24);
+  scene.Mapper->SetTableLengthScale(vtkTetrahedraRayCastMapper::LOGARITHMIC_SCALE);
+  scene.Mapper->SetTableScalarAxis(vtkTetrahedraRayCastMapper::UNIFORM_AXIS);
+  scene.Mapper->SetTableFormat(vtkTetrahedraRayCastMapper::UNORM16_FORMAT);
+  scene.Window->Render();
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_scalar_size"), "48");
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_length_size"), "24");
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_length_scale"), "\"logarithmic\"");
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_scalar_axis"), "\"uniform\"");
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_format"), "\"16-bit\"");
+  EXPECT_EQ(GetStatistic(scene.Mapper, "table_bytes"), std::to_string(8 * 48 * 48 * 24));
+
+  scene.Mapper->SetTableScalarSize(1024);
+  scene.Mapper->SetTableMaximumBytes(1 << 20);
+  Messages errors(scene.Mapper, vtkCommand::ErrorEvent);
+  scene.Window->Render();
+  ASSERT_EQ(errors.Texts.size(), 1u);
+  EXPECT_NE(errors.Texts[0].find("TableMaximumBytes"), std::string::npos) << errors.Texts[0];
+}
+
 TEST(RayCastMapperBehavior, WarnsOfWhatIsLeftOut)
 {
   RayCastScene scene;
