@@ -228,9 +228,9 @@ bool AddSteinerPoint(const PointNeighbors& neighbors, const Front& front,
   return !parts.empty() || rest.empty();
 }
 
-/// Steiner points after which stuck pockets are given up: some, and one for so many of their triangles.
-constexpr std::size_t MinimumSteinerPoints = 64;
-constexpr std::size_t TrianglesPerSteinerPoint = 4;
+/// Steiner points in a row that leave no fewer stuck triangles than there were before, after which
+/// the pockets are given up: each has covered a few triangles only, and left more behind.
+constexpr int MaximumVainPoints = 32;
 
 } // namespace
 
@@ -261,8 +261,8 @@ std::vector<Cell> FillPockets(EmptySpace space, const PointNeighbors& neighbors,
   CellComplex complex(std::move(space.Cells));
   const auto numberOfStuck = static_cast<double>(stuckFronts.size());
   double done = 0;
-  std::size_t pointsLeft =
-    MinimumSteinerPoints + CountTriangles(stuckFronts) / TrianglesPerSteinerPoint;
+  std::size_t fewestTriangles = CountTriangles(stuckFronts);
+  int vainPoints = 0;
   std::reverse(stuckFronts.begin(), stuckFronts.end());
   while (!stuckFronts.empty())
   {
@@ -280,10 +280,12 @@ std::vector<Cell> FillPockets(EmptySpace space, const PointNeighbors& neighbors,
       continue;
     }
     const bool isThin = IsThin(points, front);
-    if (pointsLeft > 0 && !isThin &&
+    if (vainPoints < MaximumVainPoints && !isThin &&
       AddSteinerPoint(neighbors, front, coordinates, complex, stuckFronts))
     {
-      --pointsLeft;
+      const std::size_t triangles = CountTriangles(stuckFronts);
+      vainPoints = triangles < fewestTriangles ? 0 : vainPoints + 1;
+      fewestTriangles = std::min(fewestTriangles, triangles);
       continue;
     }
     obstacle.Reason = "a pocket of " + std::to_string(front.size()) +
