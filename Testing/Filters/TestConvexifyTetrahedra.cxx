@@ -2,12 +2,14 @@
 #include "vtkConvexifyTetrahedra.h"
 
 #include "GeneratedMeshes.h"
+#include "ReferenceConvexity.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDelaunay3D.h"
 #include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
 #include "vtkFloatArray.h"
@@ -27,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 #include <sstream>
 #include <string>
@@ -314,6 +317,78 @@ TEST(ConvexifyTetrahedra, SaysWhyNot)
   EXPECT_NE(refusal.find("cell 2"), std::string::npos) << refusal;
   EXPECT_NE(filterErrors.Text.find(refusal), std::string::npos);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+}
+
+/// Random subsets of the cells of random Delaunay meshes: filled and right, or refused with a reason.
+TEST(ConvexifyTetrahedra, SubsetsOfDelaunayMeshes)
+{
+  int filled = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    const int numberOfPoints = 10 + static_cast<int>(190 * unit(random));
+    for (int p = 0; p < numberOfPoints; ++p)
+    {
+      points->InsertNextPoint(unit(random), unit(random), unit(random));
+    }
+    vtkNew<vtkUnstructuredGrid> cloud;
+    cloud->SetPoints(points);
+    vtkNew<vtkDelaunay3D> delaunay;
+    delaunay->SetInputData(cloud);
+    delaunay->Update();
+
+    const double kept = 0.2 + 0.7 * unit(random);
+    vtkNew<vtkUnstructuredGrid> subset;
+    subset->SetPoints(delaunay->GetOutput()->GetPoints());
+    subset->AllocateExact(delaunay->GetOutput()->GetNumberOfCells(), 4);
+    for (vtkIdType cell = 0; cell < delaunay->GetOutput()->GetNumberOfCells(); ++cell)
+    {
+      if (unit(random) < kept)
+      {
+        subset->InsertNextCell(VTK_TETRA, delaunay->GetOutput()->GetCell(cell)->GetPointIds());
+      }
+    }
+
+    vtkNew<vtkConvexifyTetrahedra> convexify;
+    ErrorObserver errors(convexify);
+    convexify->SetInputData(subset);
+    convexify->Update();
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    vtkUnstructuredGrid* output = convexify->GetOutput();
+    if (!errors.Text.empty())
+    {
+      EXPECT_NE(errors.Text.find(convexify->GetRefusal()), std::string::npos) << errors.Text;
+      EXPECT_STRNE(convexify->GetRefusal(), "");
+      continue;
+    }
+    ++filled;
+    tetralux::ConvexifiedMesh mesh;
+    for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
+    {
+      const double* x = output->GetPoint(p);
+      mesh.Points.insert(mesh.Points.end(), x, x + 3);
+    }
+    auto* imaginary =
+      vtkUnsignedCharArray::SafeDownCast(output->GetCellData()->GetArray("Imaginary"));
+    ASSERT_TRUE(imaginary);
+    for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+    {
+      std::vector<std::int32_t>& cells =
+        imaginary->GetValue(cell) ? mesh.ImaginaryCells : mesh.Cells;
+      for (vtkIdType k = 0; k < 4; ++k)
+      {
+        cells.push_back(static_cast<std::int32_t>(output->GetCell(cell)->GetPointId(k)));
+      }
+    }
+    EXPECT_EQ(
+      tetralux::CheckConvexity(mesh, static_cast<std::int32_t>(subset->GetNumberOfPoints())), "");
+    const tetralux::RayAgreement rays = tetralux::CompareRays(mesh, 200, seed);
+    EXPECT_EQ(rays.Agreeing, rays.Rays);
+  }
+  EXPECT_GE(filled, 36) << "nearly all of them can be filled";
 }
 
 TEST(ConvexifyTetrahedra, EmptyInput)
