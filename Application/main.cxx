@@ -111,12 +111,6 @@ void AddScalarOptions(CLI::App* command, RenderOptions& options)
 
 void AddCameraOptions(CLI::App* command, RenderOptions& options)
 {
-  AddOption(command, "--isovalues",
-    "Show the surfaces of these scalars, lit, instead of a volume; each has its colour and opacity",
-    [&options](const std::string& option, const std::string& text)
-    { options.Isovalues = ParseNumbers(option, text); })
-    ->type_name("A,B,...");
-
   AddOption(command, "--camera-position",
     "Where the camera is; default: where it sees everything, 30 degrees to the right and 20 up",
     ReadVector(options.CameraPosition))
@@ -178,6 +172,12 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
     ->type_name("NAME");
   AddCameraOptions(command, options);
   AddSizeOptions(command, options);
+  AddOption(command, "--isovalues",
+    "Show the surfaces of these scalars, lit, instead of a volume; each has its colour and opacity",
+    [&options](const std::string& option, const std::string& text)
+    { options.Isovalues = ParseNumbers(option, text); })
+    ->type_name("A,B,...");
+
   AddOption(command, "--background", "Colour behind a .png, each from 0 to 1; default: 0,0,0",
     [&options](const std::string& option, const std::string& text)
     {
