@@ -132,8 +132,10 @@ TETRALUX_INLINE WorldRays MakeWorldRays(const RayGrid& grid, int px, int py)
   double laneX[Width], laneY[Width];
   for (int i = 0; i < Width; ++i)
   {
-    laneX[i] = px + i % 4;
-    laneY[i] = py + i / 4;
+    const int column = i % 4;
+    const int row = i / 4;
+    laneX[i] = px + column;
+    laneY[i] = py + row;
   }
   const Double8 x = LoadDouble8(laneX);
   const Double8 y = LoadDouble8(laneY);
