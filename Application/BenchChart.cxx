@@ -59,8 +59,7 @@ struct Point
 
 Point GetPoint(const BenchRow& row)
 {
-  const bool named = row.OnFront || row.Setting.Name == DefaultSettingName ||
-    row.Setting.Method != BenchMethod::RayCast;
+  const bool named = row.OnFront || row.Setting.Name == DefaultSettingName || IsPeer(row.Setting);
   return { 1e3 * row.BestSeconds, std::max(row.Errors.Maximum, SmallestError), row.Setting.Name,
     named };
 }

@@ -34,8 +34,8 @@ std::string JoinWithBlanks(const std::vector<std::string>& words)
 
 std::string MakeLine(const BenchSceneResult& result, const BenchRow& row)
 {
-  std::string line = result.Name + "," + GetMethodName(row.Setting.Method) + "," +
-    Quote(row.Setting.Name) + "," + Quote(JoinWithBlanks(row.Setting.Assignments));
+  std::string line = result.Name + "," + row.Setting.Method + "," + Quote(row.Setting.Name) + "," +
+    Quote(JoinWithBlanks(row.Setting.Assignments));
   if (row.Failure.empty())
   {
     const tetralux::ImageErrors& errors = row.Errors;

@@ -10,7 +10,7 @@
 #include "BenchView.h"
 #include "Render.h"
 #include "vtkHeadlessRenderWindow.h"
-#include "vtkTetrahedraRayCastMapper.h"
+#include "vtkTetrahedraVolumeMapper.h"
 
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
@@ -58,9 +58,9 @@ struct Comparison
   Variant Used;
 };
 
-vtkTetrahedraRayCastMapper* GetMapper(BenchView& view)
+vtkTetrahedraVolumeMapper* GetMapper(BenchView& view)
 {
-  return vtkTetrahedraRayCastMapper::SafeDownCast(view.GetMapper());
+  return vtkTetrahedraVolumeMapper::SafeDownCast(view.GetMapper());
 }
 
 /// The scene with another transfer function: both vary by as much as is said between the ends of the
@@ -259,7 +259,7 @@ std::unique_ptr<BenchView> MakeView(const Variant& variant, const RenderOptions&
   BenchSetting setting;
   setting.Assignments = variant.Assignments;
   auto made = std::make_unique<BenchView>(
-    MakeBenchWindow(view), variant.Scene, MakeMapper(setting, view.NumberOfThreads), view);
+    MakeBenchWindow(view), variant.Scene, MakeBenchMapper(setting, view.NumberOfThreads), view);
   if (variant.Adapt)
   {
     variant.Adapt(*made);

@@ -2,9 +2,10 @@
 #include "BenchMappers.h"
 
 #include "BenchSettings.h"
+#include "MapperProperties.h"
 #include "Methods.h"
-#include "vtkTetrahedraRayCastMapper.h"
 #include "vtkTetrahedraRayIntegrator.h"
+#include "vtkTetrahedraVolumeMapper.h"
 
 #include "vtkNew.h"
 #include "vtkProjectedTetrahedraMapper.h"
@@ -14,12 +15,10 @@
 namespace
 {
 
-vtkSmartPointer<vtkTetrahedraRayCastMapper> MakeRayCastMapper(
+vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeOurMapper(
   const BenchSetting& setting, int numberOfThreads)
 {
-  auto mapper = vtkSmartPointer<vtkTetrahedraRayCastMapper>::New();
-  mapper->AutoAdjustSampleDistancesOff();
-  mapper->SetNumberOfThreads(numberOfThreads);
+  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeMapper(setting.Method, numberOfThreads);
   for (const std::string& assignment : setting.Assignments)
   {
     SetProperty(mapper, assignment);
@@ -37,32 +36,29 @@ vtkSmartPointer<vtkUnstructuredGridVolumeRayCastMapper> MakeBunykMapper()
 
 } // namespace
 
-vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeMapper(
+vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeBenchMapper(
   const BenchSetting& setting, int numberOfThreads)
 {
-  switch (setting.Method)
+  if (!IsPeer(setting))
   {
-    case BenchMethod::ProjectedTetrahedra:
-      return vtkSmartPointer<vtkProjectedTetrahedraMapper>::New();
-    case BenchMethod::Bunyk:
-      return MakeBunykMapper();
-    case BenchMethod::BunykPreIntegration:
-    {
-      auto mapper = MakeBunykMapper();
-      vtkNew<vtkUnstructuredGridPreIntegration> integrator;
-      mapper->SetRayIntegrator(integrator);
-      return mapper;
-    }
-    case BenchMethod::BunykClosedForm:
-    {
-      auto mapper = MakeBunykMapper();
-      vtkNew<vtkTetrahedraRayIntegrator> integrator;
-      mapper->SetRayIntegrator(integrator);
-      return mapper;
-    }
-    default:
-      return MakeRayCastMapper(setting, numberOfThreads);
+    return MakeOurMapper(setting, numberOfThreads);
   }
+  if (setting.Method == "vtk-projected-tetrahedra")
+  {
+    return vtkSmartPointer<vtkProjectedTetrahedraMapper>::New();
+  }
+  auto mapper = MakeBunykMapper();
+  if (setting.Method == "vtk-bunyk-preintegration")
+  {
+    vtkNew<vtkUnstructuredGridPreIntegration> integrator;
+    mapper->SetRayIntegrator(integrator);
+  }
+  else if (setting.Method == "vtk-bunyk-closed-form")
+  {
+    vtkNew<vtkTetrahedraRayIntegrator> integrator;
+    mapper->SetRayIntegrator(integrator);
+  }
+  return mapper;
 }
 
-void CheckSetting(const BenchSetting& setting) { MakeRayCastMapper(setting, 0); }
+void CheckSetting(const BenchSetting& setting) { MakeOurMapper(setting, 0); }

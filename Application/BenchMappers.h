@@ -9,7 +9,7 @@ class vtkUnstructuredGridVolumeMapper;
 
 /// A fresh mapper as a setting describes it, without input. One ray for each pixel where the setting
 /// does not say otherwise; numberOfThreads: of our own methods, 0 as many as there are cores.
-vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeMapper(
+vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeBenchMapper(
   const BenchSetting& setting, int numberOfThreads);
 
 /// Throws UsageError where an assignment is none that the mapper takes.

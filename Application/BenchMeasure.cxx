@@ -78,7 +78,8 @@ BenchMeasurement Measure(const BenchRun& run, const BenchSetting& setting)
   row.Setting = setting;
   try
   {
-    BenchView view(run.Window, run.Scene, MakeMapper(setting, run.View.NumberOfThreads), run.View);
+    BenchView view(
+      run.Window, run.Scene, MakeBenchMapper(setting, run.View.NumberOfThreads), run.View);
     TimeFrames(run, view, row);
     row.EightBit = !HasFloatPicture(setting);
     measurement.Picture = row.EightBit ? view.CaptureWindow() : view.GetFloatPicture();
@@ -108,7 +109,7 @@ void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasuremen
   row.PictureFile = stem + ".png";
   WritePng(image, run.Folder.GetPath(row.PictureFile), row.PictureFile);
   const bool isReference = row.Setting.Name == GetReferenceSetting().Name;
-  if (isReference || row.Setting.Method != BenchMethod::RayCast)
+  if (isReference || IsPeer(row.Setting))
   {
     row.PictureUri = MakePngUri(ShrinkToMean(image, isReference ? ReferenceSize : PeerSize));
   }

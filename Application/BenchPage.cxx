@@ -128,7 +128,7 @@ void WriteSummary(std::ostream& page, const std::vector<BenchSceneResult>& resul
   std::vector<std::string> peers;
   for (const BenchRow& row : results.front().Rows)
   {
-    if (row.Setting.Method != BenchMethod::RayCast)
+    if (IsPeer(row.Setting))
     {
       peers.push_back(row.Setting.Name);
       page << "<th>" << Escape(row.Setting.Name) << ", ms</th><th>largest error</th>";

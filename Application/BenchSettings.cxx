@@ -42,7 +42,7 @@ void AddErrorDial(std::vector<BenchSetting>& settings)
   for (const char* error : { "1e-2", "1e-3", "1e-4", "1e-5", "1e-6" })
   {
     settings.push_back({ std::string("error-") + error, ErrorDialGroup,
-      std::string("MaximumError ") + error + ", all else automatic", BenchMethod::RayCast,
+      std::string("MaximumError ") + error + ", all else automatic", "ray-cast",
       { std::string("MaximumError=") + error } });
   }
 }
@@ -51,21 +51,21 @@ void AddArithmetic(std::vector<BenchSetting>& settings)
 {
   const std::string group = "arithmetic and ends of rays";
   settings.push_back(
-    { "single", group, "geometry in single precision", BenchMethod::RayCast, { SinglePrecision } });
+    { "single", group, "geometry in single precision", "ray-cast", { SinglePrecision } });
   settings.push_back(
-    { "double", group, "geometry in double precision", BenchMethod::RayCast, { DoublePrecision } });
+    { "double", group, "geometry in double precision", "ray-cast", { DoublePrecision } });
   settings.push_back({ "no-termination", group,
-    "early ray termination (Weiler 2003, section 3) switched off, in single precision",
-    BenchMethod::RayCast, { ClosedForm, SinglePrecision, ToTheEnd } });
+    "early ray termination (Weiler 2003, section 3) switched off, in single precision", "ray-cast",
+    { ClosedForm, SinglePrecision, ToTheEnd } });
 }
 
 void AddSampleDistances(std::vector<BenchSetting>& settings)
 {
   const std::string group = "distance of rays";
   settings.push_back({ "sample-distance-2", group, "one ray for 2 x 2 pixels, interpolated",
-    BenchMethod::RayCast, { "ImageSampleDistance=2" } });
+    "ray-cast", { "ImageSampleDistance=2" } });
   settings.push_back({ "sample-distance-4", group, "one ray for 4 x 4 pixels, interpolated",
-    BenchMethod::RayCast, { "ImageSampleDistance=4" } });
+    "ray-cast", { "ImageSampleDistance=4" } });
 }
 
 /// Tables as in the papers, and with each of what they say is better switched off alone.
@@ -73,34 +73,32 @@ void AddTables(std::vector<BenchSetting>& settings)
 {
   std::string group = "integral";
   settings.push_back({ "closed-form", group, "closed form between the nodes of the functions",
-    BenchMethod::RayCast, { ClosedForm } });
+    "ray-cast", { ClosedForm } });
   settings.push_back({ "table", group, "table, its sizes and format by the error asked for",
-    BenchMethod::RayCast, { Table } });
-  settings.push_back({ "table-1e-2", group, "the same for an error of 1e-2", BenchMethod::RayCast,
+    "ray-cast", { Table } });
+  settings.push_back({ "table-1e-2", group, "the same for an error of 1e-2", "ray-cast",
     { Table, "MaximumError=1e-2" } });
 
   group = "table 256 x 256 x 16 (Kraus 2004)";
-  settings.push_back({ "kraus", group,
-    "as there: logarithmic lengths, 16 bit, uniform in the scalar", BenchMethod::RayCast,
-    MakeTable(256, 16, { LogarithmicLengths, Format16Bit, UniformScalars }) });
-  settings.push_back({ "kraus-linear", group, "logarithmic lengths switched off",
-    BenchMethod::RayCast, MakeTable(256, 16, { LinearLengths, Format16Bit, UniformScalars }) });
-  settings.push_back({ "kraus-8-bit", group, "more than 8 bit switched off", BenchMethod::RayCast,
-    MakeTable(256, 16, { LogarithmicLengths, Format8Bit, UniformScalars }) });
-  settings.push_back({ "kraus-half", group, "half precision in place of 16 bit",
-    BenchMethod::RayCast, MakeTable(256, 16, { LogarithmicLengths, FormatHalf, UniformScalars }) });
   settings.push_back(
-    { "kraus-float", group, "single precision in place of 16 bit", BenchMethod::RayCast,
-      MakeTable(256, 16, { LogarithmicLengths, FormatFloat, UniformScalars }) });
+    { "kraus", group, "as there: logarithmic lengths, 16 bit, uniform in the scalar", "ray-cast",
+      MakeTable(256, 16, { LogarithmicLengths, Format16Bit, UniformScalars }) });
+  settings.push_back({ "kraus-linear", group, "logarithmic lengths switched off", "ray-cast",
+    MakeTable(256, 16, { LinearLengths, Format16Bit, UniformScalars }) });
+  settings.push_back({ "kraus-8-bit", group, "more than 8 bit switched off", "ray-cast",
+    MakeTable(256, 16, { LogarithmicLengths, Format8Bit, UniformScalars }) });
+  settings.push_back({ "kraus-half", group, "half precision in place of 16 bit", "ray-cast",
+    MakeTable(256, 16, { LogarithmicLengths, FormatHalf, UniformScalars }) });
+  settings.push_back({ "kraus-float", group, "single precision in place of 16 bit", "ray-cast",
+    MakeTable(256, 16, { LogarithmicLengths, FormatFloat, UniformScalars }) });
   settings.push_back({ "kraus-nodes", group, "scalars on the nodes of the functions, not uniform",
-    BenchMethod::RayCast,
-    MakeTable(256, 16, { LogarithmicLengths, Format16Bit, ScalarsAtNodes }) });
+    "ray-cast", MakeTable(256, 16, { LogarithmicLengths, Format16Bit, ScalarsAtNodes }) });
 
   group = "table 128 x 128 x 256 (Weiler 2003)";
   settings.push_back({ "weiler", group, "as there: linear lengths, 8 bit, uniform in the scalar",
-    BenchMethod::RayCast, MakeTable(128, 256, { LinearLengths, Format8Bit, UniformScalars }) });
-  settings.push_back({ "weiler-float", group, "single precision in place of 8 bit",
-    BenchMethod::RayCast, MakeTable(128, 256, { LinearLengths, FormatFloat, UniformScalars }) });
+    "ray-cast", MakeTable(128, 256, { LinearLengths, Format8Bit, UniformScalars }) });
+  settings.push_back({ "weiler-float", group, "single precision in place of 8 bit", "ray-cast",
+    MakeTable(128, 256, { LinearLengths, FormatFloat, UniformScalars }) });
 
   group = "size of the table";
   for (const auto& [scalars, lengths] : { std::pair(32, 16), std::pair(64, 16), std::pair(128, 8),
@@ -110,7 +108,7 @@ void AddTables(std::vector<BenchSetting>& settings)
     settings.push_back({ "table-" + size, group,
       std::to_string(scalars) + " scalars on nodes, " + std::to_string(lengths) +
         " logarithmic lengths, single precision",
-      BenchMethod::RayCast,
+      "ray-cast",
       MakeTable(scalars, lengths, { LogarithmicLengths, FormatFloat, ScalarsAtNodes }) });
   }
 }
@@ -118,25 +116,24 @@ void AddTables(std::vector<BenchSetting>& settings)
 void AddReentry(std::vector<BenchSetting>& settings)
 {
   const std::string group = "how rays enter again";
-  settings.push_back({ "reentry-hierarchy", group, "by a hierarchy of the boundary",
-    BenchMethod::RayCast, { "Reentry=1" } });
+  settings.push_back(
+    { "reentry-hierarchy", group, "by a hierarchy of the boundary", "ray-cast", { "Reentry=1" } });
   settings.push_back({ "reentry-imaginary", group,
-    "through imaginary cells of a convexified mesh (Weiler 2003, section 3.4)",
-    BenchMethod::RayCast, { "Reentry=2" } });
+    "through imaginary cells of a convexified mesh (Weiler 2003, section 3.4)", "ray-cast",
+    { "Reentry=2" } });
 }
 
 void AddPeers(std::vector<BenchSetting>& settings)
 {
   const std::string group = "mappers of VTK";
   settings.push_back({ "vtk-projected-tetrahedra", group, "vtkProjectedTetrahedraMapper",
-    BenchMethod::ProjectedTetrahedra, {} });
+    "vtk-projected-tetrahedra", {} });
   settings.push_back({ "vtk-bunyk", group,
-    "vtkUnstructuredGridVolumeRayCastMapper (Bunyk) as it comes", BenchMethod::Bunyk, {} });
+    "vtkUnstructuredGridVolumeRayCastMapper (Bunyk) as it comes", "vtk-bunyk", {} });
   settings.push_back({ "vtk-bunyk-preintegration", group,
-    "the same with vtkUnstructuredGridPreIntegration", BenchMethod::BunykPreIntegration, {} });
-  settings.push_back({ GetMethodName(BenchMethod::BunykClosedForm), group,
-    "the same with vtkTetrahedraRayIntegrator, the closed form", BenchMethod::BunykClosedForm,
-    {} });
+    "the same with vtkUnstructuredGridPreIntegration", "vtk-bunyk-preintegration", {} });
+  settings.push_back({ "vtk-bunyk-closed-form", group,
+    "the same with vtkTetrahedraRayIntegrator, the closed form", "vtk-bunyk-closed-form", {} });
 }
 
 /// "Property=Value Property=Value" as a setting of that name.
@@ -170,14 +167,14 @@ BenchSetting ReadSetting(const std::string& text)
 BenchSetting GetReferenceSetting()
 {
   return { "reference", "reference", "closed form, double precision, rays to their ends",
-    BenchMethod::RayCast, { ClosedForm, DoublePrecision, ToTheEnd } };
+    "ray-cast", { ClosedForm, DoublePrecision, ToTheEnd } };
 }
 
 std::vector<BenchSetting> ListSettings(const BenchOptions& options)
 {
   std::vector<BenchSetting> settings;
   settings.push_back({ DefaultSettingName, "default",
-    "nothing set: an error of 1e-4, all else automatic", BenchMethod::RayCast, {} });
+    "nothing set: an error of 1e-4, all else automatic", "ray-cast", {} });
   if (options.Settings.empty())
   {
     AddErrorDial(settings);
@@ -194,26 +191,11 @@ std::vector<BenchSetting> ListSettings(const BenchOptions& options)
   return settings;
 }
 
-std::string GetMethodName(BenchMethod method)
-{
-  switch (method)
-  {
-    case BenchMethod::ProjectedTetrahedra:
-      return "vtk-projected-tetrahedra";
-    case BenchMethod::Bunyk:
-      return "vtk-bunyk";
-    case BenchMethod::BunykPreIntegration:
-      return "vtk-bunyk-preintegration";
-    case BenchMethod::BunykClosedForm:
-      return "vtk-bunyk-closed-form";
-    default:
-      return "ray-cast";
-  }
-}
+bool IsPeer(const BenchSetting& setting) { return setting.Method.rfind("vtk-", 0) == 0; }
 
 bool HasFloatPicture(const BenchSetting& setting)
 {
   const bool coarse = std::any_of(setting.Assignments.begin(), setting.Assignments.end(),
     [](const std::string& text) { return text.rfind("ImageSampleDistance=", 0) == 0; });
-  return setting.Method == BenchMethod::RayCast && !coarse;
+  return !IsPeer(setting) && !coarse;
 }

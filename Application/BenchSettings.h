@@ -7,22 +7,16 @@
 
 struct BenchOptions;
 
-enum class BenchMethod
-{
-  RayCast,             ///< vtkTetrahedraRayCastMapper
-  ProjectedTetrahedra, ///< vtkProjectedTetrahedraMapper
-  Bunyk,               ///< vtkUnstructuredGridVolumeRayCastMapper as it comes
-  BunykPreIntegration, ///< the same with vtkUnstructuredGridPreIntegration
-  BunykClosedForm,     ///< the same with vtkTetrahedraRayIntegrator
-};
-
 /// A way to render: a method and what is set of it.
 struct BenchSetting
 {
   std::string Name; ///< of files and rows, as "table-256x16-log"
   std::string Group;
   std::string Description; ///< what it is, or what is switched off
-  BenchMethod Method = BenchMethod::RayCast;
+  /// "ray-cast" or another of ours, as --method takes it, or a mapper of VTK: "vtk-projected-tetrahedra",
+  /// "vtk-bunyk" (vtkUnstructuredGridVolumeRayCastMapper as it comes), "vtk-bunyk-preintegration",
+  /// "vtk-bunyk-closed-form" (with vtkTetrahedraRayIntegrator).
+  std::string Method = "ray-cast";
   std::vector<std::string> Assignments; ///< "Property=Value", as --set takes them
 };
 
@@ -38,8 +32,8 @@ BenchSetting GetReferenceSetting();
 /// The settings of a run, the default one first. Throws UsageError where one of the user's is none.
 std::vector<BenchSetting> ListSettings(const BenchOptions& options);
 
-/// "ray-cast", "vtk-projected-tetrahedra", ...
-std::string GetMethodName(BenchMethod method);
+/// Whether the method is one of VTK's own.
+bool IsPeer(const BenchSetting& setting);
 
 /// Whether the picture can be had as floating point numbers; else it comes from the frame buffer, in
 /// 8 bit over black. It can't where there is not one ray for each pixel.

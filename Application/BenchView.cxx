@@ -7,7 +7,7 @@
 #include "Render.h"
 #include "SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
-#include "vtkTetrahedraRayCastMapper.h"
+#include "vtkTetrahedraVolumeMapper.h"
 
 #include "vtkCamera.h"
 #include "vtkDataArrayRange.h"
@@ -115,12 +115,12 @@ BenchPicture BenchView::CaptureWindow() const
 
 BenchPicture BenchView::GetFloatPicture() const
 {
-  auto* mapper = vtkTetrahedraRayCastMapper::SafeDownCast(this->Mapper);
+  auto* mapper = vtkTetrahedraVolumeMapper::SafeDownCast(this->Mapper);
   return MakePicture(mapper->GetOutputImage(), 1);
 }
 
 std::string BenchView::GetStatistics() const
 {
-  auto* mapper = vtkTetrahedraRayCastMapper::SafeDownCast(this->Mapper);
+  auto* mapper = vtkTetrahedraVolumeMapper::SafeDownCast(this->Mapper);
   return mapper ? mapper->GetStatistics() : "{}";
 }

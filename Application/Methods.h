@@ -7,19 +7,15 @@
 #include <string>
 #include <vector>
 
-class vtkTetrahedraRayCastMapper;
+class vtkTetrahedraVolumeMapper;
 
 /// Names that --method takes, "auto" first.
 std::vector<std::string> GetMethodNames();
 
-/// The method that a name stands for: for auto the best one there is. Throws UsageError.
-std::string ResolveMethod(const std::string& name);
-
-/// Properties of the mapper that --set takes: all but those that --array and --component choose.
-std::vector<std::string> GetPropertyNames();
-
-/// Sets a property of the mapper as --set asks for: "Name=Value". Throws UsageError that names the
-/// properties there are, or the values that the property takes.
-void SetProperty(vtkTetrahedraRayCastMapper* mapper, const std::string& assignment);
+/// The mapper of a method, for still pictures: one ray a pixel unless something else is set; for
+/// "auto" that of the best method there is. numberOfThreads: 0 for as many as there are. Throws
+/// UsageError where there is no such method, or where it has no threads to be set.
+vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
+  const std::string& method, int numberOfThreads);
 
 #endif

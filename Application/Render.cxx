@@ -4,6 +4,7 @@
 #include "Arrays.h"
 #include "AtomicFile.h"
 #include "CommandErrors.h"
+#include "MapperProperties.h"
 #include "MessageCapture.h"
 #include "Methods.h"
 #include "OptionValues.h"
@@ -13,7 +14,7 @@
 #include "TransferFunctionFile.h"
 #include "WriteData.h"
 #include "vtkHeadlessRenderWindow.h"
-#include "vtkTetrahedraRayCastMapper.h"
+#include "vtkTetrahedraVolumeMapper.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
@@ -55,16 +56,14 @@ void CheckOptions(const RenderOptions& options)
   CheckCamera(options);
 }
 
-void ConfigureMapper(const RenderOptions& options, vtkTetrahedraRayCastMapper* mapper)
+vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(const RenderOptions& options)
 {
-  ResolveMethod(options.Method);
-  // A still picture has one ray a pixel unless --set asks for something else.
-  mapper->AutoAdjustSampleDistancesOff();
+  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper =
+    MakeMapper(options.Method, options.NumberOfThreads);
   if (options.MaximumError)
   {
     mapper->SetMaximumError(*options.MaximumError);
   }
-  mapper->SetNumberOfThreads(options.NumberOfThreads);
   if (!options.Isovalues.empty())
   {
     mapper->SetBlendModeToIsoSurface();
@@ -73,20 +72,21 @@ void ConfigureMapper(const RenderOptions& options, vtkTetrahedraRayCastMapper* m
   {
     SetProperty(mapper, setting);
   }
-  if ((mapper->GetBlendMode() == vtkTetrahedraRayCastMapper::ISOSURFACE_BLEND) !=
+  if ((mapper->GetBlendMode() == vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND) !=
     !options.Isovalues.empty())
   {
     throw UsageError("--isovalues A,B,... and BlendMode=isosurface belong together");
   }
+  return mapper;
 }
 
-void SelectScalars(const ArrayChoice& choice, vtkTetrahedraRayCastMapper* mapper)
+void SelectScalars(const ArrayChoice& choice, vtkTetrahedraVolumeMapper* mapper)
 {
   mapper->SetScalarMode(choice.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
                                               : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
   mapper->SelectScalarArray(choice.Array.Name.c_str());
-  mapper->SetVectorMode(choice.Magnitude ? vtkTetrahedraRayCastMapper::MAGNITUDE
-                                         : vtkTetrahedraRayCastMapper::COMPONENT);
+  mapper->SetVectorMode(
+    choice.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE : vtkTetrahedraVolumeMapper::COMPONENT);
   mapper->SetVectorComponent(choice.Component);
 }
 
@@ -193,8 +193,7 @@ void WritePicture(const RenderOptions& options, vtkRenderWindow* window, vtkImag
 void RenderPicture(const RenderOptions& options)
 {
   CheckOptions(options);
-  vtkNew<vtkTetrahedraRayCastMapper> mapper;
-  ConfigureMapper(options, mapper);
+  const vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeConfiguredMapper(options);
 
   AtomicFile output(options.Output);
   std::unique_ptr<AtomicFile> statisticsOutput;

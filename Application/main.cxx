@@ -5,6 +5,7 @@
 #include "CommandErrors.h"
 #include "Generate.h"
 #include "Info.h"
+#include "MapperProperties.h"
 #include "Methods.h"
 #include "OptionValues.h"
 #include "ReadMesh.h"

@@ -2,7 +2,7 @@
 #ifndef tetralux_RayCastKernel_h
 #define tetralux_RayCastKernel_h
 
-// What the kernels of the ray caster read and write: plain pointers, filled by RayCaster.cxx. The
+// What the kernels of the ray caster read and write: plain pointers, filled by CastRays. The
 // kernels themselves (RayCastKernel.inl) are compiled once for each instruction set.
 
 #include "BoundaryBvh.h"

@@ -168,7 +168,7 @@ public:
     {
       this->AtBack.push_back(walkMesh->GetMesh().Points[i] > 0);
     }
-    this->Caster.SetMesh(walkMesh);
+    this->Volume.SetMesh(walkMesh);
     // Rays must not end early: the error of that is chosen, not suffered.
     this->Options.MaximumError = 1e-12;
     this->Options.Arithmetic = precision;
@@ -184,8 +184,8 @@ public:
     {
       scalars.push_back(back ? segment.BackScalar : segment.FrontScalar);
     }
-    this->Caster.SetPointScalars(std::move(scalars));
-    this->Caster.SetTransferFunction(segment.Function);
+    this->Volume.SetPointScalars(std::move(scalars));
+    this->Volume.SetTransferFunction(segment.Function);
     RayGrid grid;
     grid.Width = grid.Height = 1;
     grid.Direction[2] = 1;
@@ -198,8 +198,8 @@ public:
     }
     float color[4];
     float depth;
-    const RayCastStatistics statistics = this->Caster.Cast(
-      grid, RayLimits(), this->Options, Span<float>(color, 4), Span<float>(&depth, 1));
+    const RayCastStatistics statistics = CastRays(this->Volume, grid, RayLimits(), this->Options,
+      Span<float>(color, 4), Span<float>(&depth, 1));
     StabilityResult result;
     std::copy_n(color, 3, result.Radiance.Color);
     result.Radiance.Opacity = color[3];
@@ -211,7 +211,7 @@ public:
   }
 
 private:
-  RayCaster Caster;
+  VolumeScene Volume;
   std::vector<char> AtBack;
   RayCastOptions Options;
 };
@@ -289,9 +289,9 @@ std::vector<StabilityForm> MakeStabilityForms()
   }
   const auto addCaster = [&](const std::string& name, Precision precision)
   {
-    const auto caster = std::make_shared<CastPrism>(precision, false);
+    const auto volume = std::make_shared<CastPrism>(precision, false);
     add("ray caster, " + name, "its own estimate, for scalars rounded to " + Format(CasterRounding),
-      [caster](const StabilityCase& segment) { return (*caster)(segment); });
+      [volume](const StabilityCase& segment) { return (*volume)(segment); });
   };
   addCaster("single", Precision::Single);
   addCaster("double", Precision::Double);

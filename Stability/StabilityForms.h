@@ -44,10 +44,10 @@ struct StabilityForm
 ///   the integral, as the kernels compile and sum it up. The opacity is the sum of all weights; where
 ///   a kernel writes 1 - transmittance instead, its error is 2^-24, however small the opacity. To
 ///   SingleIntegralError of the opacity.
-/// * "ray caster, single" and "ray caster, double": RayCaster on three tetrahedra, with the geometry
+/// * "ray caster, single" and "ray caster, double": CastRays on three tetrahedra, with the geometry
 ///   in that precision. Scalars and the nodes of the transfer function are rounded to CasterRounding
 ///   of the function's range; what changes within that - a step beside the scalar, a needle that is
-///   narrower - no integral can tell apart. To the caster's own RayCastStatistics::ErrorEstimate (at
+///   narrower - no integral can tell apart. To the ray caster's own RayCastStatistics::ErrorEstimate (at
 ///   least SegmentWeightError, for colours are numbers of single precision), plus the most that
 ///   attenuation and colour change within CasterRounding of a scalar on the segment, over the whole
 ///   length. With a function that is smooth on that scale it is next to nothing.

@@ -121,22 +121,22 @@ void CompareScene(const std::string& name, const Scene& scene)
   {
     scalars.push_back(scene.Scalars[id]);
   }
-  RayCaster caster;
-  caster.SetMesh(mesh);
+  VolumeScene volume;
+  volume.SetMesh(mesh);
   if (scene.CellScalars)
   {
-    caster.SetCellScalars(scalars);
+    volume.SetCellScalars(scalars);
   }
   else
   {
-    caster.SetPointScalars(scalars);
+    volume.SetPointScalars(scalars);
   }
-  caster.SetTransferFunction(scene.Function);
+  volume.SetTransferFunction(scene.Function);
   const std::size_t pixels = static_cast<std::size_t>(scene.Grid.Width) * scene.Grid.Height;
   std::vector<float> colors(4 * pixels);
   std::vector<float> depths(pixels);
   const RayCastStatistics statistics =
-    caster.Cast(scene.Grid, scene.Limits, RayCastOptions(), colors, depths);
+    CastRays(volume, scene.Grid, scene.Limits, RayCastOptions(), colors, depths);
 
   const ReferenceMesh reference{ scene.Mesh.Points, scene.Mesh.Cells, scene.Scalars,
     scene.CellScalars };

@@ -124,9 +124,9 @@ void CastBall(benchmark::State& state, std::int64_t size, const CastKind& kind)
 {
   const GeneratedMesh& ball = GetBall(size);
   const auto mesh = std::make_shared<WalkMesh>(ball.Mesh);
-  RayCaster caster;
-  caster.SetMesh(mesh);
-  caster.SetTransferFunction(MakeFunction(ball.Scalars));
+  VolumeScene volume;
+  volume.SetMesh(mesh);
+  volume.SetTransferFunction(MakeFunction(ball.Scalars));
   std::vector<double> scalars;
   if (kind.CellScalars)
   {
@@ -134,7 +134,7 @@ void CastBall(benchmark::State& state, std::int64_t size, const CastKind& kind)
     {
       scalars.push_back(ball.Scalars[ball.Mesh.Cells[4 * cell]]);
     }
-    caster.SetCellScalars(std::move(scalars));
+    volume.SetCellScalars(std::move(scalars));
   }
   else
   {
@@ -142,7 +142,7 @@ void CastBall(benchmark::State& state, std::int64_t size, const CastKind& kind)
     {
       scalars.push_back(ball.Scalars[point]);
     }
-    caster.SetPointScalars(std::move(scalars));
+    volume.SetPointScalars(std::move(scalars));
   }
 
   const RayGrid grid = MakeGrid();
@@ -154,7 +154,7 @@ void CastBall(benchmark::State& state, std::int64_t size, const CastKind& kind)
   RayLimits inFront;
   inFront.Planes = { { 0, 0, 1, -1.5 } }; // nearer to the eye than the ball
   const auto cast = [&](const RayLimits& limits)
-  { return caster.Cast(grid, limits, options, colors, depths); };
+  { return CastRays(volume, grid, limits, options, colors, depths); };
   RayCastStatistics statistics = cast({}); // fills the tables
 
   Stopwatch all;

@@ -44,11 +44,11 @@ std::vector<double> RayScene::MeasureGrazing(
     this->GetLimits(), image, pixels);
 }
 
-RayCaster RayScene::MakeRayCaster() const
+VolumeScene RayScene::MakeVolumeScene() const
 {
-  RayCaster caster;
+  VolumeScene volume;
   const auto walkMesh = std::make_shared<WalkMesh>(this->Mesh);
-  caster.SetMesh(walkMesh);
+  volume.SetMesh(walkMesh);
   const TetrahedralMesh& mesh = walkMesh->GetMesh();
   const auto& originals = this->CellScalars ? mesh.OriginalCells : mesh.OriginalPoints;
   std::vector<double> scalars;
@@ -59,19 +59,19 @@ RayCaster RayScene::MakeRayCaster() const
   }
   if (this->CellScalars)
   {
-    caster.SetCellScalars(std::move(scalars));
+    volume.SetCellScalars(std::move(scalars));
   }
   else
   {
-    caster.SetPointScalars(std::move(scalars));
+    volume.SetPointScalars(std::move(scalars));
   }
-  caster.SetTransferFunction(this->Function);
-  caster.SetOpticalModel(this->Model);
-  caster.SetIsosurfaces(this->Isosurfaces);
-  return caster;
+  volume.SetTransferFunction(this->Function);
+  volume.SetOpticalModel(this->Model);
+  volume.SetIsosurfaces(this->Isosurfaces);
+  return volume;
 }
 
-RayPicture Cast(RayCaster& caster, const RayScene& scene, const RayCastOptions& options)
+RayPicture Cast(VolumeScene& volume, const RayScene& scene, const RayCastOptions& options)
 {
   const std::size_t pixels = static_cast<std::size_t>(scene.Grid.Width) * scene.Grid.Height;
   RayPicture picture;
@@ -82,7 +82,7 @@ RayPicture Cast(RayCaster& caster, const RayScene& scene, const RayCastOptions& 
   lit.Shaded = scene.Shaded;
   lit.Lights = scene.Lights;
   picture.Statistics =
-    caster.Cast(scene.Grid, scene.GetLimits(), lit, picture.Colors, picture.Depths);
+    CastRays(volume, scene.Grid, scene.GetLimits(), lit, picture.Colors, picture.Depths);
   return picture;
 }
 

@@ -36,7 +36,7 @@ struct RayScene
     const ReferenceImage& image, Span<const std::uint8_t> pixels) const;
 
   /// A ray caster with the mesh, the scalars in its order, and what rays gather.
-  RayCaster MakeRayCaster() const;
+  VolumeScene MakeVolumeScene() const;
 };
 
 struct RayPicture
@@ -46,7 +46,7 @@ struct RayPicture
   RayCastStatistics Statistics;
 };
 
-RayPicture Cast(RayCaster& caster, const RayScene& scene, const RayCastOptions& options = {});
+RayPicture Cast(VolumeScene& volume, const RayScene& scene, const RayCastOptions& options = {});
 
 /// A field between 0 and 1 over the box of a mesh, smooth and without symmetry.
 std::vector<double> MakeSmoothField(const TetrahedralMesh& mesh);

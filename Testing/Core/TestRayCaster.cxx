@@ -476,7 +476,7 @@ void CompareWithReference(
   };
   const Version versions[] = { { Precision::Automatic, false }, { Precision::Single, false },
     { Precision::Double, false }, { Precision::Single, true }, { Precision::Double, true } };
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   std::vector<RayPicture> pictures;
   std::vector<std::uint8_t> isOff(pixels, 0);
   for (const Version& version : versions)
@@ -484,7 +484,7 @@ void CompareWithReference(
     RayCastOptions options;
     options.Arithmetic = version.Arithmetic;
     options.PortableKernels = version.Portable;
-    pictures.push_back(Cast(caster, scene, options));
+    pictures.push_back(Cast(volume, scene, options));
     for (std::size_t p = 0; p < pixels; ++p)
     {
       isOff[p] |= GetError(pictures.back(), reference, p) > ErrorGoal;
@@ -501,9 +501,9 @@ void CompareWithReference(
     options.Arithmetic =
       &differences == &kernelDifferences[0] ? Precision::Single : Precision::Double;
     options.MaximumError = 1e-9;
-    const RayPicture fast = Cast(caster, scene, options);
+    const RayPicture fast = Cast(volume, scene, options);
     options.PortableKernels = true;
-    const RayPicture portable = Cast(caster, scene, options);
+    const RayPicture portable = Cast(volume, scene, options);
     geometryError = std::max(geometryError, fast.Statistics.GeometryError);
     for (std::size_t p = 0; p < pixels; ++p)
     {
@@ -726,8 +726,8 @@ TEST(RayCaster, ManyCrossings)
   // A path begins at one crossing and ends at another.
   scene.Grid = MakeTile(scene.Grid, 12, 12, 1, 1);
   scene.Function = MakeConstantFunction(1e-3, { 1, 1, 1 });
-  RayCaster caster = scene.MakeRayCaster();
-  EXPECT_GT(Cast(caster, scene).Statistics.Paths, 32);
+  VolumeScene volume = scene.MakeVolumeScene();
+  EXPECT_GT(Cast(volume, scene).Statistics.Paths, 32);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -812,7 +812,7 @@ TEST(RayCaster, OpticalDepthIsTheLengthOfAnyRay)
   std::mt19937_64 generator(13);
   std::uniform_real_distribution<double> unit(0, 1);
   RayScene scene = MakeConstantCube();
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   double largest[2] = { 0, 0 };
   for (int camera = 0; camera < 12; ++camera)
   {
@@ -829,7 +829,7 @@ TEST(RayCaster, OpticalDepthIsTheLengthOfAnyRay)
     {
       RayCastOptions options;
       options.Arithmetic = precision;
-      const RayPicture picture = Cast(caster, scene, options);
+      const RayPicture picture = Cast(volume, scene, options);
       for (int p = 0; p < 96 * 96; ++p)
       {
         const double error = std::abs(GetLength(picture, p) - GetChord(scene.Grid, p % 96, p / 96));
@@ -854,7 +854,7 @@ TEST(RayCaster, OpticalDepthIsTheLengthOfRaysThroughVerticesEdgesAndFaces)
     RayScene scene = MakeConstantCube();
     scene.Mesh = MakeUnitBox(8, jitter);
     scene.Scalars = MakeSmoothField(scene.Mesh);
-    RayCaster caster = scene.MakeRayCaster();
+    VolumeScene volume = scene.MakeVolumeScene();
     scene.Grid.Width = scene.Grid.Height = 1;
     RayCastOptions options;
     options.NumberOfThreads = 1;
@@ -905,7 +905,7 @@ TEST(RayCaster, OpticalDepthIsTheLengthOfRaysThroughVerticesEdgesAndFaces)
       for (const Precision precision : { Precision::Single, Precision::Double })
       {
         options.Arithmetic = precision;
-        const RayPicture picture = Cast(caster, scene, options);
+        const RayPicture picture = Cast(volume, scene, options);
         ASSERT_NEAR(
           GetLength(picture, 0), GetChord(scene.Grid, 0, 0), GetLengthError(scene.Grid.Direction))
           << "ray " << ray << " from " << eye[0] << " " << eye[1] << " " << eye[2] << " to "
@@ -922,13 +922,13 @@ TEST(RayCaster, WalksThroughAsManyCellsAsTheReferenceFinds)
   scene.Function = MakeConstantFunction(1e-3, { 1, 1, 1 }); // no ray ends early
   const std::int64_t expected = scene.RenderReference().NumberOfSegments;
   ASSERT_GT(expected, 10000);
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   RayCastOptions options;
   options.Arithmetic = Precision::Double;
-  EXPECT_EQ(Cast(caster, scene, options).Statistics.Segments, expected);
+  EXPECT_EQ(Cast(volume, scene, options).Statistics.Segments, expected);
   // Rounded points move rays past edges, but almost never.
   options.Arithmetic = Precision::Single;
-  EXPECT_NEAR(static_cast<double>(Cast(caster, scene, options).Statistics.Segments),
+  EXPECT_NEAR(static_cast<double>(Cast(volume, scene, options).Statistics.Segments),
     static_cast<double>(expected), 1e-3 * static_cast<double>(expected));
 }
 
@@ -947,17 +947,17 @@ TEST(RayCaster, SamePictureForAnyNumberOfThreads)
   for (RayScene scene : { MakeBoxScene(), CellScalars() })
   {
     scene.Grid = LookAtUnitCube(Oblique, 101); // tiles at the borders are partial
-    RayCaster caster = scene.MakeRayCaster();
+    VolumeScene volume = scene.MakeVolumeScene();
     for (const Precision precision : { Precision::Single, Precision::Double })
     {
       RayCastOptions options;
       options.Arithmetic = precision;
       options.NumberOfThreads = 1;
-      const RayPicture expected = Cast(caster, scene, options);
+      const RayPicture expected = Cast(volume, scene, options);
       for (const int threads : { 2, 3, 7 })
       {
         options.NumberOfThreads = threads;
-        const RayPicture picture = Cast(caster, scene, options);
+        const RayPicture picture = Cast(volume, scene, options);
         EXPECT_TRUE(AreIdentical(picture, expected)) << threads << " threads";
         EXPECT_EQ(picture.Statistics.Segments, expected.Statistics.Segments);
         EXPECT_EQ(picture.Statistics.NumberOfThreads, threads);
@@ -969,12 +969,12 @@ TEST(RayCaster, SamePictureForAnyNumberOfThreads)
 TEST(RayCaster, TilesMakeTheSamePictureAsTheWhole)
 {
   RayScene scene = MakeBoxScene();
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   RayCastOptions options;
-  const RayPicture whole = Cast(caster, scene, options);
+  const RayPicture whole = Cast(volume, scene, options);
   RayScene part = scene;
   part.Grid = MakeTile(scene.Grid, 13, 7, 19, 23);
-  const RayPicture tile = Cast(caster, part, options);
+  const RayPicture tile = Cast(volume, part, options);
   for (int y = 0; y < 23; ++y)
   {
     for (int x = 0; x < 19; ++x)
@@ -991,27 +991,27 @@ TEST(RayCaster, TilesMakeTheSamePictureAsTheWhole)
 
 TEST(RayCaster, WhatIsSetAgainReplacesWhatWas)
 {
-  const auto cast = [](RayCaster& caster, const RayScene& scene)
+  const auto cast = [](VolumeScene& volume, const RayScene& scene)
   {
     std::vector<RayPicture> pictures;
     for (const Precision precision : { Precision::Single, Precision::Double, Precision::Single })
     {
       RayCastOptions options;
       options.Arithmetic = precision;
-      pictures.push_back(Cast(caster, scene, options));
+      pictures.push_back(Cast(volume, scene, options));
     }
     EXPECT_TRUE(AreIdentical(pictures[0], pictures[2]));
     return pictures;
   };
   RayScene first = MakeBoxScene();
-  RayCaster caster = first.MakeRayCaster();
-  cast(caster, first);
+  VolumeScene volume = first.MakeVolumeScene();
+  cast(volume, first);
 
   const auto expectFresh = [&](const RayScene& scene, const std::string& what)
   {
-    RayCaster fresh = scene.MakeRayCaster();
+    VolumeScene fresh = scene.MakeVolumeScene();
     const std::vector<RayPicture> expected = cast(fresh, scene);
-    const std::vector<RayPicture> actual = cast(caster, scene);
+    const std::vector<RayPicture> actual = cast(volume, scene);
     for (std::size_t i = 0; i < expected.size(); ++i)
     {
       EXPECT_TRUE(AreIdentical(actual[i], expected[i])) << what << ", picture " << i;
@@ -1028,7 +1028,7 @@ TEST(RayCaster, WhatIsSetAgainReplacesWhatWas)
   };
 
   RayScene scene = Steps(); // another range of nodes
-  caster.SetTransferFunction(scene.Function);
+  volume.SetTransferFunction(scene.Function);
   expectFresh(scene, "transfer function");
 
   for (TransferFunction::Node& node : scene.Function.Nodes)
@@ -1036,23 +1036,23 @@ TEST(RayCaster, WhatIsSetAgainReplacesWhatWas)
     node.Right.Color[0] *= 0.5; // the same range
     node.Right.Attenuation *= 2;
   }
-  caster.SetTransferFunction(scene.Function);
+  volume.SetTransferFunction(scene.Function);
   expectFresh(scene, "values of the transfer function");
 
   for (double& s : scene.Scalars)
   {
     s = 0.8 * s + 0.05;
   }
-  caster.SetPointScalars(inOrder(scene, caster.GetMesh()->GetMesh().OriginalPoints));
+  volume.SetPointScalars(inOrder(scene, volume.GetMesh()->GetMesh().OriginalPoints));
   expectFresh(scene, "point scalars");
 
   const RayScene cells = CellScalars();
   scene.CellScalars = true;
   scene.Scalars = cells.Scalars;
-  caster.SetCellScalars(inOrder(scene, caster.GetMesh()->GetMesh().OriginalCells));
+  volume.SetCellScalars(inOrder(scene, volume.GetMesh()->GetMesh().OriginalCells));
   expectFresh(scene, "cell scalars");
 
-  caster.SetTransferFunction(cells.Function);
+  volume.SetTransferFunction(cells.Function);
   scene.Function = cells.Function;
   expectFresh(scene, "transfer function of cell scalars");
 }
@@ -1061,16 +1061,16 @@ TEST(RayCaster, EndsRaysEarlyWithinTheErrorAskedFor)
 {
   RayScene scene = MakeBoxScene();
   scene.Function = MakeColorfulFunction(60);
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   RayCastOptions options;
   options.Arithmetic = Precision::Double;
   options.MaximumError = 1e-9;
-  const RayPicture exact = Cast(caster, scene, options);
+  const RayPicture exact = Cast(volume, scene, options);
   std::int64_t segments = exact.Statistics.Segments;
   for (const double error : { 1e-4, 1e-2, 0.1 })
   {
     options.MaximumError = error;
-    const RayPicture picture = Cast(caster, scene, options);
+    const RayPicture picture = Cast(volume, scene, options);
     EXPECT_EQ(picture.Statistics.TerminationError, 0.5 * error);
     EXPECT_LE(picture.Statistics.ErrorEstimate, error);
     EXPECT_LT(picture.Statistics.Segments, segments);
@@ -1087,12 +1087,12 @@ TEST(RayCaster, ClearWhereThereIsNothing)
   const auto expectClear = [](const RayScene& scene, const std::string& what)
   {
     SCOPED_TRACE(what);
-    RayCaster caster = scene.MakeRayCaster();
+    VolumeScene volume = scene.MakeVolumeScene();
     for (const Precision precision : { Precision::Single, Precision::Double })
     {
       RayCastOptions options;
       options.Arithmetic = precision;
-      const RayPicture picture = Cast(caster, scene, options);
+      const RayPicture picture = Cast(volume, scene, options);
       EXPECT_TRUE(
         std::all_of(picture.Colors.begin(), picture.Colors.end(), [](float c) { return c == 0; }));
       EXPECT_TRUE(
@@ -1114,7 +1114,7 @@ TEST(RayCaster, ClearWhereThereIsNothing)
   scene = MakeBoxScene(3);
   std::fill(scene.Scalars.begin(), scene.Scalars.end(), NaN);
   expectClear(scene, "no scalars");
-  EXPECT_EQ(scene.MakeRayCaster().GetNumberOfBlankCells(), 3 * 3 * 3 * 5);
+  EXPECT_EQ(scene.MakeVolumeScene().GetNumberOfBlankCells(), 3 * 3 * 3 * 5);
 
   scene = MakeBoxScene(3);
   scene.Grid = LookAtUnitCube({ 3, 2, 2 });
@@ -1135,7 +1135,7 @@ TEST(RayCaster, ProgressIsToldAndAborts)
 {
   RayScene scene = MakeBoxScene(5);
   scene.Grid = LookAtUnitCube(Oblique, 128);
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   RayCastOptions options;
   for (const int threads : { 1, 3 })
   {
@@ -1146,7 +1146,7 @@ TEST(RayCaster, ProgressIsToldAndAborts)
       told.push_back(share);
       return true;
     };
-    EXPECT_FALSE(Cast(caster, scene, options).Statistics.Aborted);
+    EXPECT_FALSE(Cast(volume, scene, options).Statistics.Aborted);
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_TRUE(std::all_of(told.begin(), told.end(), [](double t) { return t > 0 && t <= 1; }));
     ASSERT_FALSE(told.empty());
@@ -1159,25 +1159,25 @@ TEST(RayCaster, ProgressIsToldAndAborts)
     ++calls;
     return false;
   };
-  EXPECT_TRUE(Cast(caster, scene, options).Statistics.Aborted);
+  EXPECT_TRUE(Cast(volume, scene, options).Statistics.Aborted);
   EXPECT_EQ(calls, 1);
 
   // After an abort the next picture is as good as ever.
   options.Progress = nullptr;
-  const RayPicture picture = Cast(caster, scene, options);
+  const RayPicture picture = Cast(volume, scene, options);
   EXPECT_FALSE(picture.Statistics.Aborted);
-  RayCaster fresh = scene.MakeRayCaster();
+  VolumeScene fresh = scene.MakeVolumeScene();
   EXPECT_TRUE(AreIdentical(picture, Cast(fresh, scene, options)));
 }
 
 TEST(RayCaster, ExceptionsOfProgressReachTheCaller)
 {
   const RayScene scene = MakeBoxScene(3);
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   RayCastOptions options;
   options.Progress = [](double) -> bool { throw std::runtime_error("enough"); };
   options.NumberOfThreads = 1;
-  EXPECT_THROW(Cast(caster, scene, options), std::runtime_error);
+  EXPECT_THROW(Cast(volume, scene, options), std::runtime_error);
 }
 
 std::string GetError(const std::function<void()>& call)
@@ -1196,30 +1196,30 @@ std::string GetError(const std::function<void()>& call)
 TEST(RayCaster, RefusesWhatDoesNotFitInOneLine)
 {
   const RayScene scene = MakeBoxScene(3);
-  RayCaster caster = scene.MakeRayCaster();
-  const std::size_t points = caster.GetMesh()->GetMesh().GetNumberOfPoints();
+  VolumeScene volume = scene.MakeVolumeScene();
+  const std::size_t points = volume.GetMesh()->GetMesh().GetNumberOfPoints();
   ASSERT_EQ(points, 64u);
   EXPECT_EQ(GetError(
               [&] {
-                caster.SetPointScalars({ 1, 2, 3 });
+                volume.SetPointScalars({ 1, 2, 3 });
               }),
     "3 scalars were given for 64 points");
-  EXPECT_EQ(GetError([&] { caster.SetCellScalars(std::vector<double>(64)); }),
+  EXPECT_EQ(GetError([&] { volume.SetCellScalars(std::vector<double>(64)); }),
     "64 scalars were given for 135 cells");
 
   std::vector<float> colors(4 * ImageSize * ImageSize);
   std::vector<float> depths(ImageSize * ImageSize);
-  const auto cast = [&](RayCaster& c) { c.Cast(scene.Grid, {}, {}, colors, depths); };
-  EXPECT_EQ(GetError([&] { cast(caster); }), "no error");
+  const auto cast = [&](VolumeScene& c) { CastRays(c, scene.Grid, {}, {}, colors, depths); };
+  EXPECT_EQ(GetError([&] { cast(volume); }), "no error");
   colors.pop_back();
   const std::string sizes = "the image arrays do not have the size of the ray grid";
-  EXPECT_EQ(GetError([&] { cast(caster); }), sizes);
+  EXPECT_EQ(GetError([&] { cast(volume); }), sizes);
   colors.resize(4 * ImageSize * ImageSize);
   depths.push_back(0);
-  EXPECT_EQ(GetError([&] { cast(caster); }), sizes);
+  EXPECT_EQ(GetError([&] { cast(volume); }), sizes);
   depths.pop_back();
 
-  RayCaster bare;
+  VolumeScene bare;
   EXPECT_EQ(GetError([&] { cast(bare); }),
     "a mesh and a transfer function must be set before rays are cast");
   EXPECT_EQ(

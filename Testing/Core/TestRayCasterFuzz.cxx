@@ -381,11 +381,11 @@ double GetLargestColor(const TransferFunction& function)
 /// Casts the scene and checks what came out; returns the number of pixels that show anything.
 int CheckScene(const RayScene& scene, const RayCastOptions& options)
 {
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   const std::size_t pixels = static_cast<std::size_t>(scene.Grid.Width) * scene.Grid.Height;
   std::vector<float> colors(4 * pixels + 2 * Guard, GuardValue);
   std::vector<float> depths(pixels + 2 * Guard, GuardValue);
-  const RayCastStatistics statistics = caster.Cast(scene.Grid, scene.GetLimits(), options,
+  const RayCastStatistics statistics = CastRays(volume, scene.Grid, scene.GetLimits(), options,
     Span<float>(colors.data() + Guard, 4 * pixels), Span<float>(depths.data() + Guard, pixels));
 
   EXPECT_FALSE(std::isnan(statistics.ErrorEstimate));

@@ -198,7 +198,7 @@ TEST_P(Models, AgreeWithReference)
   }
   ASSERT_GT(covered, pixels / 20) << "a scene without a picture";
 
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   for (const bool portable : { false, true })
   {
     for (const Precision precision : { Precision::Automatic, Precision::Single, Precision::Double })
@@ -206,7 +206,7 @@ TEST_P(Models, AgreeWithReference)
       RayCastOptions options;
       options.PortableKernels = portable;
       options.Arithmetic = precision;
-      const RayPicture picture = Cast(caster, scene, options);
+      const RayPicture picture = Cast(volume, scene, options);
       SCOPED_TRACE((portable ? "portable, " : "") + picture.Statistics.Integration +
         (picture.Statistics.DoublePrecision ? ", double" : ", single"));
 
@@ -273,8 +273,8 @@ TEST(RayCasterModels, ConstantColorIsIntegratedByOpticalDepth)
 {
   const auto getIntegration = [](const RayScene& scene)
   {
-    RayCaster caster = scene.MakeRayCaster();
-    return Cast(caster, scene).Statistics.Integration;
+    VolumeScene volume = scene.MakeVolumeScene();
+    return Cast(volume, scene).Statistics.Integration;
   };
   EXPECT_EQ(getIntegration(MakeScene(Emitter)), "closed form");
   EXPECT_EQ(getIntegration(OneColor(MakeScene(Emitter))), "optical depth");
@@ -293,39 +293,39 @@ TEST(RayCasterModels, SurfacesLeaveCellsOutThatTheyDoNotCross)
 {
   RayScene scene = MakeScene(Surfaces);
   scene.Isosurfaces = { { 0.9, { 1, 1, 1 }, 0.5f } };
-  RayCaster caster = scene.MakeRayCaster();
-  const RayPicture picture = Cast(caster, scene);
+  VolumeScene volume = scene.MakeVolumeScene();
+  const RayPicture picture = Cast(volume, scene);
   EXPECT_GT(picture.Statistics.TransparentCells, 0);
 
   // Other surfaces, other cells.
   scene.Isosurfaces = MakeScene(Surfaces).Isosurfaces;
-  caster.SetIsosurfaces(scene.Isosurfaces);
-  RayCaster fresh = scene.MakeRayCaster();
-  EXPECT_EQ(Cast(caster, scene).Colors, Cast(fresh, scene).Colors);
+  volume.SetIsosurfaces(scene.Isosurfaces);
+  VolumeScene fresh = scene.MakeVolumeScene();
+  EXPECT_EQ(Cast(volume, scene).Colors, Cast(fresh, scene).Colors);
 }
 
 TEST(RayCasterModels, SwitchingModelsLeavesNothingBehind)
 {
   RayScene scene = MakeScene(Emitter);
   scene.Isosurfaces = MakeScene(Surfaces).Isosurfaces;
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   for (const OpticalModel model :
     { Emitter, Surfaces, Largest, Emission, Surfaces, Absorption, Emitter })
   {
     scene.Model = model;
-    caster.SetOpticalModel(model);
-    RayCaster fresh = scene.MakeRayCaster();
-    EXPECT_EQ(Cast(caster, scene).Colors, Cast(fresh, scene).Colors);
+    volume.SetOpticalModel(model);
+    VolumeScene fresh = scene.MakeVolumeScene();
+    EXPECT_EQ(Cast(volume, scene).Colors, Cast(fresh, scene).Colors);
   }
 }
 
 TEST(RayCasterModels, RefusesSurfacesOfCellsAndOfNoNumber)
 {
   RayScene scene = Cells(MakeScene(Surfaces));
-  RayCaster caster = scene.MakeRayCaster();
-  EXPECT_THROW(Cast(caster, scene), std::invalid_argument);
+  VolumeScene volume = scene.MakeVolumeScene();
+  EXPECT_THROW(Cast(volume, scene), std::invalid_argument);
   EXPECT_THROW(
-    caster.SetIsosurfaces({ { std::numeric_limits<double>::quiet_NaN(), { 1, 1, 1 }, 1 } }),
+    volume.SetIsosurfaces({ { std::numeric_limits<double>::quiet_NaN(), { 1, 1, 1 }, 1 } }),
     std::invalid_argument);
 }
 

@@ -57,18 +57,18 @@ class Reentries
 TEST_P(Reentries, SeeTheSame)
 {
   const RayScene scene = MakeScene(GetParam().first, GetParam().second);
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   for (const Precision precision : { Precision::Single, Precision::Double })
   {
     RayCastOptions options;
     options.Arithmetic = precision;
     options.ReentryBy = Reentry::Boundary;
-    const RayPicture boundary = Cast(caster, scene, options);
+    const RayPicture boundary = Cast(volume, scene, options);
     EXPECT_FALSE(boundary.Statistics.ImaginaryCells);
     options.ReentryBy = Reentry::Imaginary;
-    const RayPicture imaginary = Cast(caster, scene, options);
+    const RayPicture imaginary = Cast(volume, scene, options);
     ASSERT_TRUE(imaginary.Statistics.ImaginaryCells)
-      << caster.GetMesh()->GetConvexification()->Refusal;
+      << volume.GetMesh()->GetConvexification()->Refusal;
 
     double largest = 0;
     for (std::size_t i = 0; i < boundary.Colors.size(); ++i)
@@ -106,13 +106,13 @@ TEST(RayCasterReentry, AConvexMeshNeedsNoImaginaryCells)
   scene.Function = MakeColorfulFunction(15);
   scene.Grid =
     MakePerspectiveGrid({ 3.1, 2.2, 2.7 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0.2 }, 30, 32, 32);
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   RayCastOptions options;
-  const RayPicture boundary = Cast(caster, scene, options);
+  const RayPicture boundary = Cast(volume, scene, options);
   options.ReentryBy = Reentry::Imaginary;
-  const RayPicture imaginary = Cast(caster, scene, options);
+  const RayPicture imaginary = Cast(volume, scene, options);
   EXPECT_FALSE(imaginary.Statistics.ImaginaryCells);
-  EXPECT_TRUE(caster.GetMesh()->GetConvexification()->Convex);
+  EXPECT_TRUE(volume.GetMesh()->GetConvexification()->Convex);
   EXPECT_EQ(boundary.Colors, imaginary.Colors);
 }
 
@@ -131,26 +131,26 @@ TEST(RayCasterReentry, AMeshThatCannotBeMadeConvexIsEnteredByItsBoundary)
   scene.Scalars = MakeSmoothField(scene.Mesh);
   scene.Function = MakeColorfulFunction(15);
   scene.Grid = MakePerspectiveGrid({ 3.1, 2.2, 2.7 }, { 1, 1, 1 }, { 0.1, 1, 0.2 }, 40, 32, 32);
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   RayCastOptions options;
-  const RayPicture boundary = Cast(caster, scene, options);
+  const RayPicture boundary = Cast(volume, scene, options);
   options.ReentryBy = Reentry::Imaginary;
-  const RayPicture imaginary = Cast(caster, scene, options);
+  const RayPicture imaginary = Cast(volume, scene, options);
   EXPECT_FALSE(imaginary.Statistics.ImaginaryCells);
-  EXPECT_NE(caster.GetMesh()->GetConvexification()->Refusal, "");
+  EXPECT_NE(volume.GetMesh()->GetConvexification()->Refusal, "");
   EXPECT_EQ(boundary.Colors, imaginary.Colors);
 }
 
 TEST(RayCasterReentry, AbortsWhileImaginaryCellsAreMade)
 {
   RayScene scene = MakeScene("gear", { { "teeth", 12 }, { "across", 3 } });
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   RayCastOptions options;
   options.ReentryBy = Reentry::Imaginary;
   options.Progress = [](double) { return false; };
-  EXPECT_TRUE(Cast(caster, scene, options).Statistics.Aborted);
+  EXPECT_TRUE(Cast(volume, scene, options).Statistics.Aborted);
   options.Progress = nullptr;
-  EXPECT_TRUE(Cast(caster, scene, options).Statistics.ImaginaryCells);
+  EXPECT_TRUE(Cast(volume, scene, options).Statistics.ImaginaryCells);
 }
 
 } // namespace

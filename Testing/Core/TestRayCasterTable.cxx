@@ -21,7 +21,7 @@ namespace
 using namespace tetralux;
 
 /// Lookups of the ray caster and of PreIntegrationTable::Lookup interpolate alike, but the ray
-/// caster's products are rounded once with sums, and scalars and lengths are those of a ray.
+/// volume's products are rounded once with sums, and scalars and lengths are those of a ray.
 constexpr double LookupDifference = 2e-6;
 
 constexpr int ImageSize = 48;
@@ -71,8 +71,8 @@ PreIntegrationSettings MakeSettings(LengthScale scale, ScalarAxis axis, TexelFor
 TEST(RayCasterTable, IsTheClosedFormButForTheErrorOfTheTable)
 {
   const RayScene scene = MakeScene();
-  RayCaster caster = scene.MakeRayCaster();
-  const RayPicture exact = Cast(caster, scene);
+  VolumeScene volume = scene.MakeVolumeScene();
+  const RayPicture exact = Cast(volume, scene);
   for (const LengthScale scale : { LengthScale::Linear, LengthScale::Logarithmic })
   {
     for (const ScalarAxis axis : { ScalarAxis::Uniform, ScalarAxis::Nodes })
@@ -84,7 +84,7 @@ TEST(RayCasterTable, IsTheClosedFormButForTheErrorOfTheTable)
         const PreIntegrationError error = EstimatePreIntegrationError(scene.Function, *table);
         // A ray of this scene crosses at most 40 cells.
         const double bound = GetPictureError(error, std::sqrt(3.), 40);
-        caster.SetTable(table, bound);
+        volume.SetTable(table, bound);
         for (const bool portable : { false, true })
         {
           for (const Precision precision : { Precision::Single, Precision::Double })
@@ -92,7 +92,7 @@ TEST(RayCasterTable, IsTheClosedFormButForTheErrorOfTheTable)
             RayCastOptions options;
             options.Arithmetic = precision;
             options.PortableKernels = portable;
-            const RayPicture picture = Cast(caster, scene, options);
+            const RayPicture picture = Cast(volume, scene, options);
             EXPECT_EQ(picture.Statistics.Integration, "table");
             EXPECT_EQ(picture.Statistics.TableError, bound);
             const double difference = GetLargestDifference(exact.Colors, picture.Colors);
@@ -115,16 +115,16 @@ TEST(RayCasterTable, LooksUpAsTheTableDoes)
   scene.Function = MakeColorfulFunction(20);
   scene.Function.Nodes[4].Right.Attenuation = 2; // a step
   scene.Grid = MakeParallelGrid({ 0.3, 0.3, 5 }, { 0.3, 0.3, 0 }, { 0, 1, 0 }, 0.3, 24, 24);
-  RayCaster caster = scene.MakeRayCaster();
+  VolumeScene volume = scene.MakeVolumeScene();
   for (const LengthScale scale : { LengthScale::Linear, LengthScale::Logarithmic })
   {
     for (const ScalarAxis axis : { ScalarAxis::Uniform, ScalarAxis::Nodes })
     {
       const auto table = MakeTable(scene, MakeSettings(scale, axis, TexelFormat::Float));
-      caster.SetTable(table, 1);
+      volume.SetTable(table, 1);
       RayCastOptions options;
       options.Arithmetic = Precision::Double;
-      const RayPicture picture = Cast(caster, scene, options);
+      const RayPicture picture = Cast(volume, scene, options);
       int covered = 0;
       for (int y = 0; y < 24; ++y)
       {
@@ -160,12 +160,12 @@ TEST(RayCasterTable, LooksUpAsTheTableDoes)
 TEST(RayCasterTable, AnotherTransferFunctionNeedsAnotherTable)
 {
   RayScene scene = MakeScene();
-  RayCaster caster = scene.MakeRayCaster();
-  caster.SetTable(
+  VolumeScene volume = scene.MakeVolumeScene();
+  volume.SetTable(
     MakeTable(scene, MakeSettings(LengthScale::Linear, ScalarAxis::Nodes, TexelFormat::Float)), 1);
-  EXPECT_EQ(Cast(caster, scene).Statistics.Integration, "table");
-  caster.SetTransferFunction(MakeColorfulFunction(5));
-  EXPECT_EQ(Cast(caster, scene).Statistics.Integration, "closed form");
+  EXPECT_EQ(Cast(volume, scene).Statistics.Integration, "table");
+  volume.SetTransferFunction(MakeColorfulFunction(5));
+  EXPECT_EQ(Cast(volume, scene).Statistics.Integration, "closed form");
 }
 
 } // namespace

@@ -208,16 +208,16 @@ TEST(Stability, RayCasterLosesAtMostOneRoundingForEachSegment)
     {
       scalars.push_back(mesh->GetMesh().Points[i]);
     }
-    RayCaster caster;
-    caster.SetMesh(mesh);
-    caster.SetPointScalars(scalars);
+    VolumeScene volume;
+    volume.SetMesh(mesh);
+    volume.SetPointScalars(scalars);
     for (const double depth : { 1e-6, 1e-3, 0.1, 1., 10. })
     {
       const TransferFunction::Value left = { { 1, 0.5, 0 }, depth };
       const TransferFunction::Value right = { { 0.25, 1, 0.75 }, 1.5 * depth };
       TransferFunction function;
       function.Nodes = { { 0, left, left }, { 1, right, right } };
-      caster.SetTransferFunction(function);
+      volume.SetTransferFunction(function);
       RayGrid grid;
       grid.Width = grid.Height = 1;
       grid.Origin[0] = 0.05;
@@ -229,7 +229,7 @@ TEST(Stability, RayCasterLosesAtMostOneRoundingForEachSegment)
       float color[4];
       float first;
       const RayCastStatistics statistics =
-        caster.Cast(grid, RayLimits(), options, Span<float>(color, 4), Span<float>(&first, 1));
+        CastRays(volume, grid, RayLimits(), options, Span<float>(color, 4), Span<float>(&first, 1));
       ASSERT_EQ(statistics.Segments, 3 * layers);
       const double limit = SegmentWeightError + statistics.ErrorEstimate +
         Rounding * static_cast<double>(statistics.Segments);

@@ -111,13 +111,13 @@ TEST(VisibleCells, LeavingTransparentCellsOutChangesNoPixel)
   {
     scalars.push_back(radii[p]);
   }
-  RayCaster caster;
-  caster.SetMesh(mesh);
-  caster.SetPointScalars(scalars);
-  caster.SetTransferFunction(function);
+  VolumeScene volume;
+  volume.SetMesh(mesh);
+  volume.SetPointScalars(scalars);
+  volume.SetTransferFunction(function);
   std::vector<float> colors(4 * 64 * 64), depths(64 * 64);
   const RayCastStatistics statistics =
-    caster.Cast(grid, RayLimits(), RayCastOptions(), colors, depths);
+    CastRays(volume, grid, RayLimits(), RayCastOptions(), colors, depths);
   EXPECT_GT(statistics.TransparentCells, mesh->GetNumberOfCells() / 2);
 
   const ReferenceImage reference =
