@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CellProjection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Volumes below this times the product of three edges are rounding alone.
+constexpr double SmallestRelativeVolume = 1e-15;
+
+/// Slopes of a face in z beyond this belong to one that is seen exactly from the side: no pixel's
+/// centre lies on it. Their products with pixels stay in the range of single precision.
+constexpr double LargestSlope = 1e30;
+
+/// What a face seen from the side has in place of its function: it never limits a ray.
+constexpr float Never = 1e37f;
+
+/// A widened corner may move by this many margins; sharper ones get a rectangle around all.
+constexpr double LongestMiter = 64;
+
+/// Corners farther from the picture than this, in pixels, would cost a rasteriser its accuracy.
+constexpr double LargestPosition = 16384;
+
+struct Vector
+{
+  double X, Y, Z;
+};
+
+Vector operator-(const Vector& a, const Vector& b) { return { a.X - b.X, a.Y - b.Y, a.Z - b.Z }; }
+
+double Dot(const Vector& a, const Vector& b) { return a.X * b.X + a.Y * b.Y + a.Z * b.Z; }
+
+Vector Cross(const Vector& a, const Vector& b)
+{
+  return { a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X };
+}
+
+/// A linear function of the pixel, relative to a cell's reference.
+struct Linear
+{
+  double Value, SlopeX, SlopeY;
+};
+
+Linear operator-(const Linear& a, const Linear& b)
+{
+  return { a.Value - b.Value, a.SlopeX - b.SlopeX, a.SlopeY - b.SlopeY };
+}
+
+void Store(const Linear& f, double factor, float result[3])
+{
+  result[0] = static_cast<float>(factor * f.Value);
+  result[1] = static_cast<float>(factor * f.SlopeX);
+  result[2] = static_cast<float>(factor * f.SlopeY);
+}
+
+struct Place
+{
+  double X, Y;
+};
+
+/// The smallest rectangle of pixels, not rounded, around some places.
+struct Box
+{
+  double Lo[2] = { std::numeric_limits<double>::max(), std::numeric_limits<double>::max() };
+  double Hi[2] = { std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest() };
+
+  void Add(double x, double y)
+  {
+    this->Lo[0] = std::min(this->Lo[0], x);
+    this->Lo[1] = std::min(this->Lo[1], y);
+    this->Hi[0] = std::max(this->Hi[0], x);
+    this->Hi[1] = std::max(this->Hi[1], y);
+  }
+
+  /// Cuts off what is beyond the picture; false where no pixel's centre is left.
+  bool Clamp(const ProjectionSettings& settings)
+  {
+    const double size[2] = { static_cast<double>(settings.Width),
+      static_cast<double>(settings.Height) };
+    for (int a = 0; a < 2; ++a)
+    {
+      this->Lo[a] = std::max(this->Lo[a], -1.);
+      this->Hi[a] = std::min(this->Hi[a], size[a]);
+      if (!(std::ceil(this->Lo[a] - settings.Margin) <= std::floor(this->Hi[a] + settings.Margin)))
+      {
+        return false;
+      }
+    }
+    return this->Lo[0] < size[0] && this->Lo[1] < size[1] && this->Hi[0] > -1 && this->Hi[1] > -1;
+  }
+};
+
+/// Places of the part of a cell that is in front of the eye: its corners, and where its edges come
+/// from behind.
+Box FindBox(const ScreenFrame& frame, const ScreenPoint* const points[4])
+{
+  Box box;
+  for (int i = 0; i < 4; ++i)
+  {
+    const ScreenPoint& a = *points[i];
+    if (frame.IsInFront(a))
+    {
+      box.Add(a.X, a.Y);
+      continue;
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      const ScreenPoint& b = *points[k];
+      if (frame.IsInFront(b))
+      {
+        const double t = (ScreenFrame::SmallestDepth - a.Depth) / (b.Depth - a.Depth);
+        const double x = a.X + t * (b.X * b.Depth - a.X);
+        const double y = a.Y + t * (b.Y * b.Depth - a.Y);
+        box.Add(x / ScreenFrame::SmallestDepth, y / ScreenFrame::SmallestDepth);
+      }
+    }
+  }
+  return box;
+}
+
+/// A convex polygon, each edge moved outwards; false where a corner is too sharp for that.
+bool Widen(Place* corners, int n, double margin)
+{
+  double area = 0;
+  for (int k = 0; k < n; ++k)
+  {
+    const Place& a = corners[k];
+    const Place& b = corners[(k + 1) % n];
+    area +=
+      (a.X - corners[0].X) * (b.Y - corners[0].Y) - (a.Y - corners[0].Y) * (b.X - corners[0].X);
+  }
+  Place normals[4]; // of the edge from each corner on, outwards
+  for (int k = 0; k < n; ++k)
+  {
+    const double dx = corners[(k + 1) % n].X - corners[k].X;
+    const double dy = corners[(k + 1) % n].Y - corners[k].Y;
+    const double scale = (area < 0 ? -1 : 1) / std::sqrt(dx * dx + dy * dy);
+    normals[k] = { dy * scale, -dx * scale };
+  }
+  for (int k = 0; k < n; ++k)
+  {
+    const Place& before = normals[(k + n - 1) % n];
+    const Place& after = normals[k];
+    const double sum = 1 + before.X * after.X + before.Y * after.Y; // 2 cos^2 of half the angle
+    if (!(sum >= 2 / (LongestMiter * LongestMiter)))
+    {
+      return false;
+    }
+    corners[k].X += margin * (before.X + after.X) / sum;
+    corners[k].Y += margin * (before.Y + after.Y) / sum;
+  }
+  return true;
+}
+
+/// A rectangle around all points, along the longest edge between them.
+void FindRectangle(const ScreenPoint* const points[4], double margin, Place corners[4])
+{
+  double longest = 0;
+  Place along = { 1, 0 };
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int k = 0; k < i; ++k)
+    {
+      const double dx = points[i]->X - points[k]->X;
+      const double dy = points[i]->Y - points[k]->Y;
+      const double length = std::sqrt(dx * dx + dy * dy);
+      if (length > longest)
+      {
+        longest = length;
+        along = { dx / length, dy / length };
+      }
+    }
+  }
+  Box box; // along and across
+  for (int i = 0; i < 4; ++i)
+  {
+    const double dx = points[i]->X - points[0]->X;
+    const double dy = points[i]->Y - points[0]->Y;
+    box.Add(dx * along.X + dy * along.Y, dy * along.X - dx * along.Y);
+  }
+  for (int k = 0; k < 4; ++k)
+  {
+    const double u = k == 0 || k == 3 ? box.Lo[0] - margin : box.Hi[0] + margin;
+    const double v = k < 2 ? box.Lo[1] - margin : box.Hi[1] + margin;
+    corners[k] = { points[0]->X + u * along.X - v * along.Y,
+      points[0]->Y + u * along.Y + v * along.X };
+  }
+}
+
+/// The silhouette by the classes of the paper's figure 1. front: of each face, opposite to the point
+/// of that number. Returns its number of corners, 0 where it is of no class.
+int FindSilhouette(const ScreenPoint* const points[4], const bool front[4], Place corners[4])
+{
+  const int fronts = front[0] + front[1] + front[2] + front[3];
+  int order[4];
+  int n = 0;
+  if (fronts == 1 || fronts == 3)
+  {
+    // Class 1: the triangle of the one face that looks the other way.
+    for (int i = 0; i < 4; ++i)
+    {
+      if (front[i] != (fronts == 1))
+      {
+        order[n++] = i;
+      }
+    }
+  }
+  else if (fronts == 2)
+  {
+    // Class 2: the edge between the front faces joins the points that back faces are opposite to,
+    // and crosses the edge between the back faces.
+    int first = 0;
+    int second = 1;
+    for (int i = 0; i < 4; ++i)
+    {
+      if (front[i])
+      {
+        order[first] = i;
+        first += 2;
+      }
+      else
+      {
+        order[second] = i;
+        second += 2;
+      }
+    }
+    n = 4;
+  }
+  for (int k = 0; k < n; ++k)
+  {
+    corners[k] = { points[order[k]]->X, points[order[k]]->Y };
+  }
+  return n;
+}
+
+/// The tetrahedron whose faces and field become linear functions of the pixel, relative to a
+/// reference pixel: of (x t, y t, t) with the eye in the origin, or of (x, y, t).
+class LocalCell
+{
+public:
+  LocalCell(const ScreenFrame& frame, const ScreenPoint* const points[4], bool homogeneous,
+    double referenceX, double referenceY)
+    : Homogeneous(homogeneous)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const ScreenPoint& p = *points[i];
+      const double x = p.X - referenceX;
+      const double y = p.Y - referenceY;
+      if (!homogeneous)
+      {
+        this->Points[i] = { x, y, p.Depth };
+      }
+      else if (frame.IsInFront(p))
+      {
+        this->Points[i] = { x * p.Depth, y * p.Depth, p.Depth };
+      }
+      else
+      {
+        this->Points[i] = { p.X - referenceX * p.Depth, p.Y - referenceY * p.Depth, p.Depth };
+      }
+    }
+    const Vector a = this->Points[1] - this->Points[0];
+    const Vector b = this->Points[2] - this->Points[0];
+    const Vector c = this->Points[3] - this->Points[0];
+    this->Normals[1] = Cross(b, c);
+    this->Normals[2] = Cross(c, a);
+    this->Normals[3] = Cross(a, b);
+    this->Volume = Dot(this->Normals[1], a);
+    this->HasVolume = std::abs(this->Volume) >
+      SmallestRelativeVolume * std::sqrt(Dot(a, a) * Dot(b, b) * Dot(c, c));
+    Vector& rest = this->Normals[0];
+    rest = { 0, 0, 0 };
+    this->Heights[0] = -this->Volume;
+    for (int i = 1; i < 4; ++i)
+    {
+      const Vector& normal = this->Normals[i];
+      rest = rest - normal;
+      this->Heights[i] = Dot(normal, this->Points[0]);
+      this->Heights[0] -= this->Heights[i];
+    }
+  }
+
+  /// Whether there is anything inside, beyond rounding.
+  bool HasVolume;
+
+  /// z on a face, and whether rays enter by it; false where it is seen from the side.
+  bool FindFace(int i, Linear& face, bool& front) const
+  {
+    const Vector& normal = this->Normals[i];
+    if (this->Homogeneous)
+    {
+      const double height = this->Heights[i];
+      face = { normal.Z / height, normal.X / height, normal.Y / height };
+      front = (height > 0) == (this->Volume > 0);
+    }
+    else
+    {
+      face = { -this->Heights[i] / normal.Z, normal.X / normal.Z, normal.Y / normal.Z };
+      front = (normal.Z > 0) == (this->Volume > 0);
+    }
+    return std::abs(face.Value) + std::abs(face.SlopeX) + std::abs(face.SlopeY) <= LargestSlope;
+  }
+
+  /// The scalar at z = base + something, times z where homogeneous, on base and for something.
+  void FindScalar(
+    const ScreenPoint* const points[4], const Linear& base, Linear& scalar, double& slope) const
+  {
+    Vector gradient = { 0, 0, 0 };
+    for (int i = 1; i < 4; ++i)
+    {
+      const double share = (points[i]->Scalar - points[0]->Scalar) / this->Volume;
+      gradient.X += share * this->Normals[i].X;
+      gradient.Y += share * this->Normals[i].Y;
+      gradient.Z += share * this->Normals[i].Z;
+    }
+    const double origin = points[0]->Scalar - Dot(gradient, this->Points[0]);
+    if (this->Homogeneous)
+    {
+      // scalar z = origin z + gradient . (x, y, 1)
+      slope = origin;
+      scalar = { gradient.Z, gradient.X, gradient.Y };
+    }
+    else
+    {
+      // scalar = origin + gradient . (x, y, -z)
+      slope = -gradient.Z;
+      scalar = { origin, gradient.X, gradient.Y };
+    }
+    scalar.Value += slope * base.Value;
+    scalar.SlopeX += slope * base.SlopeX;
+    scalar.SlopeY += slope * base.SlopeY;
+  }
+
+private:
+  bool Homogeneous;
+  Vector Points[4];
+  Vector Normals[4]; ///< of each face, opposite to the point of that number; inwards for Volume > 0
+  double Heights[4]; ///< normal . face
+  double Volume;     ///< six times that of the cell, signed
+};
+
+} // namespace
+
+int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, const ScreenPoint& a,
+  const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d, ProjectedCell& result)
+{
+  const ScreenPoint* const points[4] = { &a, &b, &c, &d };
+  const bool allInFront =
+    frame.IsInFront(a) && frame.IsInFront(b) && frame.IsInFront(c) && frame.IsInFront(d);
+  Box box = FindBox(frame, points);
+  const Box whole = box;
+  if (!box.Clamp(settings) || (!allInFront && !settings.Interpolate))
+  {
+    return 0;
+  }
+  const double referenceX = std::floor(0.5 * (box.Lo[0] + box.Hi[0]));
+  const double referenceY = std::floor(0.5 * (box.Lo[1] + box.Hi[1]));
+  const LocalCell cell(
+    frame, points, frame.IsPerspective() && settings.Interpolate, referenceX, referenceY);
+  double scalarLo = a.Scalar;
+  double scalarHi = a.Scalar;
+  double scalarSum = 0;
+  for (const ScreenPoint* point : points)
+  {
+    scalarLo = std::min(scalarLo, point->Scalar);
+    scalarHi = std::max(scalarHi, point->Scalar);
+    scalarSum += point->Scalar;
+  }
+  if (!cell.HasVolume || !std::isfinite(scalarSum))
+  {
+    return 0;
+  }
+
+  Linear faces[4];
+  bool seen[4];
+  bool front[4];
+  int base = -1;
+  double leastSlope = std::numeric_limits<double>::max();
+  bool allSeen = true;
+  for (int i = 0; i < 4; ++i)
+  {
+    seen[i] = cell.FindFace(i, faces[i], front[i]);
+    allSeen = allSeen && seen[i];
+    const double slope = faces[i].SlopeX * faces[i].SlopeX + faces[i].SlopeY * faces[i].SlopeY;
+    if (seen[i] && slope < leastSlope)
+    {
+      leastSlope = slope;
+      base = i;
+    }
+  }
+  if (base < 0)
+  {
+    return 0;
+  }
+
+  // The silhouette.
+  Place corners[4];
+  int n = 0;
+  const bool near = allInFront && whole.Lo[0] > -LargestPosition &&
+    whole.Lo[1] > -LargestPosition && whole.Hi[0] < LargestPosition &&
+    whole.Hi[1] < LargestPosition;
+  if (near && allSeen)
+  {
+    n = FindSilhouette(points, front, corners);
+  }
+  if (n == 0 || !Widen(corners, n, settings.Margin))
+  {
+    n = 4;
+    if (near)
+    {
+      FindRectangle(points, settings.Margin, corners);
+    }
+    else
+    {
+      const double m = settings.Margin;
+      corners[0] = { box.Lo[0] - m, box.Lo[1] - m };
+      corners[1] = { box.Hi[0] + m, box.Lo[1] - m };
+      corners[2] = { box.Hi[0] + m, box.Hi[1] + m };
+      corners[3] = { box.Lo[0] - m, box.Hi[1] + m };
+    }
+  }
+  constexpr double Half = 0.5; // from pixels to the coordinates of gl_FragCoord
+  const auto place = [&](int k, float& x, float& y)
+  {
+    x = static_cast<float>(corners[k].X + Half);
+    y = static_cast<float>(corners[k].Y + Half);
+  };
+  place(0, result.First.X, result.First.Y);
+  place(1, result.Second.X, result.Second.Y);
+  place(2, result.Third.X, result.Third.Y);
+  place(n == 4 ? 3 : 0, result.Fourth.X, result.Fourth.Y);
+
+  // The faces, those of the side of the base first.
+  const double sign = front[base] ? 1 : -1;
+  float* slots[3] = { result.First.Face0, result.Second.Face1, result.Second.Face2 };
+  int entries = 0;
+  int exits = 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    if (i != base)
+    {
+      const bool entry = front[i] == front[base];
+      float* slot = entry ? slots[entries++] : slots[2 - exits++];
+      if (seen[i])
+      {
+        Store(faces[i] - faces[base], sign, slot);
+      }
+      else
+      {
+        slot[0] = entry ? Never : -Never;
+        slot[1] = slot[2] = 0;
+      }
+    }
+  }
+  Store(faces[base], 1, result.First.Base);
+
+  Linear scalar;
+  double slope;
+  cell.FindScalar(points, faces[base], scalar, slope);
+  Store(scalar, 1, result.Third.Scalar);
+  result.Third.ScalarSlope = static_cast<float>(sign * slope);
+  result.Third.ScalarRange[0] = static_cast<float>(scalarLo);
+  result.Third.ScalarRange[1] = static_cast<float>(scalarHi);
+  result.Fourth.Reference[0] = static_cast<float>(referenceX + Half);
+  result.Fourth.Reference[1] = static_cast<float>(referenceY + Half);
+  result.Fourth.Code = static_cast<float>(entries + (sign < 0 ? 4 : 0));
+  return n;
+}
+
+} // namespace tetralux
