@@ -8,10 +8,12 @@
 namespace tetralux
 {
 
-/// The signs of the two determinants, exact for any finite coordinates: by CGAL, where rounding
+/// The signs of the three determinants, exact for any finite coordinates: by CGAL, where rounding
 /// leaves them open.
 int GetExactOrientation(const double* a, const double* b, const double* c, const double* d);
 int GetExactOrientation(double ax, double ay, double bx, double by, double cx, double cy);
+int GetExactDirectionTurn(
+  const double* a, const double* b, const double* c, const double* direction);
 
 /// Above these nothing that matters was lost to underflow.
 constexpr double SmallestSafeVolume = 1e-270;
@@ -47,6 +49,33 @@ inline int GetOrientation(const double* a, const double* b, const double* c, con
     return -1;
   }
   return GetExactOrientation(a, b, c, d);
+}
+
+/// 1 where a, b, c run counter-clockwise as seen along the direction by a viewer that is far away, -1
+/// where clockwise, 0 where their plane is parallel to it.
+inline int GetDirectionTurn(
+  const double* a, const double* b, const double* c, const double* direction)
+{
+  // As above, of the rows b - a, c - a and the direction; that one is not rounded, which leaves less
+  // of an error than the bound says.
+  constexpr double epsilon = 1.1102230246251565e-16;
+  constexpr double errorBound = (7 + 56 * epsilon) * epsilon;
+  const double bax = b[0] - a[0], bay = b[1] - a[1], baz = b[2] - a[2];
+  const double cax = c[0] - a[0], cay = c[1] - a[1], caz = c[2] - a[2];
+  const double baycaz = bay * caz, bazcay = baz * cay;
+  const double bazcax = baz * cax, baxcaz = bax * caz;
+  const double baxcay = bax * cay, baycax = bay * cax;
+  const double determinant = direction[0] * (baycaz - bazcay) + direction[1] * (bazcax - baxcaz) +
+    direction[2] * (baxcay - baycax);
+  const double permanent = (std::abs(baycaz) + std::abs(bazcay)) * std::abs(direction[0]) +
+    (std::abs(bazcax) + std::abs(baxcaz)) * std::abs(direction[1]) +
+    (std::abs(baxcay) + std::abs(baycax)) * std::abs(direction[2]);
+  const double bound = errorBound * permanent + SmallestSafeVolume;
+  if (permanent <= 1e300 && std::abs(determinant) > bound)
+  {
+    return determinant < 0 ? 1 : -1;
+  }
+  return GetExactDirectionTurn(a, b, c, direction);
 }
 
 /// The points of a triangulation, by their ids.
