@@ -146,6 +146,7 @@ void VolumeScene::SetTable(std::shared_ptr<const PreIntegrationTable> table, dou
   this->Table = std::move(table);
   this->TableError = pictureError;
   this->Texels.clear();
+  ++this->TableVersion;
 }
 
 const float* VolumeScene::GetFloatTexels()
@@ -315,6 +316,7 @@ const std::vector<CellValue>& VolumeScene::GetCellValues()
     this->CellValues[t] = value;
   }
   this->CellValuesValid = true;
+  ++this->CellValuesVersion;
   return this->CellValues;
 }
 

@@ -59,6 +59,13 @@ public:
   /// and after SetTransferFunction.
   void SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError);
   const PreIntegrationTable* GetTable() const { return this->Table.get(); }
+
+  /// Counts the changes of what GetTable and GetCellValues return, for copies of it.
+  ///@{
+  std::uint64_t GetTableVersion() const { return this->TableVersion; }
+  std::uint64_t GetCellValuesVersion() const { return this->CellValuesVersion; }
+  ///@}
+
   double GetTableError() const { return this->TableError; }
 
   /// The texels of the table in single precision, as PreIntegrationTable has them; nullptr without a
@@ -150,6 +157,8 @@ private:
   std::int64_t NumberOfTransparentCells = 0;
   ScalarMap FloatScalars, DoubleScalars; ///< of the mesh's tables
   std::uint64_t PointsVersion = 0;
+  std::uint64_t TableVersion = 0;
+  std::uint64_t CellValuesVersion = 0;
   bool CellValuesValid = false;
   bool PlanValid = false;
   bool VisibleCellsValid = false;

@@ -24,13 +24,37 @@ ImageCompositor::~ImageCompositor() { this->ReleaseGraphicsResources(this->Windo
 void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
   const float* colors, int width, int height)
 {
+  this->SetWindow(window);
+  {
+    const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
+    this->Texture->SetContext(window);
+    this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
+    this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
+    if (!this->Texture->Create2DFromRaw(
+          width, height, 4, VTK_FLOAT, const_cast<float*>(colors))) // only read
+    {
+      throw std::runtime_error("no texture of " + std::to_string(width) + " x " +
+        std::to_string(height) + " floating point pixels could be made");
+    }
+    this->Texture->Deactivate();
+  }
+  this->Composite(window, rectangle, this->Texture);
+}
+
+void ImageCompositor::SetWindow(vtkOpenGLRenderWindow* window)
+{
   if (this->Window != window)
   {
     this->ReleaseGraphicsResources(this->Window);
     this->Quad.reset(); // also where the last window is no more
     this->Window = window;
   }
+}
 
+void ImageCompositor::Composite(
+  vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle, vtkTextureObject* picture)
+{
+  this->SetWindow(window);
   vtkOpenGLState* state = window->GetState();
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
@@ -39,6 +63,7 @@ void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectan
   const vtkOpenGLState::ScopedglDepthMask depthMask(state);
   const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
   const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglActiveTexture unit(state);
   state->vtkglEnable(GL_BLEND);
   state->vtkglDisable(GL_DEPTH_TEST);
   state->vtkglDisable(GL_CULL_FACE);
@@ -47,20 +72,11 @@ void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectan
   state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   state->vtkglViewport(rectangle.X, rectangle.Y, rectangle.Width, rectangle.Height);
 
-  const int filter = width == rectangle.Width && height == rectangle.Height
-    ? vtkTextureObject::Nearest
-    : vtkTextureObject::Linear;
-  this->Texture->SetContext(window);
-  this->Texture->SetMinificationFilter(filter);
-  this->Texture->SetMagnificationFilter(filter);
-  this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
-  this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  if (!this->Texture->Create2DFromRaw(
-        width, height, 4, VTK_FLOAT, const_cast<float*>(colors))) // only read
-  {
-    throw std::runtime_error("no texture of " + std::to_string(width) + " x " +
-      std::to_string(height) + " floating point pixels could be made");
-  }
+  const bool sameSize = static_cast<int>(picture->GetWidth()) == rectangle.Width &&
+    static_cast<int>(picture->GetHeight()) == rectangle.Height;
+  const int filter = sameSize ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+  picture->SetMinificationFilter(filter);
+  picture->SetMagnificationFilter(filter);
 
   if (!this->Quad)
   {
@@ -71,10 +87,10 @@ void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectan
     this->Quad.reset();
     throw std::runtime_error("the shader program that composites the picture did not compile");
   }
-  this->Texture->Activate();
-  this->Quad->Program->SetUniformi("image", this->Texture->GetTextureUnit());
+  picture->Activate();
+  this->Quad->Program->SetUniformi("image", picture->GetTextureUnit());
   this->Quad->Render();
-  this->Texture->Deactivate();
+  picture->Deactivate();
 }
 
 void ImageCompositor::ReleaseGraphicsResources(vtkWindow* window)

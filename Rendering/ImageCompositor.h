@@ -3,6 +3,7 @@
 #define tetralux_ImageCompositor_h
 
 #include "CameraRays.h"
+#include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"
 #include "vtkWeakPointer.h"
@@ -19,7 +20,7 @@ namespace tetralux
 
 /// Blends a float picture over what a window's frame buffer shows. Holds graphics resources of one
 /// window at a time, the last one.
-class ImageCompositor
+class TETRALUXRENDERING_EXPORT ImageCompositor
 {
 public:
   ImageCompositor();
@@ -27,16 +28,24 @@ public:
   ImageCompositor(const ImageCompositor&) = delete;
   ImageCompositor& operator=(const ImageCompositor&) = delete;
 
-  /// colors: width x height x 4 floats, premultiplied, lower row first, stretched over the
-  /// rectangle with linear interpolation where the sizes differ. Leaves OpenGL's state as it was.
-  /// Throws std::runtime_error, with one line, where there is no shader program or no texture.
+  /// A premultiplied picture, stretched over the rectangle with linear interpolation where the sizes
+  /// differ, into the frame buffer that is bound for drawing. Leaves OpenGL's state as it was. Throws
+  /// std::runtime_error, with one line, where there is no shader program or no texture.
+  ///@{
+  /// colors: width x height x 4 floats, lower row first.
   void Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
     const float* colors, int width, int height);
+  /// picture: of that window; its filters are set.
+  void Composite(
+    vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle, vtkTextureObject* picture);
+  ///@}
 
   /// window: the one that goes away.
   void ReleaseGraphicsResources(vtkWindow* window);
 
 private:
+  void SetWindow(vtkOpenGLRenderWindow* window);
+
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkNew<vtkTextureObject> Texture;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;

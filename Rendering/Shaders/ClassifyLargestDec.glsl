@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Premultiplied colour and opacity of the largest scalar along a ray; at a step the value from
+// larger scalars. Nothing where the ray met none: below -LargestScalar, or not a number.
+
+// Mapped scalars are within -LargestScalar..LargestScalar.
+const float LargestScalar = 1e30;
+
+vec4 ClassifyLargest(float largest)
+{
+  if (isnan(largest) || largest < -LargestScalar)
+  {
+    return vec4(0.0);
+  }
+  int interval = FindTransferInterval(largest, false);
+  vec4 bounds = texelFetch(transferIntervals, 3 * interval);
+  vec4 slopeColor = texelFetch(transferIntervals, 3 * interval + 1);
+  vec3 colorSlope = texelFetch(transferIntervals, 3 * interval + 2).xyz;
+  float x = largest - bounds.z;
+  float opacity = clamp(bounds.w + slopeColor.x * x, 0.0, 1.0);
+  return opacity * vec4(slopeColor.yzw + colorSlope * x, 1.0);
+}

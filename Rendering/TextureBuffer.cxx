@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TextureBuffer.h"
+
+#include "vtkOpenGLBufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+#include "vtk_glew.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+/// One of nothing: a texture has to have something.
+constexpr float EmptyTexel[4] = { 0, 0, 0, 0 };
+
+} // namespace
+
+TextureBuffer::TextureBuffer() = default;
+
+TextureBuffer::~TextureBuffer() = default;
+
+void TextureBuffer::Upload(vtkOpenGLRenderWindow* window, const float* texels,
+  std::size_t numberOfTexels, int components, const std::string& what)
+{
+  this->UploadBytes(window, texels, numberOfTexels, components, VTK_FLOAT, what);
+}
+
+void TextureBuffer::Upload(vtkOpenGLRenderWindow* window, const std::int32_t* texels,
+  std::size_t numberOfTexels, int components, const std::string& what)
+{
+  this->UploadBytes(window, texels, numberOfTexels, components, VTK_INT, what);
+}
+
+void TextureBuffer::UploadBytes(vtkOpenGLRenderWindow* window, const void* texels,
+  std::size_t numberOfTexels, int components, int type, const std::string& what)
+{
+  if (this->Texture->GetContext() && this->Texture->GetContext() != window)
+  {
+    this->ReleaseGraphicsResources(this->Texture->GetContext());
+  }
+  if (numberOfTexels == 0)
+  {
+    texels = EmptyTexel;
+    numberOfTexels = 1;
+  }
+  vtkOpenGLState* state = window->GetState();
+  int largest = 0;
+  state->vtkglGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
+  if (numberOfTexels > static_cast<std::size_t>(std::max(largest, 0)))
+  {
+    throw std::runtime_error(what + " takes " + std::to_string(numberOfTexels) +
+      " texels, and buffer textures of this graphics card have " + std::to_string(largest) +
+      " at most");
+  }
+  // Both types have four bytes.
+  const std::size_t values = numberOfTexels * components;
+  const std::size_t bytes = values * sizeof(float);
+  this->Bytes = 0;
+  while (glGetError() != GL_NO_ERROR) // of others
+  {
+  }
+  const vtkOpenGLState::ScopedglActiveTexture unit(state);
+  const bool uploaded = this->Buffer->Upload(
+    static_cast<const float*>(texels), values, vtkOpenGLBufferObject::TextureBuffer);
+  const bool outOfMemory = glGetError() != GL_NO_ERROR;
+  this->Buffer->Release();
+  this->Texture->SetContext(window);
+  if (!uploaded || outOfMemory ||
+    !this->Texture->CreateTextureBuffer(
+      static_cast<unsigned int>(numberOfTexels), components, type, this->Buffer))
+  {
+    throw std::runtime_error(
+      "the graphics card has no memory for the " + std::to_string(bytes) + " bytes of " + what);
+  }
+  this->Texture->Deactivate();
+  this->Bytes = bytes;
+}
+
+void TextureBuffer::Activate(vtkShaderProgram* program, const char* sampler)
+{
+  const vtkOpenGLState::ScopedglActiveTexture unit(this->Texture->GetContext()->GetState());
+  this->Texture->Activate();
+  program->SetUniformi(sampler, this->Texture->GetTextureUnit());
+}
+
+void TextureBuffer::Deactivate()
+{
+  if (this->Texture->GetContext())
+  {
+    const vtkOpenGLState::ScopedglActiveTexture unit(this->Texture->GetContext()->GetState());
+    this->Texture->Deactivate();
+  }
+}
+
+void TextureBuffer::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (this->Texture->GetContext() == window)
+  {
+    this->Texture->ReleaseGraphicsResources(window);
+    this->Buffer->ReleaseGraphicsResources();
+    this->Bytes = 0;
+  }
+}
+
+} // namespace tetralux
