@@ -158,6 +158,24 @@ void CameraRays::GetDevicePoint(double i, double j, double& x, double& y) const
   y = 2 * pixelY / this->ViewportSize[1] - 1;
 }
 
+CameraRays::DepthPlaces CameraRays::GetDepthPlaces() const
+{
+  double x0, y0, x1, y1;
+  this->GetDevicePoint(0, 0, x0, y0);
+  this->GetDevicePoint(1, 1, x1, y1);
+  // Depth 1 is at z = 1 of device coordinates, depth 0 at z = -1.
+  const Vector4 farthest = Multiply(this->WorldFromDevice, { x0, y0, 1, 1 });
+  const Vector4 stepX = Multiply(this->WorldFromDevice, { x1 - x0, 0, 0, 0 });
+  const Vector4 stepY = Multiply(this->WorldFromDevice, { 0, y1 - y0, 0, 0 });
+  const Vector4 nearer = Multiply(this->WorldFromDevice, { 0, 0, -2, 0 });
+  DepthPlaces places;
+  std::copy(farthest.begin(), farthest.end(), places.Farthest);
+  std::copy(stepX.begin(), stepX.end(), places.FarthestStepX);
+  std::copy(stepY.begin(), stepY.end(), places.FarthestStepY);
+  std::copy(nearer.begin(), nearer.end(), places.Nearer);
+  return places;
+}
+
 void CameraRays::AddClippingRange(RayLimits& limits) const
 {
   // -w <= z <= w of device coordinates.

@@ -4,6 +4,7 @@
 
 #include "RayGrid.h"
 #include "RayLimits.h"
+#include "TetraluxRenderingModule.h"
 
 class vtkRenderer;
 
@@ -22,7 +23,7 @@ struct PixelRectangle
 /// The rays of a renderer's camera through what the window shows of its viewport: any projection
 /// that vtkCamera can make, since they are taken from its matrices. All is computed relative to the
 /// camera's position, so that a scene far from the origin loses no accuracy.
-class CameraRays
+class TETRALUXRENDERING_EXPORT CameraRays
 {
 public:
   /// sampleDistance: pixels from ray to ray. Throws std::invalid_argument, with one line, where the
@@ -42,6 +43,15 @@ public:
   /// Distance in world units from the start of ray (i, j) to where the depth buffer (0..1) has this
   /// value.
   double GetDistance(int i, int j, double depth) const;
+
+  /// What pixels show, as homogeneous world coordinates relative to the camera's position: ray (i, j)
+  /// at depth d is at Farthest + i FarthestStepX + j FarthestStepY + (1 - d) Nearer.
+  struct DepthPlaces
+  {
+    double Farthest[4], FarthestStepX[4], FarthestStepY[4], Nearer[4];
+  };
+  DepthPlaces GetDepthPlaces() const;
+  const double* GetPosition() const { return this->Position; }
 
 private:
   /// Position of a ray in normalized device coordinates.

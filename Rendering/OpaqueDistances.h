@@ -3,6 +3,7 @@
 #define tetralux_OpaqueDistances_h
 
 #include "CameraRays.h"
+#include "TetraluxRenderingModule.h"
 
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace tetralux
 /// For each ray the distance to the opaque geometry that was drawn before, from the depth buffer at
 /// the pixel that the ray goes through; infinite where there is none. Empty where there is none at
 /// all. Throws std::runtime_error where the depth buffer can't be read.
-std::vector<float> ReadOpaqueDistances(vtkRenderer* renderer, const CameraRays& rays);
+TETRALUXRENDERING_EXPORT std::vector<float> ReadOpaqueDistances(
+  vtkRenderer* renderer, const CameraRays& rays);
 
 } // namespace tetralux
 
