@@ -78,7 +78,7 @@ private:
 class VisibilityOrder::Internals
 {
 public:
-  explicit Internals(const WalkMesh& mesh);
+  Internals(const WalkMesh& mesh, bool imaginaryCells);
 
   /// Fills KeyedCells with those that cells(cell) selects, by descending distance.
   template <class Select>
@@ -134,9 +134,9 @@ VisibilityGeometry MakeGeometry(const WalkMesh& mesh, Span<const std::int32_t> i
 } // namespace
 
 //----------------------------------------------------------------------------
-VisibilityOrder::Internals::Internals(const WalkMesh& mesh)
+VisibilityOrder::Internals::Internals(const WalkMesh& mesh, bool imaginaryCells)
   : Mesh(mesh)
-  , ImaginaryCells(SortImaginaryCells(mesh))
+  , ImaginaryCells(imaginaryCells ? SortImaginaryCells(mesh) : std::vector<std::int32_t>())
   , Geometry(MakeGeometry(mesh, this->ImaginaryCells))
   , Arrows(this->Geometry)
 {
@@ -242,8 +242,8 @@ bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, const 
 }
 
 //----------------------------------------------------------------------------
-VisibilityOrder::VisibilityOrder(const WalkMesh& mesh)
-  : Tables(std::make_unique<Internals>(mesh))
+VisibilityOrder::VisibilityOrder(const WalkMesh& mesh, bool imaginaryCells)
+  : Tables(std::make_unique<Internals>(mesh, imaginaryCells))
 {
 }
 
@@ -255,7 +255,8 @@ VisibilityOrder& VisibilityOrder::operator=(VisibilityOrder&&) noexcept = defaul
 bool VisibilityOrder::IsConvex() const
 {
   const Convexification* convex = this->Tables->Mesh.GetConvexification();
-  return convex != nullptr && convex->Refusal.empty();
+  return convex != nullptr && convex->Refusal.empty() &&
+    convex->Cells.size() == this->Tables->ImaginaryCells.size();
 }
 
 //----------------------------------------------------------------------------

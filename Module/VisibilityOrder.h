@@ -76,9 +76,9 @@ struct VisibilityCycles
 class TETRALUXCORE_EXPORT VisibilityOrder
 {
 public:
-  /// Takes the convex tables of the mesh where it has some. The mesh must outlive this, and be made
-  /// convex before. A byte a cell, and a copy of the imaginary cells. Parallel.
-  explicit VisibilityOrder(const WalkMesh& mesh);
+  /// imaginaryCells: whether to use the convex tables of the mesh, where it has some; it must be made
+  /// convex before, and outlive this. A byte a cell, and a copy of the imaginary cells. Parallel.
+  explicit VisibilityOrder(const WalkMesh& mesh, bool imaginaryCells = true);
   ~VisibilityOrder();
   VisibilityOrder(VisibilityOrder&&) noexcept;
   VisibilityOrder& operator=(VisibilityOrder&&) noexcept;
@@ -95,8 +95,8 @@ public:
   /// What kept the last Sort from being right. None by CentroidDistance, which does not look for them.
   const VisibilityCycles& GetCycles() const { return this->Cycles; }
 
-  /// Whether Meshed is exact: the mesh is convex, or was made so. Otherwise, too, it may be; nobody
-  /// knows before the mesh was tried to make convex.
+  /// Whether Meshed is exact: the mesh is convex, or its imaginary cells are used. Nobody knows before
+  /// the mesh was tried to make convex.
   bool IsConvex() const;
 
   std::size_t GetSize() const; ///< bytes of all tables and buffers

@@ -70,6 +70,28 @@ std::array<double, 3> GetDirection(const Vector4& a, const Vector4& b)
 
 } // namespace
 
+std::array<double, 4> FindEye(vtkCamera* camera)
+{
+  double position[3];
+  camera->GetPosition(position);
+  double viewFromWorld[16];
+  double worldFromView[16];
+  double viewFromDevice[16];
+  MakeRelative(camera->GetModelViewTransformMatrix(), position, viewFromWorld);
+  Invert(viewFromWorld, worldFromView);
+  // The same eye for any aspect.
+  Invert(camera->GetProjectionTransformMatrix(1, -1, 1)->GetData(), viewFromDevice);
+  const Vector4 middle = Multiply(worldFromView, Multiply(viewFromDevice, { 0, 0, 0, 1 }));
+  const Vector4 eye = Multiply(worldFromView, Multiply(viewFromDevice, { 0, 0, 1, 0 }));
+  if (std::abs(eye[3]) > SmallestPerspective * std::abs(middle[3]))
+  {
+    return { position[0] + eye[0] / eye[3], position[1] + eye[1] / eye[3],
+      position[2] + eye[2] / eye[3], 1 };
+  }
+  const std::array<double, 3> direction = GetDirection(middle, eye);
+  return { -direction[0], -direction[1], -direction[2], 0 };
+}
+
 CameraRays::CameraRays(vtkRenderer* renderer, double sampleDistance)
 {
   renderer->GetTiledSizeAndOrigin(

@@ -6,10 +6,18 @@
 #include "RayLimits.h"
 #include "TetraluxRenderingModule.h"
 
+#include <array>
+
+class vtkCamera;
 class vtkRenderer;
 
 namespace tetralux
 {
+
+/// Where the rays of a camera come from, in homogeneous coordinates of the world: the last one is 1,
+/// or 0 in a parallel projection, where the others point against the rays. Throws
+/// std::invalid_argument, with one line, where the camera's matrices have no inverse.
+std::array<double, 4> FindEye(vtkCamera* camera);
 
 /// A rectangle of pixels of the window, from its lower left.
 struct PixelRectangle

@@ -190,28 +190,6 @@ TEST(VisibilityOrder, IsExactAtAnOffset)
   }
 }
 
-/// Long tetrahedra around the z axis, each with one end above the next one: seen along z, no order is
-/// right.
-TetrahedralMesh MakeCyclicTetrahedra(int count)
-{
-  TetrahedralMesh mesh;
-  for (int i = 0; i < count; ++i)
-  {
-    const double angle = 6.283185307179586 * i / count;
-    const double c = std::cos(angle), s = std::sin(angle);
-    // Across, along, up.
-    const double corners[4][3] = { { 0.4, -2, -0.5 }, { 0.7, -2, -0.5 }, { 0.4, 2, 0.5 },
-      { 0.55, 2, 0.6 } };
-    for (int corner = 0; corner < 4; ++corner)
-    {
-      const double* x = corners[corner];
-      mesh.Points.insert(mesh.Points.end(), { c * x[0] - s * x[1], s * x[0] + c * x[1], x[2] });
-      mesh.Cells.push_back(4 * i + corner);
-    }
-  }
-  return mesh;
-}
-
 TEST(VisibilityOrder, ReportsCycles)
 {
   WalkMesh mesh(MakeCyclicTetrahedra(3));

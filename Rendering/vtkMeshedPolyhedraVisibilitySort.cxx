@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshedPolyhedraVisibilitySort.h"
+
+#include "CameraRays.h"
+#include "VisibilityOrder.h"
+#include "WalkMesh.h"
+#include "vtkTetrahedraIntake.h"
+
+#include "vtkCamera.h"
+#include "vtkDataSet.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkMeshedPolyhedraVisibilitySort);
+
+struct vtkMeshedPolyhedraVisibilitySort::Internals
+{
+  // What the tables were made of.
+  vtkDataSet* Input = nullptr;
+  vtkMTimeType InputTime = 0;
+  bool Convex = false; ///< whether they have imaginary cells, where there are any
+
+  std::unique_ptr<tetralux::WalkMesh> Mesh;
+  std::unique_ptr<tetralux::VisibilityOrder> Order;
+
+  std::vector<vtkIdType> Sorted; ///< ids of the input
+  std::size_t Next = 0;
+  vtkNew<vtkIdTypeArray> Returned;
+
+  vtkIdType GetInputCell(std::int32_t cell) const
+  {
+    const auto& original = this->Mesh->GetMesh().OriginalCells;
+    return original.empty() ? cell : static_cast<vtkIdType>(original[cell]);
+  }
+};
+
+//----------------------------------------------------------------------------
+vtkMeshedPolyhedraVisibilitySort::vtkMeshedPolyhedraVisibilitySort()
+  : Tables(new Internals)
+{
+}
+
+vtkMeshedPolyhedraVisibilitySort::~vtkMeshedPolyhedraVisibilitySort() = default;
+
+//----------------------------------------------------------------------------
+void vtkMeshedPolyhedraVisibilitySort::UpdateTables()
+{
+  Internals& tables = *this->Tables;
+  const bool convex = this->Order == CONVEXIFIED;
+  const bool current =
+    tables.Mesh && tables.Input == this->Input && tables.InputTime == this->Input->GetMTime();
+  if (current && tables.Order && tables.Convex == convex)
+  {
+    return;
+  }
+  tables.Order.reset();
+  if (!current)
+  {
+    tables.Mesh.reset();
+    tetralux::TetrahedraIntake intake = tetralux::TakeInTetrahedra(this->Input);
+    if (!intake.Error.empty())
+    {
+      throw std::invalid_argument(intake.Error);
+    }
+    const auto& cells = intake.Mesh.OriginalCells;
+    const auto split = std::adjacent_find(cells.begin(), cells.end());
+    if (split != cells.end() || intake.Report.GetNumberOfSkippedCells() > 0)
+    {
+      throw std::invalid_argument(
+        "only tetrahedra can be sorted, which vtkTetrahedraFilter makes of "
+        "other cells: " +
+        (split != cells.end() ? "cell " + std::to_string(*split) + " is none"
+                              : "there are " + intake.Report.DescribeSkippedCells()));
+    }
+    tables.Mesh = std::make_unique<tetralux::WalkMesh>(std::move(intake.Mesh));
+    tables.Input = this->Input;
+    tables.InputTime = this->Input->GetMTime();
+  }
+  if (convex)
+  {
+    tables.Mesh->MakeConvex();
+  }
+  tables.Order = std::make_unique<tetralux::VisibilityOrder>(*tables.Mesh, convex);
+  tables.Convex = convex;
+}
+
+//----------------------------------------------------------------------------
+void vtkMeshedPolyhedraVisibilitySort::Sort()
+{
+  Internals& tables = *this->Tables;
+  // In homogeneous coordinates of the world, then of the input; from +z without a camera.
+  std::array<double, 4> eye = { 0, 0, 1, 0 };
+  if (this->Camera)
+  {
+    eye = tetralux::FindEye(this->Camera);
+  }
+  if (this->ModelTransform)
+  {
+    if (this->ModelTransform->Determinant() == 0)
+    {
+      throw std::invalid_argument("the model transform has no inverse");
+    }
+    this->InverseModelTransform->MultiplyPoint(eye.data(), eye.data());
+  }
+  tetralux::VisibilityView view;
+  view.Parallel = eye[3] == 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    view.Eye[axis] = view.Parallel ? 0 : eye[axis] / eye[3];
+    view.Direction[axis] = -eye[axis];
+  }
+
+  auto method = tetralux::VisibilityMethod::CentroidDistance;
+  this->UsedOrder = this->Order;
+  if (this->Order != CENTROID_DISTANCE)
+  {
+    const bool exact = this->Order == CONVEXIFIED && tables.Order->IsConvex();
+    this->UsedOrder = exact ? CONVEXIFIED : NON_CONVEX;
+    method =
+      exact ? tetralux::VisibilityMethod::Meshed : tetralux::VisibilityMethod::MeshedNonConvex;
+  }
+  const std::vector<std::int32_t>& order = tables.Order->Sort(view, method,
+    this->Direction == FRONT_TO_BACK ? tetralux::VisibilityDirection::FrontToBack
+                                     : tetralux::VisibilityDirection::BackToFront);
+
+  tables.Sorted.resize(order.size());
+  std::transform(order.begin(), order.end(), tables.Sorted.begin(),
+    [&](std::int32_t cell) { return tables.GetInputCell(cell); });
+}
+
+//----------------------------------------------------------------------------
+void vtkMeshedPolyhedraVisibilitySort::InitTraversal()
+{
+  this->Tables->Sorted.clear();
+  this->Tables->Next = 0;
+  if (!this->Input)
+  {
+    vtkErrorMacro("there is no input to sort: SetInput gives one");
+    return;
+  }
+  try
+  {
+    this->UpdateTables();
+    this->Sort();
+    this->LastSortTime.Modified();
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("not enough memory to sort " << this->Input->GetNumberOfCells() << " cells");
+    this->Tables = std::make_unique<Internals>();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    this->Tables->Sorted.clear();
+  }
+}
+
+//----------------------------------------------------------------------------
+vtkIdTypeArray* vtkMeshedPolyhedraVisibilitySort::GetNextCells()
+{
+  Internals& tables = *this->Tables;
+  const std::size_t count = std::min<std::size_t>(
+    tables.Sorted.size() - tables.Next, static_cast<std::size_t>(this->MaxCellsReturned));
+  if (count == 0)
+  {
+    return nullptr;
+  }
+  tables.Returned->SetNumberOfTuples(static_cast<vtkIdType>(count));
+  std::copy_n(tables.Sorted.begin() + static_cast<std::ptrdiff_t>(tables.Next), count,
+    tables.Returned->GetPointer(0));
+  tables.Next += count;
+  return tables.Returned;
+}
+
+//----------------------------------------------------------------------------
+vtkIdType vtkMeshedPolyhedraVisibilitySort::GetNumberOfCycles()
+{
+  const auto& order = this->Tables->Order;
+  return order ? static_cast<vtkIdType>(order->GetCycles().GetNumberOfCycles()) : 0;
+}
+
+//----------------------------------------------------------------------------
+vtkIdType vtkMeshedPolyhedraVisibilitySort::GetNumberOfIgnoredFaces()
+{
+  const auto& order = this->Tables->Order;
+  return order ? static_cast<vtkIdType>(order->GetCycles().IgnoredFaces) : 0;
+}
+
+//----------------------------------------------------------------------------
+double vtkMeshedPolyhedraVisibilitySort::GetIgnoredArea()
+{
+  const auto& order = this->Tables->Order;
+  return order ? order->GetCycles().IgnoredArea : 0;
+}
+
+//----------------------------------------------------------------------------
+void vtkMeshedPolyhedraVisibilitySort::GetCycle(vtkIdType cycle, vtkIdList* cells)
+{
+  cells->Reset();
+  if (cycle < 0 || cycle >= this->GetNumberOfCycles())
+  {
+    vtkErrorMacro("there is no cycle " << cycle << ": there are " << this->GetNumberOfCycles());
+    return;
+  }
+  const tetralux::VisibilityCycles& cycles = this->Tables->Order->GetCycles();
+  for (std::int64_t i = cycles.Begins[cycle]; i < cycles.Begins[cycle + 1]; ++i)
+  {
+    if (cycles.Cells[i] < this->Tables->Mesh->GetNumberOfCells())
+    {
+      cells->InsertNextId(this->Tables->GetInputCell(cycles.Cells[i]));
+    }
+  }
+}
+
+//----------------------------------------------------------------------------
+const char* vtkMeshedPolyhedraVisibilitySort::GetRefusal()
+{
+  const auto& mesh = this->Tables->Mesh;
+  const tetralux::Convexification* convex =
+    mesh && this->Tables->Convex ? mesh->GetConvexification() : nullptr;
+  return convex ? convex->Refusal.c_str() : "";
+}
+
+//----------------------------------------------------------------------------
+void vtkMeshedPolyhedraVisibilitySort::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Order: " << this->Order << "\n";
+  os << indent << "UsedOrder: " << this->UsedOrder << "\n";
+  os << indent << "NumberOfCycles: " << this->GetNumberOfCycles() << "\n";
+  os << indent << "NumberOfIgnoredFaces: " << this->GetNumberOfIgnoredFaces() << "\n";
+  os << indent << "IgnoredArea: " << this->GetIgnoredArea() << "\n";
+  os << indent << "Refusal: " << this->GetRefusal() << "\n";
+}
