@@ -55,7 +55,7 @@ struct KernelInput
   const std::array<float, 2>* SurfaceNeighbors;
   const float* SurfaceColors;    ///< red, green, blue, opacity of each surface, ascending in value
   const KernelTable* Table;      ///< of Integrator::Table
-  const SurfaceShading* Shading; ///< nullptr: flat surfaces
+  const SurfaceShading* Shading; ///< of lit integrators; of isosurfaces nullptr where they are flat
   double DistanceRounding;       ///< what distances along rays may be off by, in world units
 
   // The scene.
@@ -103,12 +103,14 @@ using RayCastKernel = void (*)(
 /// The ways of integrating that there are kernels for, see RayCastModels.h.
 enum class Integrator
 {
-  ClosedForm,   ///< emission and absorption
-  Table,        ///< emission and absorption, scalars at points only
-  OpticalDepth, ///< emission and absorption of a constant colour, or absorption alone
-  Emission,     ///< emission alone
-  Maximum,      ///< the largest scalar
-  Isosurfaces,  ///< scalars at points only
+  ClosedForm,    ///< emission and absorption
+  LitClosedForm, ///< emission and absorption, lit; scalars at points only
+  Table,         ///< emission and absorption, scalars at points only
+  LitTable,      ///< emission and absorption, lit; scalars at points only
+  OpticalDepth,  ///< emission and absorption of a constant colour, or absorption alone
+  Emission,      ///< emission alone
+  Maximum,       ///< the largest scalar
+  Isosurfaces,   ///< scalars at points only
   Count
 };
 

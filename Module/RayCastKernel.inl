@@ -448,7 +448,9 @@ RayCastKernels MakeRayCastKernels()
     kernels.Cells[static_cast<int>(integrator)] = cells;
   };
   set(Integrator::ClosedForm, MakePair<ClosedForm, false>(), MakePair<ClosedForm, true>());
+  set(Integrator::LitClosedForm, MakePair<LitClosedForm, false>(), {});
   set(Integrator::Table, MakePair<Table, false>(), {});
+  set(Integrator::LitTable, MakePair<LitTable, false>(), {});
   set(Integrator::OpticalDepth, MakePair<OpticalDepth, false>(), MakePair<OpticalDepth, true>());
   set(Integrator::Emission, MakePair<Emission, false>(), MakePair<Emission, true>());
   set(Integrator::Maximum, MakePair<Maximum, false>(), MakePair<Maximum, true>());

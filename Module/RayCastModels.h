@@ -46,6 +46,9 @@ TETRALUX_INLINE V ToPrecision(Float8 x)
   }
 }
 
+TETRALUX_INLINE Double8 Widen(Float8 x) { return ToDouble(x); }
+TETRALUX_INLINE Double8 Widen(Double8 x) { return x; }
+
 TETRALUX_INLINE Float8 LoadLanes(const float* p) { return LoadFloat8(p); }
 TETRALUX_INLINE Double8 LoadLanes(const double* p) { return LoadDouble8(p); }
 
@@ -230,19 +233,119 @@ struct FirstContribution
   }
 };
 
-/// The density-emitter model in closed form.
-template <class Real>
-class ClosedForm
+/// Light where the rays of a packet are, ray by ray: lights are many kinds of branches.
+class LaneLights
+{
+public:
+  LaneLights(const WorldRays& rays, Double8 start)
+    : Rays(rays)
+    , Start(start)
+  {
+  }
+
+  /// scale and add: LightFactors of the rays that are valid, in their cells at distance z.
+  template <class V>
+  TETRALUX_NOINLINE void Find(
+    const KernelInput& in, Mask8 valid, Int8 cell, V z, Float8 (&scale)[3], Float8 (&add)[3]) const
+  {
+    std::int32_t cells[Width];
+    double distances[Width], origins[3][Width], directions[3][Width];
+    float scales[3][Width] = {}, adds[3][Width] = {};
+    Store(cells, cell);
+    Store(distances, this->Start + Widen(z));
+    for (int a = 0; a < 3; ++a)
+    {
+      Store(origins[a], this->Rays.Origin[a]);
+      Store(directions[a], this->Rays.Direction[a]);
+    }
+    const unsigned bits = Bits(valid);
+    for (int i = 0; i < Width; ++i)
+    {
+      if (!((bits >> i) & 1u))
+      {
+        continue;
+      }
+      const double direction[3] = { directions[0][i], directions[1][i], directions[2][i] };
+      double position[3];
+      for (int a = 0; a < 3; ++a)
+      {
+        position[a] = origins[a][i] + distances[i] * direction[a];
+      }
+      const LightFactors factors = FindLight(*in.Shading, cells[i], position, direction);
+      for (int a = 0; a < 3; ++a)
+      {
+        scales[a][i] = factors.Scale[a];
+        adds[a][i] = factors.Add[a];
+      }
+    }
+    for (int a = 0; a < 3; ++a)
+    {
+      scale[a] = LoadFloat8(scales[a]);
+      add[a] = LoadFloat8(adds[a]);
+    }
+  }
+
+private:
+  WorldRays Rays;
+  Double8 Start; ///< distance of z = 0 along the rays
+};
+
+/// Radiance of what shines by itself: lights make no difference.
+struct Unlit : Radiance
+{
+  Unlit(const WorldRays&, Double8) {}
+
+  template <class V>
+  TETRALUX_INLINE void Enter(const KernelInput&, Mask8, Int8, V, V)
+  {
+  }
+};
+
+/// Radiance of what lights shine on: those of the middle of what a ray meets of a cell, for all of
+/// it. The gradient is the same anyway, and so are the directions of distant lights and of one at the
+/// viewer. Nothing is clamped, so that what a segment adds stays linear in the light.
+struct Lit : Radiance
+{
+  LaneLights Lights;
+  Float8 Scale[3], More[3];
+
+  Lit(const WorldRays& rays, Double8 start)
+    : Lights(rays, start)
+  {
+  }
+
+  template <class V>
+  TETRALUX_INLINE void Enter(const KernelInput& in, Mask8 valid, Int8 cell, V z0, V z1)
+  {
+    this->Lights.Find(in, valid, cell, z0 + (z1 - z0) * V(0.5f), this->Scale, this->More);
+  }
+
+  TETRALUX_INLINE void Add(Mask8 valid, Float8 red, Float8 green, Float8 blue, Float8 opacity)
+  {
+    this->Radiance::Add(valid, Fma(red, this->Scale[0], opacity * this->More[0]),
+      Fma(green, this->Scale[1], opacity * this->More[1]),
+      Fma(blue, this->Scale[2], opacity * this->More[2]), opacity);
+  }
+};
+
+/// The density-emitter model in closed form. RadianceT: Unlit or Lit.
+template <class Real, class RadianceT>
+class DensityEmitter
 {
 public:
   using V = LanesOfReal<Real>;
   static constexpr bool NeedsLength = true;
   FirstContribution<Real> First;
 
-  ClosedForm(const WorldRays&, Double8) {}
-
-  TETRALUX_INLINE void AddPoints(const KernelInput& in, Mask8 valid, Int8, V z0, V s0, V z1, V s1)
+  DensityEmitter(const WorldRays& rays, Double8 start)
+    : Gathered(rays, start)
   {
+  }
+
+  TETRALUX_INLINE void AddPoints(
+    const KernelInput& in, Mask8 valid, Int8 cell, V z0, V s0, V z1, V s1)
+  {
+    this->Gathered.Enter(in, valid, cell, z0, z1);
     CutAtNodes<Real>(in, this->Interval, valid, z0, s0, z1, s1,
       [this](Mask8 contributes, V z, const Piece& piece)
       {
@@ -274,9 +377,15 @@ public:
   void GetColors(const KernelInput&, ColorsOfLanes& colors) { this->Gathered.GetColors(colors); }
 
 private:
-  Radiance Gathered;
+  RadianceT Gathered;
   Int8 Interval = 0;
 };
+
+template <class Real>
+using ClosedForm = DensityEmitter<Real, Unlit>;
+
+template <class Real>
+using LitClosedForm = DensityEmitter<Real, Lit>;
 
 /// The density-emitter model where the colour is the same wherever there is any attenuation, and
 /// absorption alone: the optical depth of the whole ray decides, in any order.
@@ -483,8 +592,7 @@ public:
   FirstContribution<Real> First;
 
   Isosurfaces(const WorldRays& rays, Double8 start)
-    : Rays(rays)
-    , Start(start)
+    : Lights(rays, start)
   {
   }
 
@@ -578,60 +686,19 @@ private:
     GatherRows(in.SurfaceColors, surface, color[0], color[1], color[2], opacity);
     if (in.Shading)
     {
-      this->Shade(in, lanes, this->WaitingCell, this->WaitingDistance, color);
+      Float8 scale[3], add[3];
+      this->Lights.Find(in, lanes, this->WaitingCell, this->WaitingDistance, scale, add);
+      for (int c = 0; c < 3; ++c)
+      {
+        color[c] = Min(Max(Float8(0.f), Fma(color[c], scale[c], add[c])), Float8(1.f));
+      }
     }
     this->Gathered.Add(lanes, color[0] * opacity, color[1] * opacity, color[2] * opacity, opacity);
     this->First.Add(lanes & (Float8(0.f) < opacity), this->WaitingDistance);
     this->WaitingSurface = Select(lanes, Int8(-1), this->WaitingSurface);
   }
 
-  /// Ray by ray: lights are many kinds of branches.
-  TETRALUX_NOINLINE void Shade(
-    const KernelInput& in, Mask8 valid, Int8 cell, V z, Float8 (&color)[3]) const
-  {
-    std::int32_t cells[Width];
-    Real distances[Width];
-    double starts[Width], origins[3][Width], directions[3][Width];
-    float colors[3][Width];
-    Store(cells, cell);
-    Store(distances, z);
-    Store(starts, this->Start);
-    for (int a = 0; a < 3; ++a)
-    {
-      Store(origins[a], this->Rays.Origin[a]);
-      Store(directions[a], this->Rays.Direction[a]);
-      Store(colors[a], color[a]);
-    }
-    const unsigned bits = Bits(valid);
-    for (int i = 0; i < Width; ++i)
-    {
-      if (!((bits >> i) & 1u))
-      {
-        continue;
-      }
-      const double distance = starts[i] + static_cast<double>(distances[i]);
-      const double direction[3] = { directions[0][i], directions[1][i], directions[2][i] };
-      double position[3];
-      float rgb[3];
-      for (int a = 0; a < 3; ++a)
-      {
-        position[a] = origins[a][i] + distance * direction[a];
-        rgb[a] = colors[a][i];
-      }
-      ShadeSurface(*in.Shading, cells[i], position, direction, rgb);
-      for (int a = 0; a < 3; ++a)
-      {
-        colors[a][i] = rgb[a];
-      }
-    }
-    for (int a = 0; a < 3; ++a)
-    {
-      color[a] = LoadFloat8(colors[a]);
-    }
-  }
-
-  WorldRays Rays;
-  Double8 Start; ///< distance of z = 0 along the rays
+  LaneLights Lights;
   Radiance Gathered;
   Int8 Index = 0;           ///< number of surfaces whose value is at most the last scalar
   Int8 WaitingSurface = -1; ///< of the crossing that waits; -1: none does

@@ -33,17 +33,21 @@ struct TexelPlace
 };
 
 /// Scalars at points; in a cell of constant scalar the closed form costs less than any lookup.
-template <class Real>
-class Table
+template <class Real, class RadianceT>
+class TableLookup
 {
 public:
   using V = LanesOfReal<Real>;
   static constexpr bool NeedsLength = true;
   FirstContribution<Real> First;
 
-  Table(const WorldRays&, Double8) {}
+  TableLookup(const WorldRays& rays, Double8 start)
+    : Gathered(rays, start)
+  {
+  }
 
-  TETRALUX_INLINE void AddPoints(const KernelInput& in, Mask8 valid, Int8, V z0, V s0, V z1, V s1)
+  TETRALUX_INLINE void AddPoints(
+    const KernelInput& in, Mask8 valid, Int8 cell, V z0, V s0, V z1, V s1)
   {
     const V ds = s1 - s0;
     valid = valid & (ds == ds);
@@ -68,6 +72,7 @@ public:
     }
     const std::array<Float8, 4> rgba = Mix(length.Share, slices[0], slices[1]);
     const Mask8 contributes = valid & (Float8(0.f) < rgba[3]);
+    this->Gathered.Enter(in, contributes, cell, z0, z1);
     this->Gathered.Add(contributes, rgba[0], rgba[1], rgba[2], rgba[3]);
     this->First.Add(contributes, z0);
   }
@@ -142,9 +147,15 @@ private:
     return Mix(share, a, b);
   }
 
-  Radiance Gathered;
+  RadianceT Gathered;
   Int8 Interval = 0;
 };
+
+template <class Real>
+using Table = TableLookup<Real, Unlit>;
+
+template <class Real>
+using LitTable = TableLookup<Real, Lit>;
 
 } // namespace
 } // namespace TETRALUX_ISA

@@ -54,11 +54,11 @@ InstructionSet GetInstructionSet(bool portable)
   return { "generic", GetRayCastKernelsGeneric() };
 }
 
-/// The cheapest way of integrating that is exact for the model, or by table, and its name in
-/// statistics.
-Integrator ChooseIntegrator(OpticalModel model, bool constantColor, bool table, std::string& name)
+/// The cheapest way of integrating that is exact for the scene, or by table, and its name in
+/// statistics. lit: emission and absorption, by lights.
+Integrator ChooseIntegrator(VolumeScene& scene, bool lit, std::string& name)
 {
-  switch (model)
+  switch (scene.GetOpticalModel())
   {
     case OpticalModel::EmissionOnly:
       name = "emission";
@@ -75,13 +75,18 @@ Integrator ChooseIntegrator(OpticalModel model, bool constantColor, bool table, 
     case OpticalModel::EmissionAbsorption:
       break;
   }
-  if (constantColor)
+  if (scene.GetPlan().ConstantColor && !lit)
   {
     name = "optical depth";
     return Integrator::OpticalDepth;
   }
-  name = table ? "table" : "closed form";
-  return table ? Integrator::Table : Integrator::ClosedForm;
+  if (scene.GetTable() && !scene.HasCellScalars())
+  {
+    name = "table";
+    return lit ? Integrator::LitTable : Integrator::Table;
+  }
+  name = "closed form";
+  return lit ? Integrator::LitClosedForm : Integrator::ClosedForm;
 }
 
 /// Isosurfaces as the kernels read them.
@@ -106,6 +111,23 @@ struct SurfaceTables
     this->Neighbors.push_back({ below, std::numeric_limits<float>::infinity() });
   }
 };
+
+/// How much brighter than what is lit, at 1 or less, lights may make it; at least 1.
+double GetLargestBrightness(const RayCastOptions& options)
+{
+  double largest = 1;
+  for (int c = 0; c < 3; ++c)
+  {
+    double sum = 0;
+    for (const Light& light : options.Lights)
+    {
+      sum += options.Surface.Ambient * light.Ambient[c] +
+        options.Surface.Diffuse * light.Diffuse[c] + options.Surface.Specular * light.Specular[c];
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
 
 /// A CrossingBuffer that owns its memory.
 struct OwningCrossingBuffer : CrossingBuffer
@@ -171,8 +193,8 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   const WalkMesh& mesh = *scene.GetMesh();
   const OpticalModel model = scene.GetOpticalModel();
   const bool cellData = scene.HasCellScalars();
-  const Integrator integrator = ChooseIntegrator(
-    model, scene.GetPlan().ConstantColor, scene.GetTable() && !cellData, statistics.Integration);
+  const bool lit = options.Shaded && model == OpticalModel::EmissionAbsorption && !cellData;
+  const Integrator integrator = ChooseIntegrator(scene, lit, statistics.Integration);
   const double worldRadius = scene.GetWorldRadius(grid);
   const double geometryError = scene.EstimateGeometryError(worldRadius);
   // Half of the error may come from ending rays early, a quarter from rounding.
@@ -186,7 +208,8 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
     model != OpticalModel::MaximumIntensity && model != OpticalModel::Isosurfaces;
   statistics.IntegralError = hasWeights ? SegmentWeightError : 0;
   statistics.GeometryError = statistics.DoublePrecision ? 0 : geometryError;
-  statistics.TableError = integrator == Integrator::Table ? scene.GetTableError() : 0;
+  const bool tabulated = integrator == Integrator::Table || integrator == Integrator::LitTable;
+  statistics.TableError = tabulated ? scene.GetTableError() : 0;
   statistics.ErrorEstimate = statistics.TerminationError + statistics.IntegralError +
     statistics.TableError + statistics.GeometryError;
 
@@ -225,7 +248,7 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   in.DistanceRounding =
     worldRadius * (statistics.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);
   KernelTable table{};
-  if (integrator == Integrator::Table)
+  if (tabulated)
   {
     const PreIntegrationTable& t = *scene.GetTable();
     table.Texels = scene.GetFloatTexels();
@@ -244,7 +267,8 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   in.CroppingPlanes = limits.Cropping ? limits.CroppingPlanes : nullptr;
   in.CroppingFlags = limits.CroppingFlags;
   in.MaximumDistances = limits.MaximumDistances;
-  in.MaximumOpacity = static_cast<float>(1 - statistics.TerminationError);
+  const double behind = statistics.TerminationError / (lit ? GetLargestBrightness(options) : 1);
+  in.MaximumOpacity = static_cast<float>(1 - behind);
   in.MaximumDepth = static_cast<float>(-std::log(statistics.TerminationError));
   if (model == OpticalModel::EmissionAbsorption && scene.GetPlan().ConstantColor)
   {

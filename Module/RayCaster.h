@@ -43,7 +43,10 @@ struct RayCastOptions
 
   Precision Arithmetic = Precision::Automatic;
 
-  /// How surfaces of OpticalModel::Isosurfaces look: flat, or shaded by lights.
+  /// Whether lights shine on OpticalModel::Isosurfaces, and on what emits and absorbs, where scalars
+  /// are at points: FindLight in SurfaceShading.h. A segment is lit as its middle is; the light of
+  /// surfaces is clamped to 0..1, that of volumes is not. Other models, and scalars at cells, shine by
+  /// themselves.
   bool Shaded = false;
   std::vector<Light> Lights;
   Material Surface;

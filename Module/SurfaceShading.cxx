@@ -105,7 +105,7 @@ void FindNormal(
 }
 
 /// Direction from a position to a light, and the share of the light that comes there.
-double FindLight(const Light& light, const double position[3], double toLight[3])
+double FindShare(const Light& light, const double position[3], double toLight[3])
 {
   std::copy_n(light.Position, 3, toLight);
   if (!light.Positional)
@@ -134,17 +134,18 @@ double FindLight(const Light& light, const double position[3], double toLight[3]
 
 } // namespace
 
-void ShadeSurface(const SurfaceShading& shading, std::int32_t cell, const double position[3],
-  const double direction[3], float color[3])
+LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell, const double position[3],
+  const double direction[3])
 {
   const Material& surface = shading.Surface;
   double normal[3];
   FindNormal(shading, cell, direction, normal);
-  double result[3] = { 0, 0, 0 };
+  double scale[3] = { 0, 0, 0 };
+  double add[3] = { 0, 0, 0 };
   for (const Light& light : shading.Lights)
   {
     double toLight[3];
-    const double share = FindLight(light, position, toLight);
+    const double share = FindShare(light, position, toLight);
     const double cosine = Dot(normal, toLight);
     double diffuse = 0;
     double specular = 0;
@@ -163,14 +164,17 @@ void ShadeSurface(const SurfaceShading& shading, std::int32_t cell, const double
     }
     for (int c = 0; c < 3; ++c)
     {
-      result[c] += color[c] * (surface.Ambient * light.Ambient[c] + diffuse * light.Diffuse[c]) +
-        specular * light.Specular[c];
+      scale[c] += surface.Ambient * light.Ambient[c] + diffuse * light.Diffuse[c];
+      add[c] += specular * light.Specular[c];
     }
   }
+  LightFactors factors;
   for (int c = 0; c < 3; ++c)
   {
-    color[c] = static_cast<float>(std::clamp(result[c], 0., 1.));
+    factors.Scale[c] = static_cast<float>(scale[c]);
+    factors.Add[c] = static_cast<float>(add[c]);
   }
+  return factors;
 }
 
 } // namespace tetralux

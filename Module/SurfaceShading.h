@@ -12,7 +12,7 @@
 namespace tetralux
 {
 
-/// What surfaces of constant scalar are shaded by.
+/// What is shaded, and by what.
 struct SurfaceShading
 {
   const TetrahedralMesh* Mesh;
@@ -22,13 +22,24 @@ struct SurfaceShading
   Material Surface;
 };
 
-/// Turns the colour of a surface into that which a viewer sees who looks along direction, of length
-/// 1, at its position in the world, where it is in the cell. Its normal is the gradient of the
-/// scalar in the cell, turned to the viewer; a cell without a gradient faces the viewer. Ambient and
-/// diffuse light times the surface's colour, and Blinn's specular light, as in VTK's mappers of
-/// volumes; the sum is clamped to 0..1.
-TETRALUXCORE_EXPORT void ShadeSurface(const SurfaceShading& shading, std::int32_t cell,
-  const double position[3], const double direction[3], float color[3]);
+/// What lights make of a colour: color Scale + Add.
+struct LightFactors
+{
+  float Scale[3]; ///< ambient and diffuse light
+  float Add[3];   ///< specular light
+
+  float Apply(int channel, float color) const
+  {
+    return color * this->Scale[channel] + this->Add[channel];
+  }
+};
+
+/// Light at a position in the world, which is in the cell, for a viewer who looks along direction, of
+/// length 1. The normal is the gradient of the scalar in the cell, turned to the viewer; a cell
+/// without a gradient faces the viewer. Ambient and diffuse light times the colour, and Blinn's
+/// specular light, as in VTK's mappers of volumes.
+TETRALUXCORE_EXPORT LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell,
+  const double position[3], const double direction[3]);
 
 } // namespace tetralux
 

@@ -266,7 +266,12 @@ INSTANTIATE_TEST_SUITE_P(RayCaster, Models,
     NamedScene{ "SurfacesClipped", [] { return Clipped(MakeScene(Surfaces)); } },
     NamedScene{ "SurfacesInFaces", &SurfacesInFaces },
     NamedScene{ "ShadedSurfaces", [] { return Shaded(MakeScene(Surfaces)); } },
-    NamedScene{ "ShadedSurfacesSheared", [] { return Sheared(Shaded(MakeScene(Surfaces))); } }),
+    NamedScene{ "ShadedSurfacesSheared", [] { return Sheared(Shaded(MakeScene(Surfaces))); } },
+    NamedScene{ "Lit", [] { return Shaded(MakeScene(Emitter)); } },
+    NamedScene{ "LitSheared", [] { return Sheared(Shaded(MakeScene(Emitter))); } },
+    NamedScene{ "LitClipped", [] { return Clipped(Shaded(MakeScene(Emitter))); } },
+    NamedScene{ "LitOneColor", [] { return Shaded(OneColor(MakeScene(Emitter))); } },
+    NamedScene{ "CellsShineByThemselves", [] { return Cells(Shaded(MakeScene(Emitter))); } }),
   [](const auto& info) { return info.param.Name; });
 
 TEST(RayCasterModels, ConstantColorIsIntegratedByOpticalDepth)

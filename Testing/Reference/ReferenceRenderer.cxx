@@ -465,7 +465,16 @@ Intervals ApplyLimits(
         CroppingRegion(
           ray.Origin[axis] + middle * ray.Direction[axis], limits.CroppingPlanes + 2 * axis);
     }
-    if (limits.CroppingFlags >> region & 1)
+    if (!(limits.CroppingFlags >> region & 1))
+    {
+      continue;
+    }
+    // A plane between two regions that are kept cuts nothing.
+    if (!kept.empty() && kept.back()[1] == borders[i])
+    {
+      kept.back()[1] = borders[i + 1];
+    }
+    else
     {
       kept.push_back({ borders[i], borders[i + 1] });
     }
@@ -513,19 +522,23 @@ struct RayResult
 };
 
 /// Emission and absorption, or one of them, front to back.
-RayResult Integrate(const ReferenceOptics& optics, const std::vector<SegmentPart>& parts)
+/// light: of a part, or nullptr.
+template <class LightT>
+RayResult Integrate(
+  const ReferenceOptics& optics, const std::vector<SegmentPart>& parts, LightT light)
 {
   const bool absorbs = optics.Model != OpticalModel::EmissionOnly;
   RayResult result;
   double opticalDepth = 0;
   for (const SegmentPart& part : parts)
   {
-    const ReferenceSegment segment = IntegrateReference(
+    ReferenceSegment segment = IntegrateReference(
       optics.Function, part.BeginScalar, part.EndScalar, part.Length, optics.Model);
     if (opticalDepth == 0 && segment.OpticalDepth > 0)
     {
       result.Depth = static_cast<double>(part.Begin + segment.FirstContribution * part.Length);
     }
+    light(part, segment);
     const double transmittance = absorbs ? std::exp(-opticalDepth) : 1;
     for (int channel = 0; channel < 3; ++channel)
     {
@@ -771,10 +784,13 @@ private:
         }
       }
     }
+    const auto light = [&](const SegmentPart& part, ReferenceSegment& ofPart)
+    { this->ShadePart(ray, part, ofPart); };
     const RayResult result = this->Optics.Model == OpticalModel::Isosurfaces
       ? this->CompositeSurfaces(ray, parts)
-      : this->Optics.Model == OpticalModel::MaximumIntensity ? FindMaximum(this->Optics, parts)
-                                                             : Integrate(this->Optics, parts);
+      : this->Optics.Model == OpticalModel::MaximumIntensity
+      ? FindMaximum(this->Optics, parts)
+      : Integrate(this->Optics, parts, light);
     std::copy(result.Rgba, result.Rgba + 4, image.Rgba.begin() + 4 * pixel);
     image.Depth[pixel] = result.Depth;
   }
@@ -838,10 +854,42 @@ private:
     {
       return { surface.Color[0], surface.Color[1], surface.Color[2] };
     }
+    const Place place = this->GetPlace(ray, t, cell);
+    return ShadeReference(surface.Color, this->Optics.Surface, this->Optics.Lights, place.Point,
+      place.Normal, place.View);
+  }
+
+  /// Lights what a part adds, where lights shine on volumes.
+  void ShadePart(const Ray& ray, const SegmentPart& part, ReferenceSegment& segment) const
+  {
+    if (!this->Optics.Shaded || this->Optics.Model != OpticalModel::EmissionAbsorption ||
+      this->Mesh.CellScalars)
+    {
+      return;
+    }
+    const Place place = this->GetPlace(ray, part.Begin + part.Length / 2, part.Cell);
+    const ReferenceLight light = FindReferenceLight(
+      this->Optics.Surface, this->Optics.Lights, place.Point, place.Normal, place.View);
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      segment.Color[channel] =
+        segment.Color[channel] * light.Scale[channel] + segment.Alpha * light.Add[channel];
+    }
+  }
+
+  /// Where light falls, in the world.
+  struct Place
+  {
+    std::array<double, 3> Point;
+    std::array<double, 3> Normal; ///< along the gradient, of any length
+    std::array<double, 3> View;   ///< to the viewer, of length 1
+  };
+
+  Place GetPlace(const Ray& ray, Real t, std::int32_t cell) const
+  {
     const Vector gradient = this->GetGradient(cell);
-    std::array<double, 3> point;
-    std::array<double, 3> normal;
-    std::array<double, 3> view;
+    Place place;
+    auto& [point, normal, view] = place;
     for (int axis = 0; axis < 3; ++axis)
     {
       point[axis] = static_cast<double>(ray.WorldOrigin[axis] + t * ray.WorldDirection[axis]);
@@ -853,8 +901,7 @@ private:
         normal[axis] += static_cast<double>(this->Grid.MeshFromWorld[row][axis] * gradient[row]);
       }
     }
-    return ShadeReference(
-      surface.Color, this->Optics.Surface, this->Optics.Lights, point, normal, view);
+    return place;
   }
 
   /// Along the gradient of the scalar in a cell, in mesh coordinates, of any length.

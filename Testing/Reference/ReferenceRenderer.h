@@ -37,8 +37,11 @@ struct ReferenceOptics
   TransferFunction Function; ///< of all models but Isosurfaces
   OpticalModel Model = OpticalModel::EmissionAbsorption;
 
-  /// Of the model Isosurfaces: strictly ascending in Value, and how they are lit where Shaded.
+  /// Of the model Isosurfaces: strictly ascending in Value.
   std::vector<Isosurface> Isosurfaces;
+
+  /// Whether lights shine on surfaces, and on what emits and absorbs: there each cell's part of the
+  /// ray, after all limits, has the light of its middle, and nothing is clamped.
   bool Shaded = false;
   Material Surface;
   std::vector<Light> Lights;

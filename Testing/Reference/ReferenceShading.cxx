@@ -58,8 +58,8 @@ Vector FindLight(const Light& light, const Vector& point, double& share)
 
 } // namespace
 
-Vector ShadeReference(const float color[3], const Material& material,
-  const std::vector<Light>& lights, const Vector& point, const Vector& normal, const Vector& view)
+ReferenceLight FindReferenceLight(const Material& material, const std::vector<Light>& lights,
+  const Vector& point, const Vector& normal, const Vector& view)
 {
   Vector n = Normalize(normal);
   if (Dot(n, view) < 0)
@@ -70,7 +70,7 @@ Vector ShadeReference(const float color[3], const Material& material,
   {
     n = view;
   }
-  Vector result{ 0, 0, 0 };
+  ReferenceLight result;
   for (const Light& light : lights)
   {
     double share;
@@ -84,13 +84,23 @@ Vector ShadeReference(const float color[3], const Material& material,
       : 0;
     for (int channel = 0; channel < 3; ++channel)
     {
-      result[channel] += material.Ambient * light.Ambient[channel] * color[channel] +
-        diffuse * light.Diffuse[channel] * color[channel] + specular * light.Specular[channel];
+      result.Scale[channel] +=
+        material.Ambient * light.Ambient[channel] + diffuse * light.Diffuse[channel];
+      result.Add[channel] += specular * light.Specular[channel];
     }
   }
-  for (double& channel : result)
+  return result;
+}
+
+Vector ShadeReference(const float color[3], const Material& material,
+  const std::vector<Light>& lights, const Vector& point, const Vector& normal, const Vector& view)
+{
+  const ReferenceLight light = FindReferenceLight(material, lights, point, normal, view);
+  Vector result;
+  for (int channel = 0; channel < 3; ++channel)
   {
-    channel = std::min(1.0, std::max(0.0, channel));
+    result[channel] =
+      std::min(1.0, std::max(0.0, color[channel] * light.Scale[channel] + light.Add[channel]));
   }
   return result;
 }

@@ -27,6 +27,17 @@ std::array<double, 3> ShadeReference(const float color[3], const Material& mater
   const std::vector<Light>& lights, const std::array<double, 3>& point,
   const std::array<double, 3>& normal, const std::array<double, 3>& view);
 
+/// The same before it is clamped, for any colour c: c Scale + Add.
+struct ReferenceLight
+{
+  std::array<double, 3> Scale{};
+  std::array<double, 3> Add{};
+};
+
+ReferenceLight FindReferenceLight(const Material& material, const std::vector<Light>& lights,
+  const std::array<double, 3>& point, const std::array<double, 3>& normal,
+  const std::array<double, 3>& view);
+
 } // namespace tetralux
 
 #endif
