@@ -30,9 +30,6 @@ struct MapperNeeds
 {
   /// Time of a lookup in a table in units of that of the closed form on one piece, see TableGoal.
   double LookupCost = 3;
-
-  /// Shade of the property counts for all optical models, not of isosurfaces alone.
-  bool ShadesVolumes = false;
 };
 
 /// One frame of a mapper: what it is drawn from, and what it tells about itself.
@@ -46,7 +43,7 @@ struct MapperFrame
   VolumeScene* Scene = nullptr; ///< complete
   vtkImageData* Image = nullptr;
 
-  /// Whether surfaces, or all that is seen, are lit, by what, and how they answer.
+  /// Whether isosurfaces, or what emits and absorbs, are lit, by what, and how they answer.
   bool Shaded = false;
   std::vector<Light> Lights;
   Material Surface;

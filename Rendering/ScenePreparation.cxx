@@ -180,7 +180,7 @@ bool ScenePreparation::Update(
     return false;
   }
   this->PrepareScalars(input);
-  this->WarnOfShade(volume->GetProperty(), needs.ShadesVolumes);
+  this->WarnOfShade(volume->GetProperty());
   this->PrepareFunction(volume);
   this->PrepareTable(volume, needs.LookupCost);
   return true;
@@ -382,20 +382,36 @@ void ScenePreparation::WarnOfMesh()
   }
 }
 
-void ScenePreparation::WarnOfShade(vtkVolumeProperty* property, bool shadesVolumes)
+void ScenePreparation::WarnOfShade(vtkVolumeProperty* property)
 {
-  const bool shade = property->GetShade(0) != 0 && !shadesVolumes &&
-    this->Mapper->GetBlendMode() != vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND;
-  const bool gradientOpacity =
-    property->GetDisableGradientOpacity(0) == 0 && property->HasGradientOpacity(0);
-  if ((shade || gradientOpacity) && !this->WarnedOfShade)
+  std::string warning;
+  if (property->GetShade(0) && !this->IsShaded(property) &&
+    this->Scene.GetMesh()->GetNumberOfCells() > 0)
   {
-    vtkWarningWithObjectMacro(this->Mapper,
-      << (shadesVolumes ? "gradient opacity of the property is not used"
-                        : "Shade, but of isosurfaces, and gradient opacity of the property are not "
-                          "used"));
+    warning = this->Scene.HasCellScalars()
+      ? "Shade is not used: scalars at cells have no gradient"
+      : "Shade is not used: there is light with composite and isosurface blending only";
   }
-  this->WarnedOfShade = shade || gradientOpacity;
+  if (property->GetDisableGradientOpacity(0) == 0 && property->HasGradientOpacity(0))
+  {
+    warning += (warning.empty() ? "" : "; ") + std::string("gradient opacity is not used");
+  }
+  if (warning != this->ShadeWarning)
+  {
+    this->ShadeWarning = warning;
+    if (!warning.empty())
+    {
+      vtkWarningWithObjectMacro(this->Mapper, << warning);
+    }
+  }
+}
+
+bool ScenePreparation::IsShaded(vtkVolumeProperty* property) const
+{
+  const int mode = this->Mapper->GetBlendMode();
+  return property->GetShade(0) != 0 && !this->Scene.HasCellScalars() &&
+    (mode == vtkTetrahedraVolumeMapper::COMPOSITE_BLEND ||
+      mode == vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND);
 }
 
 std::string ScenePreparation::GetIntegrationReason()

@@ -38,6 +38,10 @@ public:
   VolumeScene Scene;
   TetrahedraIntakeReport Intake;
 
+  /// Whether the property's Shade counts: for isosurfaces and for emission with absorption, where
+  /// scalars at points have a gradient.
+  bool IsShaded(vtkVolumeProperty* property) const;
+
   /// Error of a channel by approximating the property's functions.
   double GetFunctionError() const { return this->FunctionError; }
 
@@ -55,7 +59,7 @@ private:
   void PrepareFunction(vtkVolume* volume);
   void PrepareTable(vtkVolume* volume, double lookupCost);
   void WarnOfMesh();
-  void WarnOfShade(vtkVolumeProperty* property, bool shadesVolumes);
+  void WarnOfShade(vtkVolumeProperty* property);
   std::string GetIntegrationReason();
 
   vtkTetrahedraVolumeMapper* Mapper;
@@ -70,9 +74,9 @@ private:
   double FunctionError = 0;
   double LongestEdge = 0; ///< of the mesh, in its units; 0: not found yet
   SegmentTable Table;
-  bool TableSet = false; ///< the scene has Table
-  bool WarnedOfShade = false;
-  std::string MeshWarning; ///< the last one: the next time step may have the same
+  bool TableSet = false;    ///< the scene has Table
+  std::string ShadeWarning; ///< the last one
+  std::string MeshWarning;  ///< the last one: the next time step may have the same
 
   // The last Update.
   std::vector<std::string> Rebuilt;

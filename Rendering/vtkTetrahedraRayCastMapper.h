@@ -5,8 +5,7 @@
  *
  * Renders the cells of a data set as a volume, with an error that is known: the integral over each
  * cell is evaluated in closed form, never sampled, and the picture does not depend on the number
- * of threads. Input, optical models and what they are set by: see vtkTetrahedraVolumeMapper. Shade
- * counts for isosurfaces only, and one warning says so.
+ * of threads. Input, optical models and what they are set by: see vtkTetrahedraVolumeMapper.
  *
  * @sa vtkTetrahedraFilter, vtkUnstructuredGridVolumeRayCastMapper
  */

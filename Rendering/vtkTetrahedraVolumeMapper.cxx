@@ -86,8 +86,7 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
   frame.Image = this->Image;
   if (ready)
   {
-    frame.Shaded = volume->GetProperty()->GetShade(0) != 0 &&
-      (needs.ShadesVolumes || this->Self->BlendMode == ISOSURFACE_BLEND);
+    frame.Shaded = this->Preparation.IsShaded(volume->GetProperty());
     if (frame.Shaded)
     {
       frame.Lights = tetralux::GetRendererLights(renderer);
@@ -149,7 +148,9 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   frame.LeaveOut(!scene.GetTable(), "table",
     scene.GetPlan().ConstantColor ? "one colour needs none" : "see segments");
   frame.LeaveOut(!frame.Shaded, "shading",
-    frame.Volume->GetProperty()->GetShade(0) ? "of isosurfaces only" : "Shade is off");
+    frame.Volume->GetProperty()->GetShade(0) ? "it needs a gradient, and composite or isosurface "
+                                               "blending"
+                                             : "Shade is off");
 
   JsonObject statistics;
   statistics.Set("method", frame.Method);

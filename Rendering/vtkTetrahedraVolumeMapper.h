@@ -13,7 +13,10 @@
  * depth). That is the model of VTK's own mappers of unstructured grids, not the 1 - (1 - a)^(l / d)
  * of its mappers of image data. The property's colour (RGB in any colour space, or grey), scalar
  * opacity and unit distance of component 0 are used at the exact scalars of their nodes. Other
- * BlendModes are below. Gradient opacity is not used, and one warning says so.
+ * BlendModes are below. Where the property's Shade is on, lights of the renderer shine on composite
+ * volumes and isosurfaces of scalars at points, from the side of the viewer: ambient, diffuse and
+ * specular (Blinn) as in VTK's mappers of image data. Gradient opacity, and Shade elsewhere, are not
+ * used, and one warning says so.
  *
  * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
  * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper

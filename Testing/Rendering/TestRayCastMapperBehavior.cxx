@@ -540,6 +540,7 @@ TEST(RayCastMapperBehavior, WarnsOfWhatIsLeftOut)
   vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
   scene.Grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
   scene.Volume->GetProperty()->ShadeOn();
+  scene.Mapper->SetBlendModeToMaximumIntensity();
   scene.Window->Render();
   scene.Window->Render();
   ASSERT_EQ(warnings.Texts.size(), 2u);
