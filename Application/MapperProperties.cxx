@@ -92,6 +92,7 @@ Properties MakeCommonProperties()
       "Integration", &Mapper::SetIntegration, Mapper::AUTOMATIC_INTEGRATION, Mapper::TABLE),
     MakeSwitch("IntermixIntersectingGeometry", &Mapper::SetIntermixIntersectingGeometry),
     MakeReal("MaximumError", &Mapper::SetMaximumError, 0, 1),
+    MakeSwitch("SmoothShading", &Mapper::SetSmoothShading),
     MakeInteger(
       "TableFormat", &Mapper::SetTableFormat, Mapper::AUTOMATIC_FORMAT, Mapper::FLOAT_FORMAT),
     MakeInteger("TableLengthScale", &Mapper::SetTableLengthScale, Mapper::AUTOMATIC_SCALE,

@@ -242,8 +242,10 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
     model == OpticalModel::Isosurfaces ? scene.GetIsosurfaces() : std::vector<Isosurface>(), map);
   in.SurfaceNeighbors = surfaces.Neighbors.data();
   in.SurfaceColors = surfaces.Colors.data();
-  const SurfaceShading shading{ &mesh.GetMesh(), scene.GetScalars().data(), grid.MeshFromWorld,
-    options.Lights, options.Surface };
+  const SurfaceShading shading{ &mesh.GetMesh(), scene.GetScalars().data(),
+    options.Shaded && options.SmoothShading && !cellData ? scene.GetPointGradients().data()
+                                                         : nullptr,
+    grid.MeshFromWorld, options.Lights, options.Surface };
   in.Shading = options.Shaded ? &shading : nullptr;
   in.DistanceRounding =
     worldRadius * (statistics.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);

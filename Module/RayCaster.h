@@ -48,6 +48,7 @@ struct RayCastOptions
   /// surfaces is clamped to 0..1, that of volumes is not. Other models, and scalars at cells, shine by
   /// themselves.
   bool Shaded = false;
+  bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
   std::vector<Light> Lights;
   Material Surface;
 

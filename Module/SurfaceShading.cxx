@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceShading.h"
 
+#include "CellGradient.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +12,6 @@ namespace
 {
 
 double Dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-void Cross(const double a[3], const double b[3], double c[3])
-{
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 /// False where the length is zero or no number. Scaled by the largest component first: squares of
 /// coordinates may be beyond any range.
@@ -67,27 +62,73 @@ void FindGradient(const SurfaceShading& shading, std::int32_t cell, double gradi
     }
     rises[i] /= largestRise;
   }
-  // The normals of the three faces at the origin, weighted by the rises of the points across, are
-  // the gradient times the volume.
-  double normals[3][3];
-  for (int i = 0; i < 3; ++i)
+  std::copy_n(CellGradient(edges, rises).Weighted, 3, gradient);
+}
+
+/// The gradients of a cell's points, interpolated at a position in the mesh.
+void InterpolateGradient(
+  const SurfaceShading& shading, std::int32_t cell, const double position[3], double gradient[3])
+{
+  const std::int32_t* ids = &shading.Mesh->Cells[4 * static_cast<std::size_t>(cell)];
+  double corners[4][3]; // from the position
+  for (int i = 0; i < 4; ++i)
   {
-    Cross(edges[(i + 1) % 3], edges[(i + 2) % 3], normals[i]);
+    const double* point = &shading.Mesh->Points[3 * static_cast<std::size_t>(ids[i])];
+    for (int a = 0; a < 3; ++a)
+    {
+      corners[i][a] = point[a] - position[a];
+    }
   }
-  const double sign = Dot(edges[0], normals[0]) < 0 ? -1 : 1;
-  for (int a = 0; a < 3; ++a)
+  // Volumes across the corners; outside of the cell, where rounding may have led, none is negative.
+  double weights[4];
+  double sum = 0;
+  for (int i = 0; i < 4; ++i)
   {
-    gradient[a] =
-      sign * (rises[0] * normals[0][a] + rises[1] * normals[1][a] + rises[2] * normals[2][a]);
+    const double* p = corners[(i + 1) % 4];
+    const double* q = corners[(i + 2) % 4];
+    const double* r = corners[(i + 3) % 4];
+    const double volume = p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
+      p[2] * (q[0] * r[1] - q[1] * r[0]);
+    weights[i] = i % 2 == 0 ? volume : -volume;
+    sum += weights[i];
+  }
+  const double sign = sum < 0 ? -1 : 1;
+  sum = 0;
+  for (double& weight : weights)
+  {
+    weight = std::max(0., sign * weight);
+    sum += weight;
+  }
+  std::fill_n(gradient, 3, 0.);
+  for (int i = 0; i < 4; ++i)
+  {
+    const double share = sum > 0 ? weights[i] / sum : 0.25;
+    const PointGradient& g = shading.Gradients[ids[i]];
+    gradient[0] += share * g.X;
+    gradient[1] += share * g.Y;
+    gradient[2] += share * g.Z;
   }
 }
 
-/// The normal of a surface in the world, turned to the viewer.
-void FindNormal(
-  const SurfaceShading& shading, std::int32_t cell, const double direction[3], double normal[3])
+/// The normal in the world, turned to the viewer.
+void FindNormal(const SurfaceShading& shading, std::int32_t cell, const double position[3],
+  const double direction[3], double normal[3])
 {
   double gradient[3];
-  FindGradient(shading, cell, gradient);
+  if (shading.Gradients)
+  {
+    double inMesh[3];
+    for (int row = 0; row < 3; ++row)
+    {
+      const double* m = shading.MeshFromWorld[row];
+      inMesh[row] = Dot(m, position) + m[3];
+    }
+    InterpolateGradient(shading, cell, inMesh, gradient);
+  }
+  else
+  {
+    FindGradient(shading, cell, gradient);
+  }
   for (int a = 0; a < 3; ++a)
   {
     normal[a] = 0;
@@ -139,7 +180,7 @@ LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell, const d
 {
   const Material& surface = shading.Surface;
   double normal[3];
-  FindNormal(shading, cell, direction, normal);
+  FindNormal(shading, cell, position, direction, normal);
   double scale[3] = { 0, 0, 0 };
   double add[3] = { 0, 0, 0 };
   for (const Light& light : shading.Lights)

@@ -3,6 +3,7 @@
 #define tetralux_SurfaceShading_h
 
 #include "OpticalModel.h"
+#include "PointGradients.h"
 #include "TetrahedralMesh.h"
 #include "TetraluxCoreModule.h"
 
@@ -17,6 +18,7 @@ struct SurfaceShading
 {
   const TetrahedralMesh* Mesh;
   const double* Scalars;            ///< one a point
+  const PointGradient* Gradients;   ///< one a point; nullptr: those of the cells
   const double (*MeshFromWorld)[4]; ///< three rows, as in RayGrid
   std::vector<Light> Lights;
   Material Surface;
@@ -35,8 +37,8 @@ struct LightFactors
 };
 
 /// Light at a position in the world, which is in the cell, for a viewer who looks along direction, of
-/// length 1. The normal is the gradient of the scalar in the cell, turned to the viewer; a cell
-/// without a gradient faces the viewer. Ambient and diffuse light times the colour, and Blinn's
+/// length 1. The normal is the gradient of the scalar, of the cell or interpolated between those of its
+/// points, turned to the viewer; what has no gradient faces the viewer. Ambient and diffuse light times the colour, and Blinn's
 /// specular light, as in VTK's mappers of volumes.
 TETRALUXCORE_EXPORT LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell,
   const double position[3], const double direction[3]);

@@ -49,6 +49,7 @@ void VolumeScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
   this->Mesh = std::move(mesh);
   this->Scalars.clear();
   this->FloatScalars = this->DoubleScalars = ScalarMap();
+  this->PointGradientsValid = false;
   this->Invalidate();
 }
 
@@ -78,6 +79,7 @@ void VolumeScene::SetScalars(std::vector<double> scalars, bool ofCells)
   this->Scalars = std::move(scalars);
   this->ScalarsOfCells = ofCells;
   this->FloatScalars = this->DoubleScalars = ScalarMap();
+  this->PointGradientsValid = false;
   this->Invalidate();
 
   bool allFinite = true;
@@ -318,6 +320,18 @@ const std::vector<CellValue>& VolumeScene::GetCellValues()
   this->CellValuesValid = true;
   ++this->CellValuesVersion;
   return this->CellValues;
+}
+
+const std::vector<PointGradient>& VolumeScene::GetPointGradients()
+{
+  if (!this->PointGradientsValid)
+  {
+    const double range = 0.5 * this->ScalarRange[1] - 0.5 * this->ScalarRange[0];
+    this->PointGradients = MakePointGradients(
+      this->Mesh->GetMesh(), this->Scalars, this->Mesh->GetRadius(), range > 0 ? range : 1);
+    this->PointGradientsValid = true;
+  }
+  return this->PointGradients;
 }
 
 const std::vector<std::uint8_t>& VolumeScene::GetVisibleCells()

@@ -5,6 +5,7 @@
 #include "IntegrationPlan.h"
 #include "IntervalTable.h"
 #include "OpticalModel.h"
+#include "PointGradients.h"
 #include "PreIntegrationTable.h"
 #include "RayGrid.h"
 #include "TetraluxCoreModule.h"
@@ -114,6 +115,10 @@ public:
   /// where it is not finite.
   const std::vector<CellValue>& GetCellValues();
 
+  /// Gradients of scalars at points, for smooth lighting: MakePointGradients in units of the mesh's
+  /// radius and of half of the scalars' range.
+  const std::vector<PointGradient>& GetPointGradients();
+
   /// For each cell 1 where it contributes anything, 0 where it is fully transparent; empty where all
   /// do, as far as is known.
   const std::vector<std::uint8_t>& GetVisibleCells();
@@ -152,6 +157,7 @@ private:
   double TableError = 0;
   std::vector<Isosurface> Surfaces; ///< ascending in value
   std::vector<CellValue> CellValues;
+  std::vector<PointGradient> PointGradients;
   std::vector<std::uint8_t> VisibleCells;
   WalkTables VisibleTables; ///< empty where rays are walked through all cells
   std::int64_t NumberOfTransparentCells = 0;
@@ -160,6 +166,7 @@ private:
   std::uint64_t TableVersion = 0;
   std::uint64_t CellValuesVersion = 0;
   bool CellValuesValid = false;
+  bool PointGradientsValid = false;
   bool PlanValid = false;
   bool VisibleCellsValid = false;
   bool VisibleTablesValid = false;

@@ -169,6 +169,7 @@ tetralux::RayCastOptions vtkTetrahedraRayCastMapper::Internals::MakeOptions(
   options.ReentryBy = this->Self->Reentry == IMAGINARY_CELLS ? tetralux::Reentry::Imaginary
                                                              : tetralux::Reentry::Boundary;
   options.Shaded = frame.Shaded;
+  options.SmoothShading = this->Self->SmoothShading != 0;
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
   options.Progress = [&frame](double fraction) { return frame.Continue(fraction); };

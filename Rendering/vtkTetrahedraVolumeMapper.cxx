@@ -342,6 +342,7 @@ void vtkTetrahedraVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "TableScalarAxis: " << this->TableScalarAxis << "\n"
      << indent << "TableFormat: " << this->TableFormat << "\n"
      << indent << "TableMaximumBytes: " << this->TableMaximumBytes << "\n"
+     << indent << "SmoothShading: " << this->SmoothShading << "\n"
      << indent << "VectorMode: " << this->VectorMode << "\n"
      << indent << "VectorComponent: " << this->VectorComponent << "\n"
      << indent << "IntermixIntersectingGeometry: " << this->IntermixIntersectingGeometry << "\n"

@@ -196,6 +196,17 @@ public:
   vtkGetMacro(TableMaximumBytes, vtkIdType);
   ///@}
 
+  ///@{
+  /**
+   * Whether lighting, where the property's Shade is on, takes its normals from gradients that are
+   * interpolated between the points, each the mean of its cells' gradients by volume: smooth. Off, each
+   * cell has its own gradient, and facets show. On by default.
+   */
+  vtkSetMacro(SmoothShading, vtkTypeBool);
+  vtkGetMacro(SmoothShading, vtkTypeBool);
+  vtkBooleanMacro(SmoothShading, vtkTypeBool);
+  ///@}
+
   enum VectorModeType
   {
     DISABLED = -1,
@@ -323,6 +334,7 @@ protected:
   int TableScalarAxis = AUTOMATIC_AXIS;
   int TableFormat = AUTOMATIC_FORMAT;
   vtkIdType TableMaximumBytes = 64 << 20;
+  vtkTypeBool SmoothShading = 1;
   int VectorMode = DISABLED;
   int VectorComponent = 0;
   vtkTypeBool IntermixIntersectingGeometry = 1;

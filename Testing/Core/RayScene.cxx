@@ -27,6 +27,7 @@ ReferenceOptics RayScene::GetReferenceOptics() const
   ReferenceOptics optics(this->Function, this->Model);
   optics.Isosurfaces = this->Isosurfaces;
   optics.Shaded = this->Shaded;
+  optics.SmoothShading = this->SmoothShading;
   optics.Lights = this->Lights;
   return optics;
 }
@@ -80,6 +81,7 @@ RayPicture Cast(VolumeScene& volume, const RayScene& scene, const RayCastOptions
   picture.Depths.assign(pixels, std::numeric_limits<float>::quiet_NaN());
   RayCastOptions lit = options;
   lit.Shaded = scene.Shaded;
+  lit.SmoothShading = scene.SmoothShading;
   lit.Lights = scene.Lights;
   picture.Statistics =
     CastRays(volume, scene.Grid, scene.GetLimits(), lit, picture.Colors, picture.Depths);

@@ -21,6 +21,7 @@ struct RayScene
   OpticalModel Model = OpticalModel::EmissionAbsorption;
   std::vector<Isosurface> Isosurfaces; ///< ascending in value
   bool Shaded = false;
+  bool SmoothShading = false;
   std::vector<Light> Lights;
   RayGrid Grid;
   RayLimits Limits;

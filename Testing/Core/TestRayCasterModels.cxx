@@ -141,6 +141,12 @@ RayScene Shaded(RayScene scene)
   return scene;
 }
 
+RayScene Smoothly(RayScene scene)
+{
+  scene.SmoothShading = true;
+  return scene;
+}
+
 /// The mesh placed in the world by scaling, shear and mirroring: gradients turn other than edges.
 RayScene Sheared(RayScene scene)
 {
@@ -271,6 +277,10 @@ INSTANTIATE_TEST_SUITE_P(RayCaster, Models,
     NamedScene{ "LitSheared", [] { return Sheared(Shaded(MakeScene(Emitter))); } },
     NamedScene{ "LitClipped", [] { return Clipped(Shaded(MakeScene(Emitter))); } },
     NamedScene{ "LitOneColor", [] { return Shaded(OneColor(MakeScene(Emitter))); } },
+    NamedScene{ "LitSmoothly", [] { return Smoothly(Shaded(MakeScene(Emitter))); } },
+    NamedScene{
+      "LitSmoothlySheared", [] { return Sheared(Smoothly(Shaded(MakeScene(Emitter)))); } },
+    NamedScene{ "SurfacesLitSmoothly", [] { return Smoothly(Shaded(MakeScene(Surfaces))); } },
     NamedScene{ "CellsShineByThemselves", [] { return Cells(Shaded(MakeScene(Emitter))); } }),
   [](const auto& info) { return info.param.Name; });
 

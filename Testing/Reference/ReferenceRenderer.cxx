@@ -679,6 +679,10 @@ public:
         this->Rows[id] = this->Projection.FindRows(this->GetCorners(cell).data());
       }
     }
+    if (optics.Shaded && optics.SmoothShading && !mesh.CellScalars)
+    {
+      this->PointGradients = this->FindPointGradients();
+    }
   }
 
   /// Fills the image's rows; returns the number of segments.
@@ -887,7 +891,8 @@ private:
 
   Place GetPlace(const Ray& ray, Real t, std::int32_t cell) const
   {
-    const Vector gradient = this->GetGradient(cell);
+    const Vector gradient = this->Optics.SmoothShading ? this->InterpolateGradient(ray, t, cell)
+                                                       : this->GetGradient(cell);
     Place place;
     auto& [point, normal, view] = place;
     for (int axis = 0; axis < 3; ++axis)
@@ -933,6 +938,87 @@ private:
     return gradient;
   }
 
+  /// The mean gradient of the cells at each point, weighted by their volumes.
+  std::vector<Vector> FindPointGradients() const
+  {
+    std::vector<Vector> gradients(this->Mesh.Points.size() / 3, Vector{ 0, 0, 0 });
+    std::vector<Real> volumes(gradients.size(), 0);
+    const std::size_t numberOfCells = this->Mesh.Cells.size() / 4;
+    for (std::size_t id = 0; id < numberOfCells; ++id)
+    {
+      Cell cell;
+      const bool usable = GetCell(this->Mesh, id, cell);
+      const Real volume = usable ? std::abs(GetSixfoldVolume(cell, nullptr, 0)) : 0;
+      if (volume == 0)
+      {
+        continue;
+      }
+      const Vector gradient = this->GetGradient(static_cast<std::int32_t>(id));
+      for (const std::int32_t point : cell.Points)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          gradients[point][axis] += volume * gradient[axis];
+        }
+        volumes[point] += volume;
+      }
+    }
+    for (std::size_t point = 0; point < gradients.size(); ++point)
+    {
+      for (Real& component : gradients[point])
+      {
+        component /= volumes[point] > 0 ? volumes[point] : 1;
+      }
+    }
+    return gradients;
+  }
+
+  /// The volume of a cell, signed; with one corner replaced by a point, where it is not nullptr.
+  static Real GetSixfoldVolume(const Cell& cell, const Vector* point, int corner)
+  {
+    Vector corners[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        corners[i][axis] =
+          point && i == corner ? (*point)[axis] : static_cast<Real>(cell.Coordinates[i][axis]);
+      }
+    }
+    for (int i = 1; i < 4; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        corners[i][axis] -= corners[0][axis];
+      }
+    }
+    return Dot(Cross(corners[1], corners[2]), corners[3]);
+  }
+
+  /// Between the gradients of a cell's points, where the ray is at distance t.
+  Vector InterpolateGradient(const Ray& ray, Real t, std::int32_t id) const
+  {
+    Cell cell;
+    GetCell(this->Mesh, static_cast<std::size_t>(id), cell);
+    Vector position;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] = ray.Origin[axis] + t * ray.Direction[axis];
+    }
+    const Real whole = GetSixfoldVolume(cell, nullptr, 0);
+    Vector gradient{ 0, 0, 0 };
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const Real share = GetSixfoldVolume(cell, &position, corner) / whole;
+      const Vector ofPoint = this->PointGradients[cell.Points[corner]];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        gradient[axis] += share * ofPoint[axis];
+      }
+    }
+    return gradient;
+  }
+
   const ReferenceMesh& Mesh;
   const ReferenceOptics& Optics;
   const RayGrid& Grid;
@@ -940,7 +1026,8 @@ private:
   Span<const std::uint8_t> Pixels;
   ImageProjection Projection;
   std::vector<ImagePoint> ImagePoints;
-  std::vector<Range> Rows; ///< that may see a cell
+  std::vector<Range> Rows;            ///< that may see a cell
+  std::vector<Vector> PointGradients; ///< where lighting is smooth
 };
 
 /// Rows are rendered in bands of about this many pixels, one at a time for each thread: bounds the

@@ -43,6 +43,7 @@ struct ReferenceOptics
   /// Whether lights shine on surfaces, and on what emits and absorbs: there each cell's part of the
   /// ray, after all limits, has the light of its middle, and nothing is clamped.
   bool Shaded = false;
+  bool SmoothShading = false; ///< by means of the cells' gradients at points, weighted by volume
   Material Surface;
   std::vector<Light> Lights;
 };
