@@ -242,6 +242,14 @@ TEST(RayCastMapperImages, ShadedIsosurfaces)
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastIsosurfaces", Tolerance));
 }
 
+TEST(RayCastMapperImages, LitVolume)
+{
+  PipeScene scene;
+  scene.Volume->GetProperty()->ShadeOn();
+  scene.Volume->GetProperty()->SetSpecularPower(30);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastLit", Tolerance));
+}
+
 // The same picture as that of Parallel but for the error that is asked for.
 TEST(RayCastMapperImages, Table)
 {
