@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tetralux
 {
@@ -14,6 +15,18 @@ namespace
 
 constexpr std::uint8_t PositiveCell = 0x10;
 constexpr std::uint8_t NegativeCell = 0x20; ///< neither of both: not known
+constexpr std::uint8_t BoundaryCell = 0x40;
+
+/// Fewer cells are done before a second thread would have started.
+constexpr std::int64_t SmallestParallelMesh = 1 << 13;
+
+constexpr unsigned AllFaces = 0xf;
+constexpr unsigned OddFaces = 0xa; ///< see GetFaceSide
+
+/// The points of a cell's faces, in their order: face i has those other than i.
+constexpr int FirstPoints[4] = { 1, 0, 0, 0 };
+constexpr int SecondPoints[4] = { 2, 2, 1, 1 };
+constexpr int ThirdPoints[4] = { 3, 3, 3, 2 };
 
 /// The side of face i's points in their order on which the cell lies is that of its volume for odd i,
 /// the other one for even i.
@@ -63,7 +76,7 @@ VisibilityArrows::VisibilityArrows(const VisibilityGeometry& geometry)
   , Sides(geometry.GetNumberOfCells())
 {
   const std::int64_t numberOfCells = geometry.GetNumberOfCells();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (numberOfCells > SmallestParallelMesh)
   for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
   {
     const auto corners = geometry.GetCorners(cell);
@@ -98,7 +111,7 @@ void VisibilityArrows::TurnCells()
   };
   std::vector<Doubt> doubts;
   std::vector<std::uint8_t> doubted(numberOfCells, 0);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (numberOfCells > SmallestParallelMesh)
   for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
   {
     const int sign = GetVolumeSign(this->Sides[cell]);
@@ -178,10 +191,10 @@ void VisibilityArrows::JoinFaces()
 {
   const Span<const WalkFace> faces = this->Geometry.Faces;
   const std::int64_t numberOfCells = this->Geometry.GetNumberOfCells();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (numberOfCells > SmallestParallelMesh)
   for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
   {
-    std::uint8_t joined = 0;
+    std::uint8_t added = 0;
     const int sign = GetVolumeSign(this->Sides[cell]);
     for (int face = 0; face < 4; ++face)
     {
@@ -192,36 +205,170 @@ void VisibilityArrows::JoinFaces()
 #pragma omp atomic read
         side = this->Sides[neighbor];
         const int behind = GetFaceSide(FindFace(faces, neighbor, cell), GetVolumeSign(side));
-        joined |= (behind * GetFaceSide(face, sign) < 0) << face;
+        added |= (behind * GetFaceSide(face, sign) < 0) << face;
+      }
+      else
+      {
+        added |= BoundaryCell;
       }
     }
 #pragma omp atomic
-    this->Sides[cell] |= joined;
+    this->Sides[cell] |= added;
   }
 }
+
+//----------------------------------------------------------------------------
+/// The turns of faces towards the viewer in single precision, as far as they are beyond rounding: of
+/// eight cells at a time, in loops over these that compilers turn into vector instructions.
+class VisibilityArrows::ClearTurns
+{
+public:
+  static constexpr int Width = 8;
+
+  ClearTurns(const VisibilityGeometry& geometry, const VisibilityView& view)
+    : Geometry(geometry)
+    , Parallel(view.Parallel)
+  {
+    double largest = 0;
+    double vector[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      vector[axis] = view.Parallel ? view.Direction[axis]
+                                   : (view.Eye[axis] - geometry.Center[axis]) / geometry.Radius;
+      largest = std::max(largest, std::abs(vector[axis]));
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Vector[axis] =
+        static_cast<float>(view.Parallel ? vector[axis] / largest : vector[axis]);
+    }
+    // Coordinates are at most 1, and off by their rounding, as all that is computed. Of a face whose
+    // edges have components of at most l, seen along a vector with components of at most m: the edges
+    // are off by 4 roundings, products of them by 28 l + 32 roundings, the sum of their products with
+    // the vector by three times that times m, and by what the vector is off.
+    constexpr float rounding = 1.f / (1 << 24);
+    const float m = static_cast<float>(view.Parallel ? 1 : 1 + largest);
+    this->BoundPerEdge = 144 * rounding * m;
+    this->Bound = 96 * rounding * rounding * m;
+  }
+
+  /// Of the cells from first on, at most Width. Bit i of each: face i runs counter-clockwise, or
+  /// clockwise; neither of both where rounding leaves that open.
+  void Compute(std::int64_t first, int count)
+  {
+    float x[4][3][Width];
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      const std::int32_t* ids = this->Geometry.GetPointIds(first + std::min(lane, count - 1));
+      for (int corner = 0; corner < 4; ++corner)
+      {
+        const WalkPoint<float>& point = this->Geometry.RelativePoints[ids[corner]];
+        x[corner][0][lane] = point.X;
+        x[corner][1][lane] = point.Y;
+        x[corner][2][lane] = point.Z;
+      }
+    }
+    std::fill_n(this->Positive, Width, 0);
+    std::fill_n(this->Negative, Width, 0);
+    const bool parallel = this->Parallel;
+    const float v0 = this->Vector[0], v1 = this->Vector[1], v2 = this->Vector[2];
+    const float boundPerEdge = this->BoundPerEdge, bound = this->Bound;
+    for (int face = 0; face < 4; ++face)
+    {
+      const auto& a = x[FirstPoints[face]];
+      const auto& b = x[SecondPoints[face]];
+      const auto& c = x[ThirdPoints[face]];
+      const int bit = 1 << face;
+      for (int lane = 0; lane < Width; ++lane)
+      {
+        const float ab0 = b[0][lane] - a[0][lane], ac0 = c[0][lane] - a[0][lane];
+        const float ab1 = b[1][lane] - a[1][lane], ac1 = c[1][lane] - a[1][lane];
+        const float ab2 = b[2][lane] - a[2][lane], ac2 = c[2][lane] - a[2][lane];
+        float edge = std::abs(ab0);
+        edge = std::max(edge, std::abs(ab1));
+        edge = std::max(edge, std::abs(ab2));
+        edge = std::max(edge, std::abs(ac0));
+        edge = std::max(edge, std::abs(ac1));
+        edge = std::max(edge, std::abs(ac2));
+        const float d0 = parallel ? v0 : a[0][lane] - v0;
+        const float d1 = parallel ? v1 : a[1][lane] - v1;
+        const float d2 = parallel ? v2 : a[2][lane] - v2;
+        const float determinant = (ab1 * ac2 - ab2 * ac1) * d0 + (ab2 * ac0 - ab0 * ac2) * d1 +
+          (ab0 * ac1 - ab1 * ac0) * d2;
+        const float limit = edge * boundPerEdge + bound;
+        this->Positive[lane] |= determinant < -limit ? bit : 0;
+        this->Negative[lane] |= determinant > limit ? bit : 0;
+      }
+    }
+  }
+
+  int Positive[Width];
+  int Negative[Width];
+
+private:
+  const VisibilityGeometry& Geometry;
+  bool Parallel;
+  float Vector[3];
+  float BoundPerEdge;
+  float Bound;
+};
 
 //----------------------------------------------------------------------------
 void VisibilityArrows::Point(const VisibilityView& view, Span<std::uint8_t> arrows) const
 {
   const ViewOrientation orientation(view);
   const std::int64_t numberOfCells = this->Geometry.GetNumberOfCells();
-#pragma omp parallel for schedule(static)
-  for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
+  const std::int64_t numberOfBlocks = (numberOfCells + ClearTurns::Width - 1) / ClearTurns::Width;
+#pragma omp parallel if (numberOfCells > SmallestParallelMesh)
   {
-    std::array<int, 4> turns;
-    orientation.GetFaceTurns(this->Geometry.GetCorners(cell), turns);
-    const std::uint8_t side = this->Sides[cell];
-    const int sign = GetVolumeSign(side);
-    std::uint8_t hiding = 0;
-    bool entered = false;
-    for (int face = 0; face < 4; ++face)
+    ClearTurns turns(this->Geometry, view);
+#pragma omp for schedule(static)
+    for (std::int64_t block = 0; block < numberOfBlocks; ++block)
     {
-      // Positive where the viewer is on the cell's side.
-      const int facing = turns[face] * GetFaceSide(face, sign);
-      hiding |= (facing > 0) << face;
-      entered = entered || (facing < 0 && this->Geometry.Faces[4 * cell + face].Cell < 0);
+      const std::int64_t first = block * ClearTurns::Width;
+      const int count =
+        static_cast<int>(std::min<std::int64_t>(ClearTurns::Width, numberOfCells - first));
+      turns.Compute(first, count);
+      for (int lane = 0; lane < count; ++lane)
+      {
+        const std::int64_t cell = first + lane;
+        unsigned positive = turns.Positive[lane];
+        unsigned negative = turns.Negative[lane];
+        if ((positive | negative) != AllFaces)
+        {
+          const auto corners = this->Geometry.GetCorners(cell);
+          for (int face = 0; face < 4; ++face)
+          {
+            if (((positive | negative) >> face & 1) == 0)
+            {
+              const int turn = orientation.GetTurn(corners[FirstPoints[face]],
+                corners[SecondPoints[face]], corners[ThirdPoints[face]]);
+              positive |= static_cast<unsigned>(turn > 0) << face;
+              negative |= static_cast<unsigned>(turn < 0) << face;
+            }
+          }
+        }
+        const std::uint8_t side = this->Sides[cell];
+        if (GetVolumeSign(side) < 0)
+        {
+          std::swap(positive, negative);
+        }
+        // On the cell's side of a face are those who see it run as the cell does.
+        const unsigned inside = (positive & OddFaces) | (negative & ~OddFaces);
+        const unsigned outside = (negative & OddFaces) | (positive & ~OddFaces);
+        unsigned entered = 0;
+        if ((side & BoundaryCell) != 0)
+        {
+          for (int face = 0; face < 4; ++face)
+          {
+            const bool boundary = this->Geometry.Faces[4 * cell + face].Cell < 0;
+            entered |= static_cast<unsigned>(boundary) << face & outside;
+          }
+        }
+        arrows[cell] = static_cast<std::uint8_t>(
+          (inside & side & HidingFaces) | (entered != 0 ? EnteredCell : 0));
+      }
     }
-    arrows[cell] = (hiding & side & HidingFaces) | (entered ? EnteredCell : 0);
   }
 }
 

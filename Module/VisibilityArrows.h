@@ -40,12 +40,14 @@ public:
   std::size_t GetSize() const { return this->Sides.size(); } ///< bytes
 
 private:
+  class ClearTurns;
   void TurnCells();
   void JoinFaces();
 
   VisibilityGeometry Geometry;
-  /// For each cell: the lowest four bits are set where face i has a neighbour that agrees about it,
-  /// PositiveCell where its volume is to be taken as positive in the order of its points.
+  /// For each cell: the lowest four bits are set where face i has a neighbour that agrees about it;
+  /// above them is how its volume is to be taken in the order of its points, and whether it has faces
+  /// on the boundary.
   std::vector<std::uint8_t> Sides;
 };
 

@@ -21,6 +21,11 @@ struct VisibilityGeometry
   Span<const std::int32_t> ImaginaryCells; ///< behind Cells
   Span<const WalkFace> Faces;              ///< of both
 
+  /// All points in single precision, relative to Center in units of Radius.
+  const WalkPoint<float>* RelativePoints = nullptr;
+  std::array<double, 3> Center = { 0, 0, 0 };
+  double Radius = 1;
+
   std::int64_t GetNumberOfCells() const
   {
     return static_cast<std::int64_t>((this->Cells.size() + this->ImaginaryCells.size()) / 4);
@@ -33,12 +38,16 @@ struct VisibilityGeometry
                                        : this->SteinerPoints.data() + (first - this->Points.size());
   }
 
-  std::array<const double*, 4> GetCorners(std::int64_t cell) const
+  const std::int32_t* GetPointIds(std::int64_t cell) const
   {
     const std::size_t first = 4 * static_cast<std::size_t>(cell);
-    const std::int32_t* ids = first < this->Cells.size()
-      ? this->Cells.data() + first
-      : this->ImaginaryCells.data() + (first - this->Cells.size());
+    return first < this->Cells.size() ? this->Cells.data() + first
+                                      : this->ImaginaryCells.data() + (first - this->Cells.size());
+  }
+
+  std::array<const double*, 4> GetCorners(std::int64_t cell) const
+  {
+    const std::int32_t* ids = this->GetPointIds(cell);
     return { this->GetPoint(ids[0]), this->GetPoint(ids[1]), this->GetPoint(ids[2]),
       this->GetPoint(ids[3]) };
   }

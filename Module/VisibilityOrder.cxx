@@ -122,6 +122,9 @@ VisibilityGeometry MakeGeometry(const WalkMesh& mesh, Span<const std::int32_t> i
   VisibilityGeometry geometry;
   geometry.Points = mesh.GetMesh().Points;
   geometry.Cells = mesh.GetMesh().Cells;
+  geometry.RelativePoints = mesh.GetPoints<float>();
+  std::copy_n(mesh.GetCenter(), 3, geometry.Center.begin());
+  geometry.Radius = mesh.GetRadius();
   geometry.Faces = imaginaryCells.empty() ? mesh.GetTables().Faces : mesh.GetConvexTables().Faces;
   if (!imaginaryCells.empty())
   {
@@ -151,7 +154,7 @@ void VisibilityOrder::Internals::SortByDistance(const VisibilityView& view, cons
   const std::int64_t numberOfCells = this->Geometry.GetNumberOfCells();
   const std::int64_t chunks = (numberOfCells + ChunkSize - 1) / ChunkSize;
   std::vector<std::int64_t> begins(chunks + 1, 0);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (chunks > 1)
   for (std::int64_t chunk = 0; chunk < chunks; ++chunk)
   {
     const std::int64_t end = std::min(numberOfCells, (chunk + 1) * ChunkSize);
@@ -166,7 +169,7 @@ void VisibilityOrder::Internals::SortByDistance(const VisibilityView& view, cons
   }
   this->KeyedCells.resize(begins[chunks]);
   const CentroidDistances distances(this->Geometry, this->Mesh, view);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (chunks > 1)
   for (std::int64_t chunk = 0; chunk < chunks; ++chunk)
   {
     std::int64_t next = begins[chunk];
@@ -204,15 +207,17 @@ bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, const 
     {
       const std::int32_t cell = this->Path.back();
       const WalkFace* facesOfCell = faces + 4 * static_cast<std::int64_t>(cell);
+      const std::uint8_t state = states[cell];
       bool leaf = true;
       for (int face = 0; face < 4; ++face)
       {
-        if ((states[cell] >> face & 1) != 0)
+        if ((state >> face & 1) != 0)
         {
-          states[cell] &= static_cast<std::uint8_t>(~(1 << face));
           const std::int32_t behind = facesOfCell[face].Cell;
           if ((states[behind] & VisitedCell) == 0)
           {
+            // The faces before this one were followed, too.
+            states[cell] = state & static_cast<std::uint8_t>(~((2 << face) - 1));
             states[behind] |= VisitedCell;
             this->Path.push_back(behind);
             leaf = false;
@@ -278,7 +283,7 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
   if (method == VisibilityMethod::CentroidDistance)
   {
     tables.SortByDistance(view, isDrawn);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (size > (1 << 14))
     for (std::int64_t i = 0; i < size; ++i)
     {
       this->Order[first + i * step] = tables.KeyedCells[i].Item;

@@ -5,6 +5,7 @@
 #include "VisibilityOrder.h"
 
 #include "GeneratedMeshes.h"
+#include "RadixSort.h"
 #include "ReferenceOcclusion.h"
 #include "ReferenceScenes.h"
 #include "ThreadCounts.h"
@@ -15,8 +16,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -162,7 +167,8 @@ INSTANTIATE_TEST_SUITE_P(Meshes, VisibilityOrders,
     MeshCase{ "cubes", { { "count", 2 }, { "cells", 2 } } },
     MeshCase{ "cavity", { { "cells", 4 } } },
     MeshCase{ "ring", { { "around", 20 }, { "across", 2 } } },
-    MeshCase{ "shared-edge", { { "cells", 3 } } }, MeshCase{ "cycle", { { "cells", 1 } } },
+    MeshCase{ "shared-edge", { { "cells", 3 } } },
+    MeshCase{ "gear", { { "teeth", 5 }, { "across", 1 }, { "along", 1 } } },
     MeshCase{ "boundary-layer", { { "ratio", 1e6 }, { "cells", 4 }, { "layers", 6 } } }),
   [](const ::testing::TestParamInfo<MeshCase>& info)
   {
@@ -187,6 +193,219 @@ TEST(VisibilityOrder, IsExactAtAnOffset)
     const auto& front = order.Sort(view, VisibilityMethod::Meshed, FrontToBack);
     EXPECT_TRUE(FindWrongPairs(pairs, front).empty());
     EXPECT_EQ(order.GetCycles().GetNumberOfCycles(), 0);
+  }
+}
+
+/// Two layers of hexahedra of five tetrahedra each, whose diagonals do not agree where they meet: there,
+/// flat tetrahedra join them. Every third of the points between the layers is moved up and down by
+/// motion, so that some of those are thin and some inverted.
+TetrahedralMesh MakeLayersOnFlatCells(int size, double motion)
+{
+  TetrahedralMesh mesh;
+  const auto getPoint = [size](int i, int j, int k)
+  { return (k * (size + 1) + j) * (size + 1) + i; };
+  for (int k = 0; k <= 2; ++k)
+  {
+    for (int j = 0; j <= size; ++j)
+    {
+      for (int i = 0; i <= size; ++i)
+      {
+        const double z = k == 1 ? 1 + motion * ((5 * i + 7 * j) % 3 - 1) : k;
+        mesh.Points.insert(mesh.Points.end(), { double(i), double(j), z });
+      }
+    }
+  }
+  for (int k = 0; k < 2; ++k)
+  {
+    for (int j = 0; j < size; ++j)
+    {
+      for (int i = 0; i < size; ++i)
+      {
+        // Corners whose coordinates' sum has one parity are cut off, the others are in the middle.
+        std::vector<std::int32_t> middle;
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          const int x = i + (corner & 1), y = j + (corner >> 1 & 1), z = k + (corner >> 2);
+          if ((x + y + z + k) % 2 == 0)
+          {
+            middle.push_back(getPoint(x, y, z));
+            continue;
+          }
+          const auto other = [](int a, int first) { return a == first ? first + 1 : first; };
+          mesh.Cells.insert(mesh.Cells.end(),
+            { getPoint(x, y, z), getPoint(other(x, i), y, z), getPoint(x, other(y, j), z),
+              getPoint(x, y, other(z, k)) });
+        }
+        mesh.Cells.insert(mesh.Cells.end(), middle.begin(), middle.end());
+        if (k == 0)
+        {
+          mesh.Cells.insert(mesh.Cells.end(),
+            { getPoint(i, j, 1), getPoint(i + 1, j, 1), getPoint(i, j + 1, 1),
+              getPoint(i + 1, j + 1, 1) });
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+TEST(VisibilityOrder, GoesThroughFlatAndInvertedCells)
+{
+  for (const double motion : { 0.0, 1e-9, 1e-3 })
+  {
+    WalkMesh mesh(MakeLayersOnFlatCells(5, motion));
+    ASSERT_EQ(mesh.GetNumberOfCells(), 2 * 25 * 5 + 25);
+    // Nothing but the cells' faces orders the layers: they must be one mesh.
+    ASSERT_EQ(mesh.GetNumberOfComponents(), 1);
+    ASSERT_EQ(mesh.GetNumberOfBoundaryFaces(), 4 * 25 + 4 * 5 * 4);
+    VisibilityOrder order(mesh);
+    for (const VisibilityView& view :
+      { LookFrom({ 3, 2, 20 }), LookFrom({ -4, -7, -3 }), LookFrom({ 10, 3, 1.2 }),
+        LookFrom({ 2.2, 2.7, 0.4 }), LookAlong({ 0, 0, 1 }), LookAlong({ 0.9, 0.2, -0.1 }) })
+    {
+      const auto pairs = FindOccludedPairs(mesh.GetMesh(), view, 4, 1);
+      EXPECT_GT(pairs.size(), 500U);
+      const auto& front = order.Sort(view, VisibilityMethod::Meshed, FrontToBack);
+      ExpectAllCells(front, mesh.GetNumberOfCells());
+      EXPECT_EQ(FindWrongPairs(RemoveCycles(pairs, order.GetCycles()), front).size(), 0U);
+    }
+  }
+}
+
+TEST(VisibilityOrder, OrdersWhatIsDrawnByWhatIsNot)
+{
+  WalkMesh mesh(GenerateMesh("random", { { "cells", 6 }, { "removed", 0 } }).Mesh);
+  VisibilityOrder order(mesh);
+  std::vector<std::uint8_t> drawn(mesh.GetNumberOfCells());
+  for (std::size_t cell = 0; cell < drawn.size(); ++cell)
+  {
+    drawn[cell] = cell % 3 == 0;
+  }
+  const VisibilityView view = LookFrom({ 2, 3, 4 });
+  for (const VisibilityMethod method : { VisibilityMethod::Meshed,
+         VisibilityMethod::MeshedNonConvex, VisibilityMethod::CentroidDistance })
+  {
+    for (const VisibilityDirection direction : { FrontToBack, BackToFront })
+    {
+      std::vector<std::int32_t> expected;
+      for (const std::int32_t cell : order.Sort(view, method, direction))
+      {
+        if (drawn[cell] != 0)
+        {
+          expected.push_back(cell);
+        }
+      }
+      EXPECT_EQ(order.Sort(view, method, direction, drawn), expected);
+    }
+  }
+}
+
+TEST(VisibilityOrder, DoesNotDependOnThreads)
+{
+  WalkMesh mesh(GenerateMesh("random", { { "cells", 20 } }).Mesh);
+  mesh.MakeConvex();
+  const VisibilityView view = LookFrom({ 2, 3, 4 });
+  for (const VisibilityMethod method : { VisibilityMethod::Meshed,
+         VisibilityMethod::MeshedNonConvex, VisibilityMethod::CentroidDistance })
+  {
+    std::vector<std::int32_t> expected;
+    ForEachThreadCount(
+      [&]
+      {
+        VisibilityOrder order(mesh);
+        const auto& cells = order.Sort(view, method, BackToFront);
+        if (expected.empty())
+        {
+          expected = cells;
+        }
+        EXPECT_EQ(cells, expected);
+      });
+  }
+}
+
+/// Across empty space, the guess from centroids is right where parts of the mesh are far apart.
+TEST(VisibilityOrder, GuessesAcrossEmptySpace)
+{
+  WalkMesh mesh(GenerateMesh("cubes", { { "count", 3 }, { "cells", 2 } }).Mesh);
+  VisibilityOrder order(mesh);
+  EXPECT_FALSE(order.IsConvex());
+  const VisibilityView view = LookFrom({ 9, 8, 11 });
+  const auto pairs = FindOccludedPairs(mesh.GetMesh(), view, 2, 1);
+  EXPECT_EQ(
+    FindWrongPairs(pairs, order.Sort(view, VisibilityMethod::MeshedNonConvex, FrontToBack)).size(),
+    0U);
+  EXPECT_GT(
+    FindWrongPairs(pairs, order.Sort(view, VisibilityMethod::Meshed, FrontToBack)).size(), 0U);
+}
+
+TEST(VisibilityOrder, TakesAnyMesh)
+{
+  const VisibilityMethod methods[] = { VisibilityMethod::Meshed, VisibilityMethod::MeshedNonConvex,
+    VisibilityMethod::CentroidDistance };
+  WalkMesh empty(TetrahedralMesh{});
+  WalkMesh single(MakeCyclicTetrahedra(1));
+  // All cells are flat.
+  TetrahedralMesh plane = MakeBox(2, 2, 2, { 0, 0, 0 }, { 1, 1, 1 });
+  for (std::size_t i = 2; i < plane.Points.size(); i += 3)
+  {
+    plane.Points[i] = 0;
+  }
+  WalkMesh flat(std::move(plane));
+  // Cells overlap, and are turned at random.
+  WalkMesh tangled(MakeBox(4, 4, 4, { 0, 0, 0 }, { 1, 1, 1 }, 2));
+  for (const WalkMesh* mesh : { &empty, &single, &flat, &tangled })
+  {
+    VisibilityOrder order(*mesh);
+    for (const VisibilityMethod method : methods)
+    {
+      for (const VisibilityView& view :
+        { LookFrom({ 2, 3, 4 }), LookFrom({ 0.2, 0.3, 0 }), LookAlong({ 0, 0, 1 }) })
+      {
+        ExpectAllCells(order.Sort(view, method, BackToFront), mesh->GetNumberOfCells());
+      }
+    }
+  }
+}
+
+TEST(RadixSort, IsStableSort)
+{
+  std::mt19937_64 random(1);
+  ForEachThreadCount(
+    [&]
+    {
+      for (const std::size_t size : { 0, 1, 1000, 100000 })
+      {
+        for (const std::uint64_t values : { 1U, 100U, 4000000000U })
+        {
+          std::vector<KeyedItem> items(size);
+          for (std::size_t i = 0; i < size; ++i)
+          {
+            items[i] = { static_cast<std::uint32_t>(random() % values),
+              static_cast<std::int32_t>(i) };
+          }
+          std::vector<KeyedItem> expected = items;
+          std::stable_sort(expected.begin(), expected.end(),
+            [](const KeyedItem& a, const KeyedItem& b) { return a.Key < b.Key; });
+          std::vector<KeyedItem> buffer;
+          SortByKey(items, buffer);
+          ASSERT_EQ(items.size(), expected.size());
+          for (std::size_t i = 0; i < size; ++i)
+          {
+            ASSERT_EQ(items[i].Item, expected[i].Item);
+          }
+        }
+      }
+    });
+}
+
+TEST(RadixSort, OrdersFloats)
+{
+  const float infinity = std::numeric_limits<float>::infinity();
+  const float values[] = { -infinity, -3e38F, -1, -1e-45F, 0, 1e-45F, 1e-38F, 1, 1.0000001F, 3e38F,
+    infinity };
+  for (std::size_t i = 1; i < std::size(values); ++i)
+  {
+    EXPECT_LT(GetSortableBits(values[i - 1]), GetSortableBits(values[i])) << values[i];
   }
 }
 
