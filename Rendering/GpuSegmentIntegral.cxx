@@ -11,6 +11,8 @@
 #include "IntegrateIsosurfacesDec.h"
 #include "IntegrateOpticalDepthDec.h"
 #include "IsosurfacesDec.h"
+#include "ScalarBuckets.h"
+#include "ScalarBucketsDec.h"
 #include "SegmentWeightsDec.h"
 #include "TransferIntervalsDec.h"
 #include "VolumeScene.h"
@@ -58,7 +60,12 @@ SegmentSource MakeSegmentSource(VolumeScene& scene)
       surface.Value = scene.GetScalarMap().Map(surface.Value);
     }
   }
-  else if (scene.HasCellScalars())
+  else if (!scene.HasCellScalars())
+  {
+    source.Table = scene.GetTable();
+    source.TableVersion = scene.GetTableVersion();
+  }
+  else
   {
     source.CellValues = scene.GetCellValues();
     source.CellValuesVersion = scene.GetCellValuesVersion();
@@ -76,6 +83,8 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
   this->OfCells = !source.CellValues.empty();
   this->OpticalDepth = source.Model == OpticalModel::AbsorptionOnly ||
     (source.Model == OpticalModel::EmissionAbsorption && source.ConstantColor);
+  this->ByTable = source.Model == OpticalModel::EmissionAbsorption && source.Table &&
+    !this->OfCells && !this->OpticalDepth;
   for (int c = 0; c < 3; ++c)
   {
     this->Color[c] =
@@ -84,7 +93,7 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
   switch (source.Model)
   {
     case OpticalModel::EmissionAbsorption:
-      this->Name = this->OpticalDepth ? "optical depth" : "closed form";
+      this->Name = this->OpticalDepth ? "optical depth" : this->ByTable ? "table" : "closed form";
       break;
     case OpticalModel::AbsorptionOnly:
       this->Name = "optical depth";
@@ -102,6 +111,10 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
   if (source.Model == OpticalModel::Isosurfaces)
   {
     this->UpdateSurfaces(window, source.Surfaces);
+  }
+  else if (this->ByTable)
+  {
+    this->Table.Update(window, *source.Table, source.TableVersion, source.HardwareFiltering);
   }
   else
   {
@@ -132,6 +145,12 @@ void GpuSegmentIntegral::UpdateIntervals(vtkOpenGLRenderWindow* window, const In
     this->IntervalTexels = std::move(texels);
     this->Intervals.Upload(window, this->IntervalTexels.data(), TexelsOfInterval * intervals.size(),
       4, "the transfer function");
+    std::vector<float> ends(intervals.size() - 1);
+    std::transform(intervals.begin(), intervals.end() - 1, ends.begin(),
+      [](const IntervalTable::Interval& interval) { return interval.Hi; });
+    const std::vector<std::int32_t> buckets = MakeScalarBuckets(ends);
+    this->Buckets.Upload(
+      window, buckets.data(), buckets.size(), 1, "the search table of the transfer function");
   }
 }
 
@@ -156,6 +175,10 @@ void GpuSegmentIntegral::UpdateSurfaces(
 
 std::string GpuSegmentIntegral::GetDeclarations() const
 {
+  if (this->ByTable)
+  {
+    return this->Table.GetDeclarations();
+  }
   std::string code;
   if (this->OfCells)
   {
@@ -167,11 +190,12 @@ std::string GpuSegmentIntegral::GetDeclarations() const
   }
   else
   {
-    code += std::string(SegmentWeightsDec) + TransferIntervalsDec;
+    code += std::string(SegmentWeightsDec) + ScalarBucketsDec + TransferIntervalsDec;
   }
   if (this->Model == OpticalModel::MaximumIntensity)
   {
-    return code + (this->OfCells ? TransferIntervalsDec : "") + ClassifyLargestDec;
+    code += this->OfCells ? std::string(ScalarBucketsDec) + TransferIntervalsDec : "";
+    return code + ClassifyLargestDec;
   }
   if (this->OpticalDepth)
   {
@@ -193,6 +217,11 @@ void GpuSegmentIntegral::Activate(vtkShaderProgram* program)
       "numberOfIsosurfaces", static_cast<int>(this->SurfaceTexels.size() / (4 * TexelsOfSurface)));
     return;
   }
+  if (this->ByTable)
+  {
+    this->Table.Activate(program);
+    return;
+  }
   if (this->OfCells)
   {
     this->CellValues.Activate(program, "cellValues");
@@ -200,8 +229,7 @@ void GpuSegmentIntegral::Activate(vtkShaderProgram* program)
   if (!this->OfCells || this->Model == OpticalModel::MaximumIntensity)
   {
     this->Intervals.Activate(program, "transferIntervals");
-    program->SetUniformi("numberOfTransferIntervals",
-      static_cast<int>(this->IntervalTexels.size() / (4 * TexelsOfInterval)));
+    this->Buckets.Activate(program, "transferBuckets");
   }
   if (this->OpticalDepth)
   {
@@ -211,20 +239,25 @@ void GpuSegmentIntegral::Activate(vtkShaderProgram* program)
 
 void GpuSegmentIntegral::Deactivate()
 {
+  this->Table.Deactivate();
   this->Surfaces.Deactivate();
   this->CellValues.Deactivate();
   this->Intervals.Deactivate();
+  this->Buckets.Deactivate();
 }
 
 std::size_t GpuSegmentIntegral::GetNumberOfBytes() const
 {
-  return this->Intervals.GetNumberOfBytes() + this->Surfaces.GetNumberOfBytes() +
+  return this->Intervals.GetNumberOfBytes() + this->Buckets.GetNumberOfBytes() +
+    this->Table.GetNumberOfBytes() + this->Surfaces.GetNumberOfBytes() +
     this->CellValues.GetNumberOfBytes();
 }
 
 void GpuSegmentIntegral::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Intervals.ReleaseGraphicsResources(window);
+  this->Buckets.ReleaseGraphicsResources(window);
+  this->Table.ReleaseGraphicsResources(window);
   this->Surfaces.ReleaseGraphicsResources(window);
   this->CellValues.ReleaseGraphicsResources(window);
 }

@@ -5,6 +5,7 @@
 // What a segment of a ray adds to a picture, in shaders: the GLSL functions, the arrays that they
 // read, and their uniforms. For both mappers that draw on the graphics card.
 
+#include "GpuSegmentTable.h"
 #include "IntervalTable.h"
 #include "OpticalModel.h"
 #include "Span.h"
@@ -40,6 +41,14 @@ struct SegmentSource
   /// Isosurfaces: ascending in value, their values mapped as the scalars are.
   std::vector<Isosurface> Surfaces;
 
+  /// EmissionAbsorption of scalars at points, where the colour is not constant: the table to look
+  /// segments up in, nullptr for the closed form. Another version tells that it changed.
+  const PreIntegrationTable* Table = nullptr;
+  std::uint64_t TableVersion = 0;
+
+  /// Let the graphics card interpolate in the table, see GpuSegmentTable.
+  bool HardwareFiltering = false;
+
   /// Scalars at cells: one value for each; empty where scalars are at points. Another version tells
   /// that they changed.
   Span<const CellValue> CellValues;
@@ -54,9 +63,9 @@ TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(VolumeScene& scene);
 ///   vec4 IntegrateSegment(float front, float back, float len)
 ///
 /// red, green, blue and opacity of a segment along which the mapped scalar runs linearly from front
-/// to back, len world units long: emission and absorption, in closed form or by optical depth where
-/// the colour is constant; absorption alone (colour 0); emission alone (opacity 0; it may exceed 1);
-/// flat isosurfaces. A scalar that is not a number makes the segment contribute nothing. The opacity
+/// to back, len world units long: emission and absorption, in closed form, by table, or by optical
+/// depth where the colour is constant; absorption alone (colour 0); emission alone (opacity 0; it may
+/// exceed 1); flat isosurfaces. A scalar that is not a number makes the segment contribute nothing. The opacity
 /// keeps its relative accuracy where it is tiny: gather opacities, not transmittances.
 ///
 ///   vec4 IntegrateCell(int cell, float len)
@@ -69,7 +78,8 @@ TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(VolumeScene& scene);
 /// gathers; for scalars at cells from GetCellScalar(int cell). Below -1e30 there was none.
 ///
 /// Errors: single precision throughout; of a segment's channels at most SegmentWeightError of its
-/// opacity for each piece between nodes, tested against double precision over the stability cases.
+/// opacity for each piece between nodes, tested against double precision over the stability cases; by
+/// table those of the table, see PreIntegrationTable::Bound.
 class TETRALUXRENDERING_EXPORT GpuSegmentIntegral
 {
 public:
@@ -83,8 +93,8 @@ public:
   /// The functions, to be put into a shader before its own; they change only where the name does.
   std::string GetDeclarations() const;
 
-  /// How segments are integrated, for statistics: "closed form", "optical depth", "emission",
-  /// "largest scalar" or "isosurfaces".
+  /// How segments are integrated, for statistics: "closed form", "table", "optical depth",
+  /// "emission", "largest scalar" or "isosurfaces".
   const std::string& GetName() const { return this->Name; }
 
   /// For a program that has the declarations and is in use: its uniforms, and the arrays bound to
@@ -106,11 +116,14 @@ private:
   OpticalModel Model = OpticalModel::EmissionAbsorption;
   bool OfCells = false;
   bool OpticalDepth = false;
+  bool ByTable = false;
   float Color[3] = { 0, 0, 0 };
   std::string Name;
 
   TextureBuffer Intervals;
   std::vector<float> IntervalTexels; ///< as they were sent
+  TextureBuffer Buckets;
+  GpuSegmentTable Table;
   TextureBuffer Surfaces;
   std::vector<float> SurfaceTexels; ///< as they were sent
   TextureBuffer CellValues;

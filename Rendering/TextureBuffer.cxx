@@ -19,6 +19,26 @@ namespace
 /// One of nothing: a texture has to have something.
 constexpr float EmptyTexel[4] = { 0, 0, 0, 0 };
 
+// VTK knows no formats of integers by itself.
+
+GLenum GetInternalFormat(int type, int components)
+{
+  if (type == VTK_INT)
+  {
+    return components == 1 ? GL_R32I : components == 2 ? GL_RG32I : GL_RGBA32I;
+  }
+  return components == 1 ? GL_R32F : components == 2 ? GL_RG32F : GL_RGBA32F;
+}
+
+GLenum GetFormat(int type, int components)
+{
+  if (type == VTK_INT)
+  {
+    return components == 1 ? GL_RED_INTEGER : components == 2 ? GL_RG_INTEGER : GL_RGBA_INTEGER;
+  }
+  return components == 1 ? GL_RED : components == 2 ? GL_RG : GL_RGBA;
+}
+
 } // namespace
 
 TextureBuffer::TextureBuffer() = default;
@@ -71,6 +91,9 @@ void TextureBuffer::UploadBytes(vtkOpenGLRenderWindow* window, const void* texel
   const bool outOfMemory = glGetError() != GL_NO_ERROR;
   this->Buffer->Release();
   this->Texture->SetContext(window);
+  this->Texture->SetInternalFormat(GetInternalFormat(type, components));
+  this->Texture->SetFormat(GetFormat(type, components));
+  this->Texture->SetDataType(type == VTK_INT ? GL_INT : GL_FLOAT);
   if (!uploaded || outOfMemory ||
     !this->Texture->CreateTextureBuffer(
       static_cast<unsigned int>(numberOfTexels), components, type, this->Buffer))

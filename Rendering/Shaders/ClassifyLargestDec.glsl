@@ -2,17 +2,19 @@
 // Premultiplied colour and opacity of the largest scalar along a ray; at a step the value from
 // larger scalars. Nothing where the ray met none: below -LargestScalar, or not a number.
 
-// Mapped scalars are within -LargestScalar..LargestScalar.
-const float LargestScalar = 1e30;
-
 vec4 ClassifyLargest(float largest)
 {
   if (isnan(largest) || largest < -LargestScalar)
   {
     return vec4(0.0);
   }
-  int interval = FindTransferInterval(largest, false);
+  largest = BoundScalar(largest);
+  int interval = GetFirstInterval(transferBuckets, largest);
   vec4 bounds = texelFetch(transferIntervals, 3 * interval);
+  while (bounds.y <= largest)
+  {
+    bounds = texelFetch(transferIntervals, 3 * ++interval);
+  }
   vec4 slopeColor = texelFetch(transferIntervals, 3 * interval + 1);
   vec3 colorSlope = texelFetch(transferIntervals, 3 * interval + 2).xyz;
   float x = largest - bounds.z;

@@ -7,12 +7,12 @@ vec4 IntegrateSegment(float front, float back, float len)
   // 1 - opacity to differ from 1 still count.
   vec4 gathered = vec4(0.0);
   SegmentWalk walk = StartWalk(front, back, len);
-  Piece piece;
-  while (TakePiece(walk, piece))
+  do
   {
+    Piece piece = TakePiece(walk);
     vec2 weights = WeighSegment(piece.FrontDepth, piece.BackDepth);
     vec3 color = weights.x * piece.FrontColor + weights.y * piece.BackColor;
     gathered += (1.0 - gathered.a) * vec4(color, weights.x + weights.y);
-  }
+  } while (walk.More);
   return gathered;
 }

@@ -5,13 +5,13 @@ vec4 IntegrateSegment(float front, float back, float len)
 {
   vec3 gathered = vec3(0.0);
   SegmentWalk walk = StartWalk(front, back, len);
-  Piece piece;
-  while (TakePiece(walk, piece))
+  do
   {
+    Piece piece = TakePiece(walk);
     // The integral of (d0 + (d1 - d0) w) (c0 + (c1 - c0) w) over w from 0 to 1.
     float d0 = piece.FrontDepth / 6.0;
     float d1 = piece.BackDepth / 6.0;
     gathered += (2.0 * d0 + d1) * piece.FrontColor + (d0 + 2.0 * d1) * piece.BackColor;
-  }
+  } while (walk.More);
   return vec4(gathered, 0.0);
 }

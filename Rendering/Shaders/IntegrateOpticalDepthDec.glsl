@@ -7,10 +7,10 @@ vec4 IntegrateSegment(float front, float back, float len)
 {
   float depth = 0.0;
   SegmentWalk walk = StartWalk(front, back, len);
-  Piece piece;
-  while (TakePiece(walk, piece))
+  do
   {
+    Piece piece = TakePiece(walk);
     depth += 0.5 * (piece.FrontDepth + piece.BackDepth);
-  }
+  } while (walk.More);
   return GetOpacity(depth) * vec4(constantColor, 1.0);
 }

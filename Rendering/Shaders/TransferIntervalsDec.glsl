@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts a segment, along which the scalar runs linearly, at the nodes of the transfer function, and
-// walks over the pieces, front to back.
+// walks over the pieces, front to back. Needs ScalarBucketsDec.glsl. To be used as
+//
+//   SegmentWalk walk = StartWalk(front, back, len);
+//   do
+//   {
+//     Piece piece = TakePiece(walk);
+//     ...
+//   } while (walk.More);
+//
+// with the test at the end: a software renderer runs a loop's body once more where it is at the begin.
 
 // Three texels for each interval, as IntervalTable has them: Lo, Hi, Reference, Attenuation;
 // AttenuationSlope, Color; ColorSlope. The first one begins and the last one ends beyond all scalars.
 uniform samplerBuffer transferIntervals;
-uniform int numberOfTransferIntervals;
+uniform isamplerBuffer transferBuckets;
 
-// A part of a segment on which attenuation and colour are linear.
+// Scalars nearer to 0 count as 0, nodes too: differences of all others are normal numbers, which no
+// graphics card flushes to 0.
+const float SmallestScalar = 1e-30;
+
+// Larger ones count as this, as in the mesh: all are inside of an interval.
+const float LargestScalar = 1e30;
+
+// A part of a segment on which attenuation and colour are linear; of no length at times.
 struct Piece
 {
   float FrontDepth, BackDepth; // attenuation at its ends times its length, 0..LargestDepth
@@ -23,55 +39,45 @@ struct SegmentWalk
   float Length;
 };
 
-// Scalars nearer to 0 count as 0, nodes too: differences of all others are normal numbers, which no
-// graphics card flushes to 0.
-const float SmallestScalar = 1e-30;
-
-// The interval that a scalar is in; of the two at a node, the lower one where the scalar falls.
-int FindTransferInterval(float scalar, bool falling)
+float BoundScalar(float scalar)
 {
-  int first = 0;
-  for (int count = numberOfTransferIntervals; count > 1;)
-  {
-    int halfCount = count / 2;
-    float lo = texelFetch(transferIntervals, 3 * (first + halfCount)).x;
-    first += lo < scalar || (lo == scalar && !falling) ? halfCount : 0;
-    count -= halfCount;
-  }
-  return first;
+  return abs(scalar) < SmallestScalar ? 0.0 : clamp(scalar, -LargestScalar, LargestScalar);
 }
 
 SegmentWalk StartWalk(float front, float back, float len)
 {
   // A scalar that is not a number spoils the whole segment: it contributes nothing.
-  bool more = !isnan(front) && !isnan(back) && len > 0.0;
-  front = abs(front) < SmallestScalar ? 0.0 : front;
-  back = abs(back) < SmallestScalar ? 0.0 : back;
-  return SegmentWalk(more, FindTransferInterval(front, back < front), front, back, len);
+  bool valid = !isnan(front) && !isnan(back) && len > 0.0;
+  front = valid ? BoundScalar(front) : 0.0;
+  back = valid ? BoundScalar(back) : 0.0;
+  return SegmentWalk(
+    true, GetFirstInterval(transferBuckets, front), front, back, valid ? len : 0.0);
 }
 
-// The next piece; false where there is none.
-bool TakePiece(inout SegmentWalk walk, out Piece piece)
+// The next piece.
+Piece TakePiece(inout SegmentWalk walk)
 {
-  if (!walk.More)
-  {
-    return false;
-  }
   vec4 bounds = texelFetch(transferIntervals, 3 * walk.Interval);
   vec4 slopeColor = texelFetch(transferIntervals, 3 * walk.Interval + 1);
   vec3 colorSlope = texelFetch(transferIntervals, 3 * walk.Interval + 2).xyz;
   float lo = bounds.x;
   float hi = bounds.y;
+  float front = walk.FrontScalar;
+  float back = walk.BackScalar;
 
+  // The first interval may be too low: nothing of the segment is in it. A constant scalar at a node
+  // belongs to the interval above it.
+  bool tooLow = hi < front || (hi == front && front <= back);
+  bool last = !tooLow && lo <= back && back <= hi;
+  float end = tooLow ? front : clamp(back, lo, hi);
   // By the scalar that is left, not by that from the start of the segment: however narrow an interval
   // is, its length keeps its relative accuracy.
-  bool last = lo <= walk.BackScalar && walk.BackScalar <= hi;
-  float end = last ? walk.BackScalar : clamp(walk.BackScalar, lo, hi);
-  float inverse = 1.0 / (last ? 1.0 : walk.BackScalar - walk.FrontScalar);
-  float len = last ? walk.Length : walk.Length * ((end - walk.FrontScalar) * inverse);
+  float inverse = 1.0 / (front == back ? 1.0 : back - front);
+  float len = last ? walk.Length : walk.Length * ((end - front) * inverse);
 
-  float x0 = walk.FrontScalar - bounds.z;
-  float x1 = end - bounds.z;
+  float x0 = min(front, hi) - bounds.z;
+  float x1 = min(end, hi) - bounds.z;
+  Piece piece;
   // Rounding may leave an attenuation just below zero where the function comes down to it.
   piece.FrontDepth = clamp((bounds.w + slopeColor.x * x0) * len, 0.0, LargestDepth);
   piece.BackDepth = clamp((bounds.w + slopeColor.x * x1) * len, 0.0, LargestDepth);
@@ -79,8 +85,8 @@ bool TakePiece(inout SegmentWalk walk, out Piece piece)
   piece.BackColor = slopeColor.yzw + colorSlope * x1;
 
   walk.More = !last;
-  walk.Length *= (walk.BackScalar - end) * inverse;
+  walk.Length = tooLow ? walk.Length : walk.Length * ((back - end) * inverse);
   walk.FrontScalar = end;
-  walk.Interval += lo <= walk.BackScalar ? 1 : -1;
-  return true;
+  walk.Interval += tooLow || lo <= back ? 1 : -1;
+  return piece;
 }

@@ -4,7 +4,9 @@
 #include "GlslEvaluator.h"
 #include "GpuSegmentIntegral.h"
 #include "IntervalTable.h"
+#include "PreIntegrationBuilder.h"
 #include "RayIntegral.h"
+#include "ScalarBuckets.h"
 #include "SegmentIntegral.h"
 #include "StabilityCases.h"
 
@@ -285,6 +287,21 @@ TEST_F(GpuSegmentIntegralTest, EmissionAlone)
   this->Expect(OpticalModel::EmissionOnly, tetralux::IntegrateEmissionOnly, getSize);
 }
 
+TEST_F(GpuSegmentIntegralTest, HugeScalarsAreBeyondAllNodes)
+{
+  const IntervalTable table = tetralux::MakeIntervalTable(MakeFunction(1, 1e-2));
+  tetralux::SegmentSource source;
+  source.Intervals = &table;
+  constexpr float Infinity = std::numeric_limits<float>::infinity();
+  const std::vector<Result> results =
+    this->Integrate(source, { { Infinity, 2, 1 }, { -2, -Infinity, 1 }, { 2, 3e38f, 1 } });
+  const double opacities[] = { -std::expm1(-2.), -std::expm1(-0.2), -std::expm1(-2.) };
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(results[i][3], opacities[i], SegmentError);
+  }
+}
+
 TEST_F(GpuSegmentIntegralTest, ConstantColor)
 {
   TransferFunction function = MakeFunction(1, 1e-2);
@@ -419,6 +436,102 @@ TEST_F(GpuSegmentIntegralTest, NoNumbersAndNoLengthContributeNothing)
     {
       EXPECT_EQ(result, (Result{ 0, 0, 0, 0 }));
     }
+  }
+}
+
+TEST_F(GpuSegmentIntegralTest, TablesAreInterpolatedAsTheirLookupDefines)
+{
+  const TransferFunction function = MakeFunction(1, 0.1);
+  const IntervalTable intervals = tetralux::MakeIntervalTable(function);
+  std::uint64_t version = 0;
+  for (const tetralux::TexelFormat format :
+    { tetralux::TexelFormat::Float, tetralux::TexelFormat::Half, tetralux::TexelFormat::UNorm16,
+      tetralux::TexelFormat::UNorm8 })
+  {
+    for (const bool logarithmic : { false, true })
+    {
+      for (const bool uniform : { false, true })
+      {
+        tetralux::PreIntegrationSettings settings;
+        settings.ScalarSize = 24;
+        settings.LengthSize = 20;
+        settings.Scale =
+          logarithmic ? tetralux::LengthScale::Logarithmic : tetralux::LengthScale::Linear;
+        settings.StepsPerDoubling = 2;
+        settings.Axis = uniform ? tetralux::ScalarAxis::Uniform : tetralux::ScalarAxis::Nodes;
+        settings.Format = format;
+        settings.ScalarRange[0] = -1;
+        settings.LongestSegment = 5;
+        tetralux::PreIntegrationTable table;
+        tetralux::BuildPreIntegrationTable(function, settings, table);
+        // Beyond all axes, too.
+        std::vector<Arguments> segments = MakeSegments(intervals, 7);
+        segments.push_back({ NotANumber, 0, 1 });
+        segments.push_back({ 0.5f, 0.5f, 0 });
+        tetralux::SegmentSource source;
+        source.Intervals = &intervals;
+        source.Table = &table;
+        source.TableVersion = ++version;
+        const std::vector<Result> results = this->Integrate(source, segments);
+        EXPECT_EQ(this->Integral.GetName(), "table");
+        EXPECT_GE(this->Integral.GetNumberOfBytes(), table.GetNumberOfBytes());
+        double worst = 0;
+        for (std::size_t i = 0; i < segments.size(); ++i)
+        {
+          float expected[4] = { 0, 0, 0, 0 };
+          if (!std::isnan(segments[i][0]) && segments[i][2] > 0)
+          {
+            table.Lookup(segments[i][0], segments[i][1], segments[i][2], expected);
+          }
+          for (int c = 0; c < 4; ++c)
+          {
+            worst = std::max<double>(worst, std::abs(results[i][c] - expected[c]));
+          }
+        }
+        // Coordinates up to the sizes are numbers of single precision.
+        EXPECT_LE(worst, 4e-6) << static_cast<int>(format) << logarithmic << uniform;
+
+        // Weights of eight bits are off by 1 / 512 along each axis, from texels in 0..1; and once
+        // more where a renderer rounds what it interpolates to the format.
+        source.HardwareFiltering = true;
+        const std::vector<Result> filtered = this->Integrate(source, segments);
+        double difference = 0;
+        for (std::size_t i = 0; i < segments.size(); ++i)
+        {
+          for (int c = 0; c < 4; ++c)
+          {
+            difference = std::max<double>(difference, std::abs(filtered[i][c] - results[i][c]));
+          }
+        }
+        std::cout << "format " << static_cast<int>(format) << ": error " << worst
+                  << ", with hardware filtering " << difference << " more\n";
+        EXPECT_LE(difference, 4. / 512);
+      }
+    }
+  }
+}
+
+TEST(ScalarBuckets, GiveTheIntervalAtTheirBegin)
+{
+  // Steps, clusters, and nodes at and beyond both ends.
+  const std::vector<float> ends = { -3, -1, -0.5f, -0.5f, 0, 1e-6f, 2e-6f, 0.3f, 0.30001f, 1, 2 };
+  const std::vector<std::int32_t> buckets = tetralux::MakeScalarBuckets(ends);
+  const std::size_t size = buckets.size() - 2;
+  EXPECT_GE(size, 1024u);
+  EXPECT_LE(buckets.size(), 65536u); // what OpenGL promises
+  EXPECT_EQ(buckets[0], 0);
+  for (std::size_t k = 1; k < buckets.size(); ++k)
+  {
+    const double begin = -1 + 2. * static_cast<double>(k - 1) / static_cast<double>(size);
+    const double before = begin - 0.05 / static_cast<double>(size); // rounding, and more
+    const auto find = [&](double scalar)
+    {
+      return std::upper_bound(
+               ends.begin(), ends.end(), scalar, [](double s, float end) { return s < end; }) -
+        ends.begin();
+    };
+    ASSERT_LE(buckets[k], find(begin));
+    ASSERT_GE(buckets[k], find(before));
   }
 }
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_GpuSegmentTable_h
+#define tetralux_GpuSegmentTable_h
+
+#include "PreIntegrationTable.h"
+#include "TextureBuffer.h"
+
+#include "vtkNew.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace tetralux
+{
+
+/// A pre-integration table as a texture of its own format, and the GLSL function IntegrateSegment that
+/// looks it up, see GpuSegmentIntegral.
+class GpuSegmentTable
+{
+public:
+  GpuSegmentTable();
+  ~GpuSegmentTable();
+
+  /// Sends the table to the graphics card, unless it has this version of it. hardwareFiltering: let the
+  /// graphics card interpolate, with weights of eight bits: each axis adds an error of 1 / 512 of the
+  /// change from a texel to the next. Throws std::runtime_error, with one line, where there is no room
+  /// for the table.
+  void Update(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table,
+    std::uint64_t version, bool hardwareFiltering);
+
+  std::string GetDeclarations() const;
+
+  void Activate(vtkShaderProgram* program);
+  void Deactivate();
+
+  std::size_t GetNumberOfBytes() const
+  {
+    return this->Bytes + this->Axis.GetNumberOfBytes() + this->Buckets.GetNumberOfBytes();
+  }
+
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  void UploadTexels(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table);
+
+  vtkNew<vtkTextureObject> Texture;
+  TextureBuffer Axis;
+  TextureBuffer Buckets;
+  std::size_t Bytes = 0; ///< 0: there is no texture
+  std::uint64_t Version = 0;
+  TexelFormat Format = TexelFormat::Float;
+  bool UniformAxis = false;
+  bool Logarithmic = false;
+  bool HardwareFiltering = false;
+  float FirstInterval[4] = { 0, 0, 0, 0 };
+  float Size[3] = { 0, 0, 0 };
+  float InverseDelta = 1;
+  float StepsPerDoubling = 1;
+};
+
+} // namespace tetralux
+
+#endif
