@@ -10,6 +10,8 @@
 #include "IntegrateEmissionDec.h"
 #include "IntegrateIsosurfacesDec.h"
 #include "IntegrateOpticalDepthDec.h"
+#include "IntegrateShadedIsosurfacesDec.h"
+#include "IntegrateShadedSegmentDec.h"
 #include "IsosurfacesDec.h"
 #include "ScalarBuckets.h"
 #include "ScalarBucketsDec.h"
@@ -80,6 +82,7 @@ GpuSegmentIntegral::~GpuSegmentIntegral() = default;
 void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSource& source)
 {
   this->Model = source.Model;
+  this->Shaded = source.Shaded;
   this->OfCells = !source.CellValues.empty();
   this->OpticalDepth = source.Model == OpticalModel::AbsorptionOnly ||
     (source.Model == OpticalModel::EmissionAbsorption && source.ConstantColor);
@@ -174,6 +177,13 @@ void GpuSegmentIntegral::UpdateSurfaces(
 }
 
 std::string GpuSegmentIntegral::GetDeclarations() const
+{
+  const char* shaded = this->Model == OpticalModel::Isosurfaces ? IntegrateShadedIsosurfacesDec
+                                                                : IntegrateShadedSegmentDec;
+  return this->GetFlatDeclarations() + (this->Shaded ? shaded : "");
+}
+
+std::string GpuSegmentIntegral::GetFlatDeclarations() const
 {
   if (this->ByTable)
   {

@@ -49,6 +49,9 @@ struct SegmentSource
   /// Let the graphics card interpolate in the table, see GpuSegmentTable.
   bool HardwareFiltering = false;
 
+  /// Whether segments are lit: emission and absorption, and isosurfaces, of scalars at points.
+  bool Shaded = false;
+
   /// Scalars at cells: one value for each; empty where scalars are at points. Another version tells
   /// that they changed.
   Span<const CellValue> CellValues;
@@ -67,6 +70,14 @@ TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(VolumeScene& scene);
 /// depth where the colour is constant; absorption alone (colour 0); emission alone (opacity 0; it may
 /// exceed 1); flat isosurfaces. A scalar that is not a number makes the segment contribute nothing. The opacity
 /// keeps its relative accuracy where it is tiny: gather opacities, not transmittances.
+///
+///   vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradient,
+///     vec3 backGradient, vec3 frontPoint, vec3 backPoint, vec3 direction)
+///
+/// the same with light, where it is asked for, after the functions of GpuLighting: of a volume the
+/// light in the middle of the segment, of a surface that where it is crossed. Gradients at both ends,
+/// equal ones for those of cells, are in coordinates of the mesh and of any length; points and the
+/// direction are those of Ray in RayGridDec.glsl.
 ///
 ///   vec4 IntegrateCell(int cell, float len)
 ///
@@ -110,6 +121,7 @@ public:
   void ReleaseGraphicsResources(vtkWindow* window);
 
 private:
+  std::string GetFlatDeclarations() const;
   void UpdateIntervals(vtkOpenGLRenderWindow* window, const IntervalTable& table);
   void UpdateSurfaces(vtkOpenGLRenderWindow* window, const std::vector<Isosurface>& surfaces);
 
@@ -117,6 +129,7 @@ private:
   bool OfCells = false;
   bool OpticalDepth = false;
   bool ByTable = false;
+  bool Shaded = false;
   float Color[3] = { 0, 0, 0 };
   std::string Name;
 

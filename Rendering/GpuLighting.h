@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_GpuLighting_h
+#define tetralux_GpuLighting_h
+
+#include "OpticalModel.h"
+#include "RayGrid.h"
+#include "Span.h"
+#include "TetraluxRenderingModule.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkShaderProgram;
+
+namespace tetralux
+{
+
+/// Lights in shaders, as SurfaceShading.h has them on the CPU:
+///
+///   LightFactors FindLight(vec3 point, vec3 gradient, vec3 direction)
+///
+/// see LightingDec.glsl. Single precision throughout.
+class TETRALUXRENDERING_EXPORT GpuLighting
+{
+public:
+  /// For one frame. center and radius: see WalkMesh.
+  void Update(const std::vector<Light>& lights, const Material& surface, const RayGrid& grid,
+    const double center[3], double radius);
+
+  /// To be put into a shader before the functions of GpuSegmentIntegral.
+  std::string GetDeclarations() const;
+
+  /// For a program that has the declarations and is in use.
+  void Set(vtkShaderProgram* program) const;
+
+private:
+  using Vector3 = std::array<float, 3>;
+  using Vector4 = std::array<float, 4>;
+
+  float WorldFromRay[9]; ///< column by column
+  float NormalFromMesh[9];
+  float SpecularPower = 1;
+  std::vector<Vector4> Positions, Cones, Falloffs;
+  std::vector<Vector3> Ambient, Diffuse, Specular;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Light in shaders against that of SurfaceShading.h.
+
+#include "GlslEvaluator.h"
+#include "GpuLighting.h"
+#include "GpuSegmentIntegral.h"
+#include "IntervalTable.h"
+#include "RayIntegral.h"
+#include "SurfaceShading.h"
+
+#include "vtkShaderProgram.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+namespace
+{
+
+using tetralux::Light;
+using tetralux::LightFactors;
+using Arguments = GlslEvaluator::Arguments;
+using Result = GlslEvaluator::Result;
+using Vector = std::array<double, 3>;
+
+/// Factors are sums of products of single precision, with powers.
+constexpr double FactorError = 5e-6;
+
+Light MakeLight(const Vector& position, bool positional)
+{
+  Light light{};
+  std::copy(position.begin(), position.end(), light.Position);
+  light.Positional = positional;
+  for (int c = 0; c < 3; ++c)
+  {
+    light.Ambient[c] = 0.2f + 0.1f * static_cast<float>(c);
+    light.Diffuse[c] = 0.9f - 0.2f * static_cast<float>(c);
+    light.Specular[c] = 0.5f + 0.1f * static_cast<float>(c);
+  }
+  return light;
+}
+
+class GpuLightingTest : public testing::Test
+{
+public:
+  GpuLightingTest()
+  {
+    this->Mesh.Points = { 10, 20, 30, 11, 20, 30, 10, 21, 30.5, 10, 20.25, 31 };
+    this->Mesh.Cells = { 0, 1, 2, 3 };
+    this->Shading.Mesh = &this->Mesh;
+    this->Shading.Scalars = this->Scalars.data();
+    this->Shading.Gradients = nullptr;
+    this->Shading.MeshFromWorld = this->Grid.MeshFromWorld;
+    this->Shading.Surface = { 0.3f, 0.6f, 0.4f, 12.f };
+    // Coordinates of the world turned, stretched and moved.
+    const double rows[3][4] = { { 0.5, -1, 0, 3 }, { 1, 0.4, 0.1, -2 }, { 0, 0.2, 2, 1 } };
+    std::copy_n(&rows[0][0], 12, &this->Grid.MeshFromWorld[0][0]);
+  }
+
+  /// The gradient of the cell: of scalars that are linear.
+  void SetGradient(const Vector& gradient)
+  {
+    this->Gradient = gradient;
+    for (int p = 0; p < 4; ++p)
+    {
+      this->Scalars[p] = 0;
+      for (int a = 0; a < 3; ++a)
+      {
+        this->Scalars[p] += gradient[a] * this->Mesh.Points[3 * p + a];
+      }
+    }
+  }
+
+  Vector ToMesh(const Vector& x, bool point) const
+  {
+    Vector result;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double* row = this->Grid.MeshFromWorld[a];
+      result[a] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + (point ? row[3] : 0);
+    }
+    return result;
+  }
+
+  /// Points of the world near the mesh and directions of length 1.
+  void MakeCases(std::vector<Vector>& points, std::vector<Vector>& directions)
+  {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < 300; ++i)
+    {
+      Vector direction = { normal(random), normal(random), normal(random) };
+      const double length = std::hypot(direction[0], direction[1], direction[2]);
+      for (double& x : direction)
+      {
+        x /= length;
+      }
+      directions.push_back(direction);
+      points.push_back({ 13 + normal(random), -5 + normal(random), 15 + normal(random) });
+    }
+  }
+
+  Arguments MakeArguments(const Vector& point, const Vector& direction) const
+  {
+    const Vector p = this->ToMesh(point, true);
+    const Vector d = this->ToMesh(direction, false);
+    Arguments arguments{};
+    for (int a = 0; a < 3; ++a)
+    {
+      arguments[a] = static_cast<float>((p[a] - this->Center[a]) / this->Radius);
+      arguments[4 + a] = static_cast<float>(d[a] / this->Radius);
+    }
+    return arguments;
+  }
+
+  void ExpectFactors()
+  {
+    std::vector<Vector> points, directions;
+    this->MakeCases(points, directions);
+    std::vector<Arguments> cases;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      cases.push_back(this->MakeArguments(points[i], directions[i]));
+    }
+    tetralux::GpuLighting lighting;
+    lighting.Update(
+      this->Shading.Lights, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
+    const std::string gradient = "vec3(" + std::to_string(this->Gradient[0]) + ", " +
+      std::to_string(this->Gradient[1]) + ", " + std::to_string(this->Gradient[2]) + ")";
+    double worst = 0;
+    for (const bool add : { false, true })
+    {
+      const std::vector<Result> results = this->Evaluator.Evaluate(lighting.GetDeclarations(),
+        "vec4(FindLight(a.xyz, " + gradient + ", b.xyz)." + (add ? "Add" : "Scale") + ", 0.0)",
+        cases, [&](vtkShaderProgram* program) { lighting.Set(program); });
+      for (std::size_t i = 0; i < cases.size(); ++i)
+      {
+        const LightFactors expected =
+          tetralux::FindLight(this->Shading, 0, points[i].data(), directions[i].data());
+        for (int c = 0; c < 3; ++c)
+        {
+          worst = std::max<double>(
+            worst, std::abs(results[i][c] - (add ? expected.Add[c] : expected.Scale[c])));
+        }
+      }
+    }
+    std::cout << "error " << worst << "\n";
+    EXPECT_LE(worst, FactorError);
+  }
+
+  GlslEvaluator Evaluator;
+  tetralux::TetrahedralMesh Mesh;
+  std::vector<double> Scalars = { 0, 0, 0, 0 };
+  tetralux::SurfaceShading Shading;
+  tetralux::RayGrid Grid;
+  Vector Gradient = { 0, 0, 0 };
+  Vector Center = { 10.5, 20.5, 30.5 };
+  double Radius = 2;
+};
+
+TEST_F(GpuLightingTest, DistantLights)
+{
+  this->SetGradient({ 0.5, -1, 2 });
+  this->Shading.Lights = { MakeLight({ 0.6, 0, 0.8 }, false), MakeLight({ 0, -1, 0 }, false) };
+  this->ExpectFactors();
+}
+
+TEST_F(GpuLightingTest, PositionalLightsAndSpots)
+{
+  this->SetGradient({ 0.5, -1, 2 });
+  Light far = MakeLight({ 20, 3, 40 }, true);
+  far.Attenuation[0] = 0.5;
+  far.Attenuation[1] = 0.02;
+  far.Attenuation[2] = 0.001;
+  Light spot = MakeLight({ 13, -5, 18 }, true);
+  spot.ConeCosine = 0.8;
+  spot.Exponent = 3;
+  this->Shading.Lights = { far, spot };
+  this->ExpectFactors();
+}
+
+TEST_F(GpuLightingTest, WithoutAGradientSurfacesFaceTheViewer)
+{
+  this->SetGradient({ 0, 0, 0 });
+  this->Shading.Lights = { MakeLight({ 0.6, 0, 0.8 }, false) };
+  this->ExpectFactors();
+}
+
+TEST_F(GpuLightingTest, NoLightsAreBlack)
+{
+  tetralux::GpuLighting lighting;
+  lighting.Update({}, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
+  const std::vector<Result> results = this->Evaluator.Evaluate(lighting.GetDeclarations(),
+    "vec4(FindLight(a.xyz, b.xyz, b.xyz).Scale + FindLight(a.xyz, b.xyz, b.xyz).Add, a.x)",
+    { { 0.5f, 0, 0, 0, 0, 0, 1 } }, [&](vtkShaderProgram* program) { lighting.Set(program); });
+  EXPECT_EQ(results.front(), (Result{ 0, 0, 0, 0.5f }));
+}
+
+TEST_F(GpuLightingTest, LitSegments)
+{
+  this->SetGradient({ 0.5, -1, 2 });
+  this->Shading.Lights = { MakeLight({ 0.6, 0, 0.8 }, false) };
+  tetralux::GpuLighting lighting;
+  lighting.Update(
+    this->Shading.Lights, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
+  tetralux::TransferFunction function;
+  function.Nodes = { { -1, { { 1, 0, 0.5 }, 0.5 }, { { 1, 0, 0.5 }, 0.5 } },
+    { 1, { { 0, 1, 0.25 }, 2 }, { { 0, 1, 0.25 }, 2 } } };
+  const tetralux::IntervalTable table = tetralux::MakeIntervalTable(function);
+  const std::vector<tetralux::Isosurface> surfaces = { { -0.25, { 1, 0.5f, 0 }, 0.5f },
+    { 0.5, { 0, 0.5f, 1 }, 0.75f } };
+  std::vector<Vector> points, directions;
+  this->MakeCases(points, directions);
+  std::vector<Arguments> cases;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    cases.push_back(this->MakeArguments(points[i], directions[i]));
+  }
+  constexpr double Front = 0.75;
+  constexpr double Back = -0.5;
+  constexpr double Length = 1.5;
+  for (const tetralux::OpticalModel model :
+    { tetralux::OpticalModel::EmissionAbsorption, tetralux::OpticalModel::Isosurfaces })
+  {
+    const bool volume = model == tetralux::OpticalModel::EmissionAbsorption;
+    tetralux::SegmentSource source;
+    source.Model = model;
+    source.Intervals = &table;
+    source.Surfaces = surfaces;
+    source.Shaded = true;
+    tetralux::GpuSegmentIntegral integral;
+    integral.Update(this->Evaluator.Window, source);
+    const std::vector<Result> results = this->Evaluator.Evaluate(
+      lighting.GetDeclarations() + integral.GetDeclarations(),
+      "IntegrateShadedSegment(0.75, -0.5, 1.5, vec3(0.5, -1.0, 2.0), vec3(0.5, -1.0, 2.0), "
+      "a.xyz, a.xyz + 1.5 * b.xyz, b.xyz)",
+      cases,
+      [&](vtkShaderProgram* program)
+      {
+        lighting.Set(program);
+        integral.Activate(program);
+      },
+      [&] { integral.Deactivate(); });
+    const tetralux::SegmentRadiance flat =
+      tetralux::IntegrateEmissionAbsorption(function, Front, Back, Length);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+    {
+      // A place does not change the light of a distant light.
+      const LightFactors light =
+        tetralux::FindLight(this->Shading, 0, points[i].data(), directions[i].data());
+      double expected[4] = { 0, 0, 0, volume ? flat.Opacity : 1 - 0.25 * 0.5 };
+      for (int c = 0; c < 3; ++c)
+      {
+        const auto lit = [&](int surface)
+        { return std::clamp(light.Apply(c, surfaces[surface].Color[c]), 0.f, 1.f); };
+        expected[c] = volume ? flat.Color[c] * light.Scale[c] + flat.Opacity * light.Add[c]
+                             : 0.75 * lit(1) + 0.25 * 0.5 * lit(0);
+      }
+      for (int c = 0; c < 4; ++c)
+      {
+        EXPECT_NEAR(results[i][c], expected[c], FactorError);
+      }
+    }
+    integral.ReleaseGraphicsResources(this->Evaluator.Window);
+  }
+}
+
+TEST_F(GpuLightingTest, GradientsAndPlacesRunAlongASegment)
+{
+  // The gradient turns from one end to the other, and a near light shines.
+  this->Shading.Lights = { MakeLight({ 13, -5, 16 }, true) };
+  this->Shading.Lights[0].Attenuation[2] = 0.1;
+  tetralux::GpuLighting lighting;
+  lighting.Update(
+    this->Shading.Lights, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
+  std::vector<Vector> points, directions;
+  this->MakeCases(points, directions);
+  std::vector<Arguments> cases;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    cases.push_back(this->MakeArguments(points[i], directions[i]));
+  }
+  const std::vector<tetralux::Isosurface> surfaces = { { 0.25, { 1, 0.5f, 0.25f }, 1 } };
+  tetralux::SegmentSource source;
+  source.Model = tetralux::OpticalModel::Isosurfaces;
+  source.Surfaces = surfaces;
+  source.Shaded = true;
+  tetralux::GpuSegmentIntegral integral;
+  integral.Update(this->Evaluator.Window, source);
+  const std::vector<Result> results = this->Evaluator.Evaluate(
+    lighting.GetDeclarations() + integral.GetDeclarations(),
+    "IntegrateShadedSegment(0.0, 1.0, 1.0, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.5), "
+    "a.xyz, a.xyz + b.xyz, b.xyz)",
+    cases,
+    [&](vtkShaderProgram* program)
+    {
+      lighting.Set(program);
+      integral.Activate(program);
+    },
+    [&] { integral.Deactivate(); });
+  this->SetGradient({ 0.75, 0.25, 0.125 });
+  for (std::size_t i = 0; i < cases.size(); ++i)
+  {
+    const Vector place = { points[i][0] + 0.25 * directions[i][0],
+      points[i][1] + 0.25 * directions[i][1], points[i][2] + 0.25 * directions[i][2] };
+    const LightFactors light =
+      tetralux::FindLight(this->Shading, 0, place.data(), directions[i].data());
+    for (int c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(
+        results[i][c], std::clamp(light.Apply(c, surfaces[0].Color[c]), 0.f, 1.f), FactorError);
+    }
+  }
+  integral.ReleaseGraphicsResources(this->Evaluator.Window);
+}
+
+} // namespace
