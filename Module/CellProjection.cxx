@@ -17,8 +17,12 @@ constexpr double SmallestRelativeVolume = 1e-15;
 /// centre lies on it. Their products with pixels stay in the range of single precision.
 constexpr double LargestSlope = 1e30;
 
-/// What a face seen from the side has in place of its function: it never limits a ray.
+/// What a face has in place of its function where it never limits a ray.
 constexpr float Never = 1e37f;
+
+/// How far rays pass beside the centres of pixels above them, of how far they do beside them: no line
+/// that meshes are aligned with has this slope.
+constexpr double ShiftSlope = 0.38;
 
 /// A widened corner may move by this many margins; sharper ones get a rectangle around all.
 constexpr double LongestMiter = 64;
@@ -307,6 +311,21 @@ public:
     return std::abs(face.Value) + std::abs(face.SlopeX) + std::abs(face.SlopeY) <= LargestSlope;
   }
 
+  /// Of a face that is seen from the side: more than any z in front of it, less behind it.
+  Linear FindSide(int i) const
+  {
+    const Vector& normal = this->Normals[i];
+    const double size = std::max(std::abs(normal.X), std::abs(normal.Y));
+    if (!(size > 0))
+    {
+      return { Never, 0, 0 };
+    }
+    const double scale = (this->Volume > 0 ? LargestSlope : -LargestSlope) / size;
+    // In the plane of (x t, y t, t) that the eye is in, or of a direction without depth.
+    const double constant = this->Homogeneous ? normal.Z : -this->Heights[i];
+    return { scale * constant, scale * normal.X, scale * normal.Y };
+  }
+
   /// The scalar at z = base + something, times z where homogeneous, on base and for something.
   void FindScalar(
     const ScreenPoint* const points[4], const Linear& base, Linear& scalar, double& slope) const
@@ -345,6 +364,28 @@ private:
   double Volume;     ///< six times that of the cell, signed
 };
 
+/// How wide or high a cell may be on the picture, pixels.
+double FindExtent(const ScreenFrame& frame, const ProjectionSettings& settings,
+  Span<const ScreenPoint> points, const std::int32_t* cell)
+{
+  const ScreenPoint* const corners[4] = { &points[cell[0]], &points[cell[1]], &points[cell[2]],
+    &points[cell[3]] };
+  Box box = FindBox(frame, corners);
+  return box.Clamp(settings) ? std::max(box.Hi[0] - box.Lo[0], box.Hi[1] - box.Lo[1]) : 0;
+}
+
+/// A number that looks random, 0..LargestCellKey (Wang's hash of integers).
+std::uint32_t MakeKey(std::int32_t cell)
+{
+  auto key = static_cast<std::uint32_t>(cell);
+  key = (key ^ 61u) ^ (key >> 16);
+  key *= 9u;
+  key ^= key >> 4;
+  key *= 0x27d4eb2du;
+  key ^= key >> 15;
+  return key & LargestCellKey;
+}
+
 } // namespace
 
 int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, const ScreenPoint& a,
@@ -361,8 +402,8 @@ int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, co
   }
   const double referenceX = std::floor(0.5 * (box.Lo[0] + box.Hi[0]));
   const double referenceY = std::floor(0.5 * (box.Lo[1] + box.Hi[1]));
-  const LocalCell cell(
-    frame, points, frame.IsPerspective() && settings.Interpolate, referenceX, referenceY);
+  const LocalCell cell(frame, points, frame.IsPerspective() && settings.Interpolate,
+    referenceX + settings.Shift, referenceY + ShiftSlope * settings.Shift);
   double scalarLo = a.Scalar;
   double scalarHi = a.Scalar;
   double scalarSum = 0;
@@ -436,27 +477,26 @@ int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, co
   place(2, result.Third.X, result.Third.Y);
   place(n == 4 ? 3 : 0, result.Fourth.X, result.Fourth.Y);
 
-  // The faces, those of the side of the base first.
+  // The faces, those of the side of the base first, and with them those that are seen from the side.
   const double sign = front[base] ? 1 : -1;
   float* slots[3] = { result.First.Face0, result.Second.Face1, result.Second.Face2 };
   int entries = 0;
   int exits = 0;
   for (int i = 0; i < 4; ++i)
   {
-    if (i != base)
+    if (i != base && !seen[i])
+    {
+      Store(cell.FindSide(i), 1, slots[entries++]);
+    }
+    else if (i != base)
     {
       const bool entry = front[i] == front[base];
-      float* slot = entry ? slots[entries++] : slots[2 - exits++];
-      if (seen[i])
-      {
-        Store(faces[i] - faces[base], sign, slot);
-      }
-      else
-      {
-        slot[0] = entry ? Never : -Never;
-        slot[1] = slot[2] = 0;
-      }
+      Store(faces[i] - faces[base], sign, entry ? slots[entries++] : slots[2 - exits++]);
     }
+  }
+  if (exits == 0 && allInFront)
+  {
+    return 0; // rounding left nothing of it
   }
   Store(faces[base], 1, result.First.Base);
 
@@ -471,6 +511,103 @@ int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, co
   result.Fourth.Reference[1] = static_cast<float>(referenceY + Half);
   result.Fourth.Code = static_cast<float>(entries + (sign < 0 ? 4 : 0));
   return n;
+}
+
+double FindShift(const ScreenFrame& frame, const ProjectionSettings& settings,
+  Span<const ScreenPoint> points, Span<const std::int32_t> cells)
+{
+  // A side is off by a few roundings of 2^-25 times half of the extent.
+  constexpr double ShiftOfExtent = 1. / (1 << 21);
+  double largest = 0;
+  const auto n = static_cast<std::int64_t>(cells.size() / 4);
+#pragma omp parallel for schedule(static) reduction(max : largest)
+  for (std::int64_t cell = 0; cell < n; ++cell)
+  {
+    largest = std::max(largest, FindExtent(frame, settings, points, &cells[4 * cell]));
+  }
+  return ShiftOfExtent * std::max(largest, 1.);
+}
+
+void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
+  Span<const ScreenPoint> points, Span<const std::int32_t> cells, Span<const std::int32_t> order,
+  const CellData& data, ProjectedCells& result)
+{
+  // Blocks of cells are projected side by side, and pushed together behind that.
+  constexpr std::int64_t BlockSize = 512;
+  const auto n = static_cast<std::int64_t>(order.size());
+  const std::int64_t blocks = (n + BlockSize - 1) / BlockSize;
+  struct Counts
+  {
+    std::int64_t Cells = 0;
+    std::int64_t Triangles = 0;
+  };
+  std::vector<Counts> counts(blocks + 1);
+  std::vector<std::uint8_t> corners(n);
+  result.Cells.resize(n);
+#pragma omp parallel for schedule(dynamic)
+  for (std::int64_t block = 0; block < blocks; ++block)
+  {
+    const std::int64_t begin = block * BlockSize;
+    const std::int64_t end = std::min(begin + BlockSize, n);
+    std::int64_t last = begin;
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      const std::int32_t cell = order[i];
+      const std::int32_t* p = &cells[4 * static_cast<std::size_t>(cell)];
+      ProjectedCell& projected = result.Cells[last];
+      const int count = ProjectCell(
+        frame, settings, points[p[0]], points[p[1]], points[p[2]], points[p[3]], projected);
+      if (count == 0)
+      {
+        continue;
+      }
+      if (data.Keys)
+      {
+        projected.Fourth.Code += static_cast<float>(8 * MakeKey(cell));
+      }
+      if (data.Ids)
+      {
+        const std::int32_t high = cell / CellIdBase;
+        projected.Fourth.Own[0] = static_cast<float>(high);
+        projected.Fourth.Own[1] = static_cast<float>(cell % CellIdBase);
+      }
+      corners[last++] = static_cast<std::uint8_t>(count);
+      counts[block].Triangles += count - 2;
+    }
+    counts[block].Cells = last - begin;
+  }
+  Counts sum;
+  for (Counts& count : counts)
+  {
+    const Counts own = count;
+    count = sum;
+    sum.Cells += own.Cells;
+    sum.Triangles += own.Triangles;
+  }
+  result.Triangles.resize(3 * sum.Triangles);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t block = 0; block < blocks; ++block)
+  {
+    std::uint32_t* triangle = result.Triangles.data() + 3 * counts[block].Triangles;
+    for (std::int64_t i = counts[block].Cells; i < counts[block + 1].Cells; ++i)
+    {
+      const auto corner = static_cast<std::uint32_t>(4 * i);
+      const int count = corners[block * BlockSize + i - counts[block].Cells];
+      for (int k = 1; k < count - 1; ++k, triangle += 3)
+      {
+        triangle[0] = corner + k;
+        triangle[1] = corner + k + 1;
+        triangle[2] = corner;
+      }
+    }
+  }
+  for (std::int64_t block = 0; block < blocks; ++block)
+  {
+    const auto begin = result.Cells.begin() + block * BlockSize;
+    std::copy(begin, begin + (counts[block + 1].Cells - counts[block].Cells),
+      result.Cells.begin() + counts[block].Cells);
+  }
+  result.Cells.resize(sum.Cells + 1);
 }
 
 } // namespace tetralux

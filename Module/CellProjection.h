@@ -29,6 +29,7 @@
 #include "TetraluxCoreModule.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace tetralux
 {
@@ -41,6 +42,9 @@ struct ProjectionSettings
 
   /// How far silhouettes are widened, pixels: more than graphics cards may move their corners.
   double Margin = 1. / 256;
+
+  /// By how much rays pass beside the centres of pixels, pixels, see FindShift.
+  double Shift = 0;
 
   /// Perspective interpolation (Kraus et al. 2004, section 2.2). Off: depths and scalars are
   /// interpolated linearly on the screen, which is wrong in a perspective.
@@ -87,8 +91,8 @@ struct ProjectedCell
   {
     float X, Y;
     float Reference[2]; ///< centre of a pixel, in the coordinates of gl_FragCoord
-    float Code;         ///< Entries where Sign is 1, Entries + 4 where it is -1
-    float Gradient[3];  ///< left to the caller: of the field, or the cell's id
+    float Code;         ///< Entries where Sign is 1, Entries + 4 where it is -1; plus 8 times a key
+    float Own[3];       ///< see CellData
   } Fourth;
 };
 static_assert(sizeof(ProjectedCell) == 4 * 32, "corners are 32 bytes apart");
@@ -101,6 +105,48 @@ static_assert(sizeof(ProjectedCell) == 4 * 32, "corners are 32 bytes apart");
 TETRALUXCORE_EXPORT int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings,
   const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d,
   ProjectedCell& result);
+
+/// The smallest ProjectionSettings::Shift by which no ray that is meant to run exactly along faces seen
+/// from the side meets the cells on both sides, or none, by rounding of single precision: in proportion
+/// to the largest extent of a cell on the picture; 2e-5 pixels for 40. cells: four point ids each.
+/// Parallel.
+TETRALUXCORE_EXPORT double FindShift(const ScreenFrame& frame, const ProjectionSettings& settings,
+  Span<const ScreenPoint> points, Span<const std::int32_t> cells);
+
+/// Projected cells in the order of drawing, ready to be sent to a graphics card.
+struct ProjectedCells
+{
+  /// One more than are drawn: what the last corner's attributes reach into.
+  std::vector<ProjectedCell> Cells;
+  std::int64_t GetNumberOfCells() const
+  {
+    return static_cast<std::int64_t>(this->Cells.size()) - 1;
+  }
+
+  /// Three for each triangle, of corners: corner k of cell i is 4 i + k. The last one is the cell's
+  /// first corner, which has the data of the cell with it.
+  std::vector<std::uint32_t> Triangles;
+};
+
+/// What fragments get to know of their cell.
+struct CellData
+{
+  /// A number of the cell's own in its Code, 0..LargestCellKey, that looks random.
+  bool Keys = false;
+
+  /// The cell's id in Own: CellIdBase Own[0] + Own[1].
+  bool Ids = false;
+};
+
+constexpr int LargestCellKey = (1 << 12) - 1;
+constexpr std::int32_t CellIdBase = 1 << 12;
+
+/// Projects cells in an order. points: of the whole mesh. cells: four point ids each. order: the cells
+/// to be projected; those that are not seen are missing from the result. Parallel; the same result for
+/// any number of threads.
+TETRALUXCORE_EXPORT void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
+  Span<const ScreenPoint> points, Span<const std::int32_t> cells, Span<const std::int32_t> order,
+  const CellData& data, ProjectedCells& result);
 
 } // namespace tetralux
 

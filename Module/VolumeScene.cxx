@@ -47,6 +47,7 @@ double EstimateEmissionAbsorptionError(
 void VolumeScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
 {
   this->Mesh = std::move(mesh);
+  ++this->MeshVersion;
   this->Scalars.clear();
   this->FloatScalars = this->DoubleScalars = ScalarMap();
   this->PointGradientsValid = false;

@@ -29,6 +29,9 @@ public:
   void SetMesh(std::shared_ptr<WalkMesh> mesh);
   WalkMesh* GetMesh() const { return this->Mesh.get(); }
 
+  /// Counts the changes of the mesh, for what was made of it.
+  std::uint64_t GetMeshVersion() const { return this->MeshVersion; }
+
   /// One scalar for each point, or for each cell, of WalkMesh::GetMesh(); any values, those that
   /// are not finite make the cells that touch them contribute nothing. Throws
   /// std::invalid_argument where their number is wrong.
@@ -162,6 +165,7 @@ private:
   WalkTables VisibleTables; ///< empty where rays are walked through all cells
   std::int64_t NumberOfTransparentCells = 0;
   ScalarMap FloatScalars, DoubleScalars; ///< of the mesh's tables
+  std::uint64_t MeshVersion = 0;
   std::uint64_t PointsVersion = 0;
   std::uint64_t TableVersion = 0;
   std::uint64_t CellValuesVersion = 0;

@@ -72,7 +72,7 @@ RayCastScene::RayCastScene(int width, int height, const Vector& lower, double si
     tetralux::MakeBox(5, 4, 3, lower, { lower[0] + size, lower[1] + size, lower[2] + size }, 0.15);
   this->Scalars = MakeField(this->Mesh, lower, size);
   this->Grid = MakeGrid(this->Mesh, this->Scalars);
-  this->Mapper->SetInputData(this->Grid);
+  this->Use(this->Mapper);
   // Pictures do not depend on how fast the machine is.
   this->Mapper->AutoAdjustSampleDistancesOff();
 
@@ -88,7 +88,6 @@ RayCastScene::RayCastScene(int width, int height, const Vector& lower, double si
     linear.push_back({ node[0], node[1], node[2], node[3], node[4] / unitDistance });
   }
   this->Function = tetralux::MakeLinearFunction(linear);
-  this->Volume->SetMapper(this->Mapper);
   this->Volume->GetProperty()->SetColor(this->Color);
   this->Volume->GetProperty()->SetScalarOpacity(this->Opacity);
   this->Volume->GetProperty()->SetScalarOpacityUnitDistance(unitDistance);
@@ -98,6 +97,13 @@ RayCastScene::RayCastScene(int width, int height, const Vector& lower, double si
   this->Window->SetSize(width, height);
   this->Window->AddRenderer(this->Renderer);
   this->SetCamera({ 1.9, 1.4, 2.6 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0 });
+}
+
+void RayCastScene::Use(vtkTetrahedraVolumeMapper* mapper)
+{
+  mapper->SetInputData(this->Grid);
+  this->Volume->SetMapper(mapper);
+  this->Used = mapper;
 }
 
 Vector RayCastScene::ToWorld(const Vector& x) const
@@ -143,14 +149,14 @@ tetralux::RayLimits RayCastScene::MakeReferenceLimits() const
 const float* RayCastScene::GetColors() const
 {
   return vtkFloatArray::SafeDownCast(
-    this->Mapper->GetOutputImage()->GetPointData()->GetArray("RGBA"))
+    this->Used->GetOutputImage()->GetPointData()->GetArray("RGBA"))
     ->GetPointer(0);
 }
 
 const float* RayCastScene::GetDepths() const
 {
   return vtkFloatArray::SafeDownCast(
-    this->Mapper->GetOutputImage()->GetPointData()->GetArray("Depth"))
+    this->Used->GetOutputImage()->GetPointData()->GetArray("Depth"))
     ->GetPointer(0);
 }
 
@@ -163,7 +169,7 @@ void RayCastScene::ExpectReference()
 void RayCastScene::ExpectReference(const tetralux::RayGrid& rays, const tetralux::RayLimits& limits)
 {
   this->Window->Render();
-  const int* dimensions = this->Mapper->GetOutputImage()->GetDimensions();
+  const int* dimensions = this->Used->GetOutputImage()->GetDimensions();
   ASSERT_EQ(dimensions[0], rays.Width);
   ASSERT_EQ(dimensions[1], rays.Height);
 
@@ -182,7 +188,7 @@ void RayCastScene::ExpectReference(const tetralux::RayGrid& rays, const tetralux
   EXPECT_GT(comparison.Covered.NumberOfPixels, pixels / 20);
   EXPECT_GT(comparison.Ungrazed.NumberOfPixels, 0.7 * comparison.Covered.NumberOfPixels);
   EXPECT_LE(comparison.Ungrazed.Maximum, ColorTolerance);
-  EXPECT_LE(this->Mapper->GetErrorEstimate(), ColorTolerance);
+  EXPECT_LE(this->Used->GetErrorEstimate(), ColorTolerance);
 
   double largestDepthError = 0;
   std::size_t unequal = 0;

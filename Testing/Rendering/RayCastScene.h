@@ -62,6 +62,12 @@ public:
   /// With the mapper's own viewport filling the window.
   void ExpectReference();
 
+  /// Renders with another mapper instead of Mapper.
+  void Use(vtkTetrahedraVolumeMapper* mapper);
+
+  /// The one that the volume has.
+  vtkTetrahedraVolumeMapper* GetMapper() const { return this->Used; }
+
   const float* GetColors() const;
   const float* GetDepths() const;
 
@@ -85,6 +91,7 @@ public:
 private:
   Vector ToWorld(const Vector& x) const;
 
+  vtkSmartPointer<vtkTetrahedraVolumeMapper> Used;
   Vector Position;
   Vector FocalPoint;
   Vector ViewUp;

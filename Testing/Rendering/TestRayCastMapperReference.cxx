@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mapper's picture against the reference renderer, which derives its rays from the camera's
+// The pictures of mappers against the reference renderer, which derives its rays from the camera's
 // parameters and knows nothing of VTK.
 #include "RayCastScene.h"
 
@@ -13,11 +13,42 @@
 #include "vtkPlaneSource.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkTetrahedraProjectionMapper.h"
 
 #include <cmath>
 
 namespace
 {
+
+enum class Method
+{
+  RayCast,
+  Projection
+};
+
+// A scene that a method renders.
+class ReferenceScene : public RayCastScene
+{
+public:
+  template <class... ArgumentsT>
+  explicit ReferenceScene(Method method, const ArgumentsT&... arguments)
+    : RayCastScene(arguments...)
+  {
+    if (method == Method::Projection)
+    {
+      this->Use(vtkSmartPointer<vtkTetrahedraProjectionMapper>::New());
+    }
+  }
+};
+
+class MapperReference : public testing::TestWithParam<Method>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, MapperReference,
+  testing::Values(Method::RayCast, Method::Projection),
+  [](const testing::TestParamInfo<Method>& info)
+  { return info.param == Method::RayCast ? "RayCast" : "Projection"; });
 
 // The keep side of a plane, as the reference wants it.
 std::array<double, 4> MakePlane(const Vector& origin, const Vector& normal)
@@ -31,7 +62,7 @@ void AddClippingPlane(RayCastScene& scene, const Vector& origin, const Vector& n
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(origin[0], origin[1], origin[2]);
   plane->SetNormal(normal[0], normal[1], normal[2]);
-  scene.Mapper->AddClippingPlane(plane);
+  scene.GetMapper()->AddClippingPlane(plane);
 }
 
 // Fills the view with an opaque plane; returns for each ray its distance to it, in exact
@@ -75,15 +106,15 @@ std::vector<float> AddOpaquePlane(
   return distances;
 }
 
-TEST(RayCastMapperReference, Perspective)
+TEST_P(MapperReference, Perspective)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, HorizontalViewAngle)
+TEST_P(MapperReference, HorizontalViewAngle)
 {
-  RayCastScene scene(60, 90);
+  ReferenceScene scene(this->GetParam(), 60, 90);
   scene.Renderer->GetActiveCamera()->UseHorizontalViewAngleOn();
   // The vertical angle that makes the horizontal one 30 degrees.
   const double halfWidth = std::tan(std::acos(-1.) / 12);
@@ -91,44 +122,44 @@ TEST(RayCastMapperReference, HorizontalViewAngle)
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, Parallel)
+TEST_P(MapperReference, Parallel)
 {
-  RayCastScene scene(72, 96);
+  ReferenceScene scene(this->GetParam(), 72, 96);
   scene.Parallel = true;
   scene.SetCamera({ 1.9, -0.4, 2.6 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0 });
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, CameraInside)
+TEST_P(MapperReference, CameraInside)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   scene.ViewAngle = 80;
   scene.SetCamera({ 0.5, 0.4, 0.6 }, { 0.1, 0.3, 0 }, { 0.1, 1, 0 }, 1e-3, 10);
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, ParallelPlaneInside)
+TEST_P(MapperReference, ParallelPlaneInside)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   scene.Parallel = true;
   scene.SetCamera({ 0.5, 0.4, 0.6 }, { 0.1, 0.3, 0 }, { 0.1, 1, 0 }, 0, 10);
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, NearAndFarPlanesCut)
+TEST_P(MapperReference, NearAndFarPlanesCut)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   scene.SetCamera({ 1.9, 1.4, 2.6 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0 }, 2.3, 2.8);
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, AlongGridLines)
+TEST_P(MapperReference, AlongGridLines)
 {
-  RayCastScene scene(64, 64);
+  ReferenceScene scene(this->GetParam(), 64, 64);
   scene.Mesh = tetralux::MakeBox(4, 4, 4, { 0, 0, 0 }, { 1, 1, 1 });
   scene.Scalars = MakeField(scene.Mesh, { 0, 0, 0 }, 1);
   scene.Grid = MakeGrid(scene.Mesh, scene.Scalars);
-  scene.Mapper->SetInputData(scene.Grid);
+  scene.GetMapper()->SetInputData(scene.Grid);
   scene.Parallel = true;
   scene.ParallelScale = 0.5;
   scene.SetCamera(
@@ -136,25 +167,25 @@ TEST(RayCastMapperReference, AlongGridLines)
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, FarFromTheOrigin)
+TEST_P(MapperReference, FarFromTheOrigin)
 {
-  RayCastScene scene(96, 72, { 1e7, -1e7, 3e6 }, 0.01);
+  ReferenceScene scene(this->GetParam(), 96, 72, Vector{ 1e7, -1e7, 3e6 }, 0.01);
   scene.ExpectReference();
   scene.Parallel = true;
   scene.SetCamera({ 1.9, -0.4, 2.6 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0 });
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, Viewports)
+TEST_P(MapperReference, Viewports)
 {
-  RayCastScene scene(160, 100);
+  ReferenceScene scene(this->GetParam(), 160, 100);
   scene.Renderer->SetViewport(0.25, 0.1, 0.85, 0.9);
   scene.ExpectReference(scene.MakeReferenceRays(96, 80), scene.MakeReferenceLimits());
 }
 
-TEST(RayCastMapperReference, OffAxis)
+TEST_P(MapperReference, OffAxis)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   scene.Renderer->GetActiveCamera()->SetWindowCenter(0.25, -0.5);
   // The window's centre is a quarter of half its width to the right, and half its height down.
   const tetralux::RayGrid rays =
@@ -162,9 +193,9 @@ TEST(RayCastMapperReference, OffAxis)
   scene.ExpectReference(rays, scene.MakeReferenceLimits());
 }
 
-TEST(RayCastMapperReference, ExplicitProjection)
+TEST_P(MapperReference, ExplicitProjection)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   vtkCamera* camera = scene.Renderer->GetActiveCamera();
   vtkNew<vtkMatrix4x4> projection;
   projection->DeepCopy(camera->GetProjectionTransformMatrix(96. / 72, -1, 1));
@@ -174,9 +205,9 @@ TEST(RayCastMapperReference, ExplicitProjection)
   scene.ExpectReference();
 }
 
-TEST(RayCastMapperReference, VolumeTransform)
+TEST_P(MapperReference, VolumeTransform)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   scene.Volume->SetOrigin(0.5, 0.5, 0.5);
   scene.Volume->SetPosition(0.1, -0.2, 0.3);
   scene.Volume->SetOrientation(20, -30, 50);
@@ -188,9 +219,9 @@ TEST(RayCastMapperReference, VolumeTransform)
   scene.ExpectReference(rays, scene.MakeReferenceLimits());
 }
 
-TEST(RayCastMapperReference, ClippingPlanes)
+TEST_P(MapperReference, ClippingPlanes)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   AddClippingPlane(scene, { 0.5, 0.5, 0.6 }, { 0, -0.6, -0.8 });
   AddClippingPlane(scene, { 0.3, 0, 0 }, { 1, 0, 0 });
   tetralux::RayLimits limits = scene.MakeReferenceLimits();
@@ -199,34 +230,34 @@ TEST(RayCastMapperReference, ClippingPlanes)
   scene.ExpectReference(scene.MakeReferenceRays(96, 72), limits);
 }
 
-TEST(RayCastMapperReference, Cropping)
+TEST_P(MapperReference, Cropping)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   scene.Volume->SetOrientation(0, 0, 20); // cropping is in coordinates of the data
   tetralux::RayGrid rays = scene.MakeReferenceRays(96, 72);
   double matrix[3][4];
   std::copy_n(scene.Volume->GetMatrix()->GetData(), 12, &matrix[0][0]);
   tetralux::PlaceMesh(rays, matrix);
-  scene.Mapper->CroppingOn();
-  scene.Mapper->SetCroppingRegionPlanes(0.2, 0.7, 0.35, 0.8, 0.3, 0.6);
+  scene.GetMapper()->CroppingOn();
+  scene.GetMapper()->SetCroppingRegionPlanes(0.2, 0.7, 0.35, 0.8, 0.3, 0.6);
   const auto expect = [&]()
   {
     tetralux::RayLimits limits = scene.MakeReferenceLimits();
     limits.Cropping = true;
-    std::copy_n(scene.Mapper->GetCroppingRegionPlanes(), 6, limits.CroppingPlanes);
-    limits.CroppingFlags = static_cast<std::uint32_t>(scene.Mapper->GetCroppingRegionFlags());
+    std::copy_n(scene.GetMapper()->GetCroppingRegionPlanes(), 6, limits.CroppingPlanes);
+    limits.CroppingFlags = static_cast<std::uint32_t>(scene.GetMapper()->GetCroppingRegionFlags());
     scene.ExpectReference(rays, limits);
   };
   expect();
-  scene.Mapper->SetCroppingRegionFlagsToFence();
+  scene.GetMapper()->SetCroppingRegionFlagsToFence();
   expect();
-  scene.Mapper->SetCroppingRegionFlagsToInvertedCross();
+  scene.GetMapper()->SetCroppingRegionFlagsToInvertedCross();
   expect();
 }
 
-TEST(RayCastMapperReference, OpaqueGeometryInside)
+TEST_P(MapperReference, OpaqueGeometryInside)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   scene.SetCamera({ 1.9, 1.4, 2.6 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0 }, 0.5, 40);
   const tetralux::RayGrid rays = scene.MakeReferenceRays(96, 72);
   const std::vector<float> distances =
@@ -236,15 +267,15 @@ TEST(RayCastMapperReference, OpaqueGeometryInside)
   scene.ExpectReference(rays, limits);
 
   // Off, the plane is behind all.
-  scene.Mapper->IntermixIntersectingGeometryOff();
+  scene.GetMapper()->IntermixIntersectingGeometryOff();
   scene.ExpectReference();
 }
 
 // Of several depths in a pixel it is not said which one counts: all are the same on a plane across
 // the view.
-TEST(RayCastMapperReference, OpaqueGeometryInMultisampledParallelViewport)
+TEST_P(MapperReference, OpaqueGeometryInMultisampledParallelViewport)
 {
-  RayCastScene scene(120, 100);
+  ReferenceScene scene(this->GetParam(), 120, 100);
   scene.Window->SetMultiSamples(4);
   scene.Renderer->SetViewport(0.2, 0.2, 1, 1);
   scene.Parallel = true;
@@ -258,9 +289,9 @@ TEST(RayCastMapperReference, OpaqueGeometryInMultisampledParallelViewport)
   scene.ExpectReference(rays, limits);
 }
 
-TEST(RayCastMapperReference, CellData)
+TEST_P(MapperReference, CellData)
 {
-  RayCastScene scene;
+  ReferenceScene scene(this->GetParam());
   vtkNew<vtkDoubleArray> array;
   array->SetName("OfCells");
   scene.Scalars.resize(scene.Mesh.GetNumberOfCells());
@@ -271,8 +302,8 @@ TEST(RayCastMapperReference, CellData)
   }
   scene.CellScalars = true;
   scene.Grid->GetCellData()->AddArray(array);
-  scene.Mapper->SetScalarModeToUseCellFieldData();
-  scene.Mapper->SelectScalarArray("OfCells");
+  scene.GetMapper()->SetScalarModeToUseCellFieldData();
+  scene.GetMapper()->SelectScalarArray("OfCells");
   scene.ExpectReference();
 }
 

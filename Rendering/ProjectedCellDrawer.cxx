@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ProjectedCellDrawer.h"
+
+#include "ProjectedCellFS.h"
+#include "ProjectedCellVS.h"
+
+#include "vtkOpenGLBufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLVertexArrayObject.h"
+#include "vtkShaderProgram.h"
+#include "vtk_glew.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Distance of corners, bytes: attributes that belong to a whole cell are read as if they were the
+/// first corner's, from where the other corners have room.
+constexpr std::size_t CornerSize = sizeof(ProjectedCell) / 4;
+
+struct Attribute
+{
+  const char* Name;
+  std::size_t Offset;
+  int Components;
+};
+
+constexpr Attribute CellAttributes[] = {
+  { "corner", 0, 2 },
+  { "cellBase", offsetof(ProjectedCell, First.Base), 3 },
+  { "cellFace0", offsetof(ProjectedCell, First.Face0), 3 },
+  { "cellFace1", offsetof(ProjectedCell, Second.Face1), 3 },
+  { "cellFace2", offsetof(ProjectedCell, Second.Face2), 3 },
+  { "cellScalar", offsetof(ProjectedCell, Third.Scalar), 3 },
+  { "cellScalars", offsetof(ProjectedCell, Third.ScalarSlope), 3 },
+  { "cellPlace", offsetof(ProjectedCell, Fourth.Reference), 3 },
+  { "cellOwn", offsetof(ProjectedCell, Fourth.Own), 3 },
+};
+
+} // namespace
+
+ProjectedCellDrawer::ProjectedCellDrawer() = default;
+
+ProjectedCellDrawer::~ProjectedCellDrawer() = default;
+
+vtkShaderProgram* ProjectedCellDrawer::Use(vtkOpenGLRenderWindow* window, const Shader& shader)
+{
+  if (this->Window != window)
+  {
+    this->ReleaseGraphicsResources(this->Window);
+    this->Window = window;
+  }
+  std::string fragment = ProjectedCellFS;
+  vtkShaderProgram::Substitute(fragment, "//VTK::Projection::Dec", shader.Projection);
+  vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Dec", shader.Segment);
+  vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Impl", shader.Output);
+  vtkShaderProgram::Substitute(fragment, "//VTK::Dither::Impl", shader.Dither);
+  vtkShaderProgram* program =
+    window->GetShaderCache()->ReadyShaderProgram(ProjectedCellVS, fragment.c_str(), "");
+  if (!program)
+  {
+    throw std::runtime_error("the shader program that draws projected cells did not compile");
+  }
+  if (program != this->Program)
+  {
+    this->Attributes->ShaderProgramChanged();
+    this->Program = program;
+  }
+  return program;
+}
+
+void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
+{
+  if (cells.Triangles.empty())
+  {
+    return;
+  }
+  this->LargestBatch = std::max(this->LargestBatch,
+    cells.Cells.size() * sizeof(ProjectedCell) + cells.Triangles.size() * sizeof(std::uint32_t));
+  this->Attributes->Bind();
+  if (!this->Corners->Upload(
+        cells.Cells.data(), cells.Cells.size(), vtkOpenGLBufferObject::ArrayBuffer) ||
+    !this->Triangles->Upload(cells.Triangles, vtkOpenGLBufferObject::ElementArrayBuffer))
+  {
+    this->Attributes->Release();
+    throw std::runtime_error("projected cells could not be sent to the graphics card");
+  }
+  for (const Attribute& attribute : CellAttributes)
+  {
+    if (this->Program->IsAttributeUsed(attribute.Name))
+    {
+      this->Attributes->AddAttributeArray(this->Program, this->Corners, attribute.Name,
+        static_cast<int>(attribute.Offset), CornerSize, VTK_FLOAT, attribute.Components, false);
+    }
+  }
+  glDrawElements(
+    GL_TRIANGLES, static_cast<GLsizei>(cells.Triangles.size()), GL_UNSIGNED_INT, nullptr);
+  this->Attributes->Release();
+}
+
+void ProjectedCellDrawer::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (!this->Window || window != this->Window)
+  {
+    return;
+  }
+  this->Attributes->ReleaseGraphicsResources();
+  this->Corners->ReleaseGraphicsResources();
+  this->Triangles->ReleaseGraphicsResources();
+  this->Program = nullptr;
+  this->Window = nullptr;
+  this->LargestBatch = 0;
+}
+
+} // namespace tetralux

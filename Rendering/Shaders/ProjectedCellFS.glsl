@@ -1,0 +1,247 @@
+//VTK::System::Dec
+// SPDX-License-Identifier: BSD-3-Clause
+// What one cell adds to one ray: where the ray enters and leaves the cell, with which scalars, and the
+// integral between them. See CellProjection.h, which this follows word by word.
+//
+// Defines:
+//   PERSPECTIVE       z is 1 / depth and what is interpolated is divided by it; else z is -depth
+//   LIMITED           rays do not go through all of the mesh:
+//   NUMBER_OF_PLANES    kept on the positive side of so many planes
+//   OPAQUE              not behind opaque geometry
+//   CROPPED             in some of 27 regions only
+//   LINEAR            a perspective, but without PERSPECTIVE: what limits rays has 1 / depth all the same
+//   GATHER            what two parts of a ray in the same cell add, of vec4 before and added, where CROPPED
+//   NOTHING           what adds nothing to that
+//   FIRST             the distance of the first contribution instead of what is contributed
+
+//VTK::Output::Dec
+
+//VTK::Projection::Dec
+
+flat in vec4 base;   // on the least steep face, and the slope of the scalar behind it
+flat in vec4 face0;  // the three others, and the smallest and largest scalar
+flat in vec4 face1;
+flat in vec3 face2;
+flat in vec3 scalar;
+flat in vec3 place;  // reference, code
+flat in vec3 cellData;
+
+uniform vec3 rayDirection; // of the pixel in the lower left, and its change from pixel to pixel
+uniform vec3 rayStepX;
+uniform vec3 rayStepY;
+uniform float depthUnit;   // world length of rayDirection where it has length 1
+
+//VTK::Segment::Dec
+
+// No face is farther.
+const float Beyond = 1e38;
+
+// A linear function of the pixel.
+float At(vec3 f, vec2 d)
+{
+  return f.x + f.y * d.x + f.z * d.y;
+}
+
+#ifdef LIMITED
+// Between z and what limits are linear in.
+#ifdef LINEAR
+float Exchange(float z)
+{
+  return -1.0 / z;
+}
+#else
+float Exchange(float z)
+{
+  return z;
+}
+#endif
+
+uniform vec2 pictureMiddle; // in the coordinates of gl_FragCoord
+#if NUMBER_OF_PLANES > 0
+uniform vec4 limitPlanes[NUMBER_OF_PLANES]; // ScreenPlane
+#endif
+#ifdef OPAQUE
+uniform sampler2D opaqueDepth; // of the window, 0..1
+// Depth of what pixels show, the first over the second: at depth 1 of the window in the middle of the
+// picture, the changes for a pixel right and up, and the change for a depth of one less.
+uniform vec2 opaquePlaces[4];
+#endif
+#ifdef CROPPED
+uniform vec4 croppingPlanes[6]; // ScreenPlane, of xmin, xmax, ymin, ymax, zmin, zmax
+uniform int croppingFlags;
+
+// Whether the region is kept that a ray is in at z.
+bool IsKept(vec2 m, float z)
+{
+  vec4 point = vec4(m, 1.0, Exchange(z));
+  int region = 0;
+  int weight = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    region += dot(croppingPlanes[2 * axis], point) >= 0.0 ? weight : 0;
+    region += dot(croppingPlanes[2 * axis + 1], point) >= 0.0 ? weight : 0;
+    weight *= 3;
+  }
+  return ((croppingFlags >> region) & 1) != 0;
+}
+
+// The nearest plane between z and end, which is farther; end where there is none.
+float FindCut(vec2 m, float z, float end)
+{
+  float next = end;
+  for (int p = 0; p < 6; ++p)
+  {
+    vec4 plane = croppingPlanes[p];
+    float cut = Exchange(-dot(plane.xyz, vec3(m, 1.0)) / plane.w);
+    next = cut < z && cut > next ? cut : next;
+  }
+  return next;
+}
+#endif
+
+// z where rays begin and end to count.
+vec2 LimitRay(vec2 m)
+{
+#if defined(PERSPECTIVE) || defined(LINEAR)
+  vec2 limits = vec2(Beyond, 1.0 / Beyond);
+#else
+  vec2 limits = vec2(Beyond, -Beyond);
+#endif
+#if NUMBER_OF_PLANES > 0
+  for (int p = 0; p < NUMBER_OF_PLANES; ++p)
+  {
+    vec4 plane = limitPlanes[p];
+    float side = dot(plane.xyz, vec3(m, 1.0));
+    float z = -side / plane.w;
+    limits.x = plane.w < 0.0 ? min(limits.x, z) : limits.x;
+    limits.y = plane.w > 0.0 ? max(limits.y, z) : limits.y;
+    // Parallel to the plane: all or nothing.
+    limits.x = plane.w == 0.0 && side < 0.0 ? -Beyond : limits.x;
+  }
+#endif
+#ifdef OPAQUE
+  float nearer = 1.0 - texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy), 0).x;
+  vec2 opaque = opaquePlaces[0] + m.x * opaquePlaces[1] + m.y * opaquePlaces[2] +
+    nearer * opaquePlaces[3];
+#if defined(PERSPECTIVE) || defined(LINEAR)
+  float zOpaque = opaque.y / opaque.x;
+#else
+  float zOpaque = -opaque.x / opaque.y;
+#endif
+  limits.y = nearer > 0.0 ? max(limits.y, zOpaque) : limits.y;
+#endif
+  return vec2(Exchange(limits.x), Exchange(limits.y));
+}
+#endif
+
+// How the cell is seen by the ray.
+struct View
+{
+  float Sign;      // 1 where the base is a front face, -1 where it is a back face
+  float Z;         // on the base
+  float Scalar;    // on the base, times Z in a perspective
+  float RayLength; // world length of a unit of depth
+};
+
+#ifdef FIRST
+// The distance of a point of a segment that begins at a distance.
+float GetDistance(float begin, float share, float len)
+{
+  return begin + share * len;
+}
+#endif
+
+// The part of a ray from near to far, differences of z to the base.
+vec4 AddPart(View view, float near, float far)
+{
+  float len = (near - far) * view.RayLength;
+  float sNear = view.Scalar + base.w * near;
+  float sFar = view.Scalar + base.w * far;
+#ifdef PERSPECTIVE
+  // Kraus et al. 2004, section 2.1: what was interpolated is divided by 1 / depth.
+  float zNear = view.Z + view.Sign * near;
+  float zFar = view.Z + view.Sign * far;
+  len /= zNear * zFar;
+  sNear /= zNear;
+  sFar /= zFar;
+#endif
+  sNear = clamp(sNear, face0.w, face1.w);
+  sFar = clamp(sFar, face0.w, face1.w);
+  float front = view.Sign > 0.0 ? sNear : sFar;
+  float back = view.Sign > 0.0 ? sFar : sNear;
+#ifdef FIRST
+  float z = view.Z + view.Sign * (view.Sign > 0.0 ? near : far);
+#ifdef PERSPECTIVE
+  float begin = view.RayLength / z;
+#else
+  float begin = -view.RayLength * z;
+#endif
+#endif
+  //VTK::Segment::Impl
+}
+
+#ifdef CROPPED
+vec4 Gather(vec4 before, vec4 added)
+{
+  return GATHER;
+}
+#endif
+
+void main()
+{
+  vec2 d = gl_FragCoord.xy - place.xy;
+  float code = mod(place.z, 8.0);
+  float entries = code >= 4.0 ? code - 4.0 : code;
+  float rayLength =
+    length(rayDirection + (gl_FragCoord.x - 0.5) * rayStepX + (gl_FragCoord.y - 0.5) * rayStepY);
+
+  View view;
+  view.Sign = code >= 4.0 ? -1.0 : 1.0;
+  view.Z = At(base.xyz, d);
+  view.Scalar = At(scalar, d);
+  view.RayLength = depthUnit * rayLength;
+
+  // Differences to the base: only they count for the thickness, however thin the cell is.
+  float e0 = At(face0.xyz, d);
+  float e1 = At(face1.xyz, d);
+  float e2 = At(face2, d);
+  float near = min(min(0.0, entries > 0.5 ? e0 : Beyond),
+    min(entries > 1.5 ? e1 : Beyond, entries > 2.5 ? e2 : Beyond));
+  float far = max(entries > 0.5 ? -Beyond : e0,
+    max(entries > 1.5 ? -Beyond : e1, entries > 2.5 ? -Beyond : e2));
+
+#ifdef LIMITED
+  vec2 m = gl_FragCoord.xy - pictureMiddle;
+  vec2 limits = LimitRay(m);
+  vec2 ends = view.Sign * (limits - view.Z);
+  near = min(near, view.Sign > 0.0 ? ends.x : ends.y);
+  far = max(far, view.Sign > 0.0 ? ends.y : ends.x);
+#endif
+  if (!(near > far))
+  {
+    discard;
+  }
+
+#ifdef CROPPED
+  // From the front end to the back end, from plane to plane.
+  vec4 color = vec4(NOTHING);
+  float z = view.Z + view.Sign * (view.Sign > 0.0 ? near : far);
+  float end = view.Z + view.Sign * (view.Sign > 0.0 ? far : near);
+  const int LargestNumberOfParts = 7;
+  for (int part = 0; part < LargestNumberOfParts && z > end; ++part)
+  {
+    float next = FindCut(m, z, end);
+    if (IsKept(m, 0.5 * (z + next)))
+    {
+      float first = clamp(view.Sign * (z - view.Z), far, near);
+      float second = clamp(view.Sign * (next - view.Z), far, near);
+      color = Gather(color, AddPart(view, max(first, second), min(first, second)));
+    }
+    z = next;
+  }
+#else
+  vec4 color = AddPart(view, near, far);
+#endif
+  //VTK::Dither::Impl
+  gl_FragData[0] = color;
+}

@@ -1,0 +1,36 @@
+//VTK::System::Dec
+// SPDX-License-Identifier: BSD-3-Clause
+// A corner of a projected cell's silhouette. What is the same for the whole cell comes with its first
+// corner, the last one of each of its triangles: see ProjectedCell in CellProjection.h.
+
+in vec2 corner; // pixels, from the lower left of the picture
+in vec3 cellBase;
+in vec3 cellFace0;
+in vec3 cellFace1;
+in vec3 cellFace2;
+in vec3 cellScalar;
+in vec3 cellScalars; // slope, smallest, largest
+in vec3 cellPlace;   // reference, code
+in vec3 cellOwn;     // CellData
+
+uniform vec2 pictureSize; // pixels
+
+flat out vec4 base;   // on the least steep face, and the slope of the scalar behind it
+flat out vec4 face0;  // the three others, and the smallest and largest scalar
+flat out vec4 face1;
+flat out vec3 face2;
+flat out vec3 scalar;
+flat out vec3 place;  // reference, code
+flat out vec3 cellData;
+
+void main()
+{
+  base = vec4(cellBase, cellScalars.x);
+  face0 = vec4(cellFace0, cellScalars.y);
+  face1 = vec4(cellFace1, cellScalars.z);
+  face2 = cellFace2;
+  scalar = cellScalar;
+  place = cellPlace;
+  cellData = cellOwn;
+  gl_Position = vec4(2.0 * corner / pictureSize - 1.0, 0.0, 1.0);
+}

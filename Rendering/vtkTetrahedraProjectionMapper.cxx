@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTetrahedraProjectionMapper.h"
+
+#include "CameraRays.h"
+#include "ImageCompositor.h"
+#include "JsonObject.h"
+#include "MapperFrame.h"
+#include "OpaqueDepth.h"
+#include "ProjectionPicture.h"
+#include "ScreenFrame.h"
+#include "Stopwatch.h"
+#include "VisibilityOrder.h"
+#include "VolumeScene.h"
+
+#include "vtkImageData.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkWeakPointer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+using tetralux::CameraRays;
+using tetralux::ChannelFormat;
+using tetralux::JsonObject;
+using tetralux::MapperFrame;
+using tetralux::OpticalModel;
+using tetralux::ScreenFrame;
+using tetralux::Span;
+using tetralux::VisibilityMethod;
+using tetralux::VolumeScene;
+
+namespace
+{
+
+/// Rounding of each sum of colours in a format.
+double GetRounding(ChannelFormat format)
+{
+  switch (format)
+  {
+    case ChannelFormat::UNorm8:
+      return 0.5 / 255;
+    case ChannelFormat::Half:
+      return 0.5 / (1 << 11);
+    default:
+      return 0.5 * std::numeric_limits<float>::epsilon();
+  }
+}
+
+const char* GetFormatName(ChannelFormat format)
+{
+  switch (format)
+  {
+    case ChannelFormat::UNorm8:
+      return "8-bit";
+    case ChannelFormat::Half:
+      return "half";
+    default:
+      return "float";
+  }
+}
+
+const char* GetMethodName(VisibilityMethod method)
+{
+  switch (method)
+  {
+    case VisibilityMethod::Meshed:
+      return "meshed polyhedra";
+    case VisibilityMethod::MeshedNonConvex:
+      return "meshed polyhedra, not convex";
+    default:
+      return "distance of centroids";
+  }
+}
+
+/// Whether it does not matter in which order cells contribute.
+bool Commutes(VolumeScene& scene)
+{
+  switch (scene.GetOpticalModel())
+  {
+    case OpticalModel::EmissionAbsorption:
+      return scene.GetPlan().ConstantColor;
+    case OpticalModel::Isosurfaces:
+      return false;
+    default:
+      return true;
+  }
+}
+
+tetralux::VisibilityView MakeView(const tetralux::RayGrid& grid, bool perspective)
+{
+  tetralux::VisibilityView view;
+  view.Parallel = !perspective;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double* row = grid.MeshFromWorld[a];
+    const double* o = grid.Origin;
+    const double* d = grid.Direction;
+    view.Eye[a] = row[0] * o[0] + row[1] * o[1] + row[2] * o[2] + row[3];
+    view.Direction[a] = row[0] * d[0] + row[1] * d[1] + row[2] * d[2];
+  }
+  return view;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+// The stages of a frame, and what they keep.
+class vtkTetrahedraProjectionMapper::Internals
+{
+public:
+  explicit Internals(vtkTetrahedraProjectionMapper* self)
+    : Self(self)
+  {
+  }
+
+  void DrawFrame(MapperFrame& frame);
+
+  tetralux::ProjectionPicture Picture;
+  tetralux::ImageCompositor Compositor;
+  tetralux::OpaqueDepth Opaque;
+
+private:
+  /// Projects the points of the mesh, and finds what limits rays and which cells are drawn.
+  void PrepareView(MapperFrame& frame, const CameraRays& rays);
+
+  /// The order of the cells that are drawn.
+  void PrepareOrder(MapperFrame& frame);
+  VisibilityMethod ChooseMethod(MapperFrame& frame);
+
+  void Describe(MapperFrame& frame);
+  void WarnOfOrder(const std::string& refusal);
+
+  vtkTetrahedraProjectionMapper* Self;
+  tetralux::ProjectionScene Scene;
+  std::vector<tetralux::ScreenPoint> Points;
+  std::vector<std::uint8_t> DrawnCells; ///< empty: all
+  std::vector<std::int32_t> Order;
+  std::unique_ptr<tetralux::VisibilityOrder> Sorter;
+  std::uint64_t SorterVersion = 0; ///< of the mesh that Sorter is of
+  bool SorterIsConvex = false;     ///< it was tried to make that mesh convex
+  bool Sorted = false;             ///< in the last frame
+  VisibilityMethod Method = VisibilityMethod::Meshed;
+  std::string OrderWarning; ///< the last one
+};
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
+{
+  frame.Method = "projection";
+  const CameraRays rays(frame.Renderer, 1);
+  if (rays.GetVisible().Width == 0)
+  {
+    frame.Image->Initialize(); // a tile that shows nothing of the viewport
+    return;
+  }
+  frame.Scene->CheckComplete();
+  this->PrepareView(frame, rays);
+  this->PrepareOrder(frame);
+
+  const tetralux::Stopwatch drawStopwatch;
+  this->Scene.Order = this->Order;
+  const tetralux::ProjectionPicture::Result result = this->Picture.Draw(
+    frame.Window, this->Scene, [&frame](double fraction) { return frame.Continue(fraction); });
+  frame.Seconds.emplace_back("project", result.ProjectSeconds);
+  frame.Seconds.emplace_back("draw", drawStopwatch.GetSeconds() - result.ProjectSeconds);
+  frame.Aborted = result.Aborted;
+  frame.Integration = this->Picture.GetIntegration();
+  this->Describe(frame);
+  if (!frame.Aborted)
+  {
+    const tetralux::Stopwatch stopwatch;
+    this->Compositor.Composite(frame.Window, rays.GetVisible(), this->Picture.GetTexture());
+    frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
+  }
+  frame.ReadPicture = [this, window = vtkWeakPointer<vtkOpenGLRenderWindow>(frame.Window)](
+                        vtkImageData* image)
+  {
+    if (!window || !this->Picture.IsOf(window))
+    {
+      image->Initialize(); // it went with its window
+      return;
+    }
+    window->MakeCurrent();
+    Span<float> colors, depths;
+    MapperFrame::PrepareImage(
+      image, this->Scene.Grid.Width, this->Scene.Grid.Height, colors, depths);
+    this->Picture.Read(this->Scene, colors, depths);
+  };
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::PrepareView(
+  MapperFrame& frame, const CameraRays& rays)
+{
+  VolumeScene& volume = *frame.Scene;
+  const tetralux::WalkMesh& mesh = *volume.GetMesh();
+  const tetralux::TetrahedralMesh& tetrahedra = mesh.GetMesh();
+  tetralux::ProjectionScene& scene = this->Scene;
+  scene.Volume = &volume;
+  scene.Grid = frame.MakeGrid(rays);
+  scene.Interpolate = this->Self->PerspectiveInterpolation != 0;
+  scene.Dither = this->Self->AlphaDithering && this->Self->ColorBuffer == UNORM8_BUFFER;
+  scene.Format = this->Self->ColorBuffer == UNORM8_BUFFER ? ChannelFormat::UNorm8
+    : this->Self->ColorBuffer == HALF_BUFFER              ? ChannelFormat::Half
+                                                          : ChannelFormat::Float;
+
+  const tetralux::Stopwatch stopwatch;
+  scene.Frame = std::make_unique<ScreenFrame>(scene.Grid, mesh.GetCenter(), mesh.GetRadius());
+  this->Points.resize(tetrahedra.GetNumberOfPoints());
+  const VolumeScene::ScalarMap map = volume.GetScalarMap();
+  const Span<const double> none;
+  scene.Frame->Project(tetrahedra.Points,
+    volume.HasCellScalars() ? none : Span<const double>(volume.GetScalars()), map.Offset, map.Scale,
+    this->Points);
+  scene.Points = this->Points;
+
+  const tetralux::RayLimits limits = frame.MakeLimits(rays);
+  ScreenFrame::Limits found = scene.Frame->FindLimits(
+    limits.Planes, this->Points, tetrahedra.Cells, volume.GetVisibleCells());
+  this->DrawnCells = found.Planes.empty() ? volume.GetVisibleCells() : found.Cells;
+  scene.Planes = std::move(found.Planes);
+  scene.Cropping.clear();
+  if (limits.Cropping)
+  {
+    for (int plane = 0; plane < 6; ++plane)
+    {
+      const double* row = scene.Grid.MeshFromWorld[plane / 2];
+      scene.Cropping.push_back(scene.Frame->ProjectPlane(
+        { row[0], row[1], row[2], row[3] - limits.CroppingPlanes[plane] }));
+    }
+    scene.CroppingFlags = limits.CroppingFlags;
+  }
+  frame.Seconds.emplace_back("points", stopwatch.GetSeconds());
+
+  frame.Opaque = frame.MayHaveOpaqueGeometry();
+  scene.OpaqueDepth = nullptr;
+  if (frame.Opaque)
+  {
+    const tetralux::Stopwatch depthStopwatch;
+    this->Opaque.Copy(frame.Window, rays.GetVisible());
+    scene.OpaqueDepth = this->Opaque.GetTexture();
+    CameraRays::DepthPlaces places = rays.GetDepthPlaces();
+    for (int c = 0; c < 4; ++c)
+    {
+      places.Farthest[c] += scene.Frame->GetMiddle()[0] * places.FarthestStepX[c] +
+        scene.Frame->GetMiddle()[1] * places.FarthestStepY[c];
+    }
+    const double* points[4] = { places.Farthest, places.FarthestStepX, places.FarthestStepY,
+      places.Nearer };
+    for (int k = 0; k < 4; ++k)
+    {
+      const std::array<double, 2> depth = scene.Frame->ProjectDepth(rays.GetPosition(), points[k]);
+      scene.OpaquePlaces[k][0] = static_cast<float>(depth[0]);
+      scene.OpaquePlaces[k][1] = static_cast<float>(depth[1]);
+    }
+    frame.Seconds.emplace_back("depth_buffer", depthStopwatch.GetSeconds());
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
+{
+  const tetralux::WalkMesh& mesh = *frame.Scene->GetMesh();
+  this->Scene.Commutes = Commutes(*frame.Scene);
+  this->Sorted = !this->Scene.Commutes;
+  if (this->Sorted)
+  {
+    this->Method = this->ChooseMethod(frame);
+    const tetralux::Stopwatch stopwatch;
+    this->Order = this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
+      this->Method, tetralux::VisibilityDirection::FrontToBack, this->DrawnCells);
+    frame.Seconds.emplace_back("order", stopwatch.GetSeconds());
+    return;
+  }
+  this->Order.resize(mesh.GetNumberOfCells());
+  std::iota(this->Order.begin(), this->Order.end(), 0);
+  if (!this->DrawnCells.empty())
+  {
+    this->Order.erase(std::remove_if(this->Order.begin(), this->Order.end(),
+                        [this](std::int32_t cell) { return !this->DrawnCells[cell]; }),
+      this->Order.end());
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+VisibilityMethod vtkTetrahedraProjectionMapper::Internals::ChooseMethod(MapperFrame& frame)
+{
+  tetralux::WalkMesh& mesh = *frame.Scene->GetMesh();
+  const std::uint64_t version = frame.Scene->GetMeshVersion();
+  const bool exact = this->Self->Order == AUTOMATIC_ORDER || this->Self->Order == EXACT_ORDER;
+  if (!this->Sorter || this->SorterVersion != version || (exact && !this->SorterIsConvex))
+  {
+    const tetralux::Stopwatch stopwatch;
+    this->Sorter.reset();
+    if (exact)
+    {
+      mesh.MakeConvex();
+    }
+    this->Sorter = std::make_unique<tetralux::VisibilityOrder>(mesh);
+    this->SorterVersion = version;
+    this->SorterIsConvex = exact;
+    frame.Seconds.emplace_back("convexification", stopwatch.GetSeconds());
+  }
+  const tetralux::Convexification* convex = mesh.GetConvexification();
+  this->WarnOfOrder(convex && this->Self->Order == EXACT_ORDER ? convex->Refusal : "");
+  if (this->Self->Order == CENTROID_ORDER)
+  {
+    return VisibilityMethod::CentroidDistance;
+  }
+  return exact && this->Sorter->IsConvex() ? VisibilityMethod::Meshed
+                                           : VisibilityMethod::MeshedNonConvex;
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::WarnOfOrder(const std::string& refusal)
+{
+  if (refusal != this->OrderWarning)
+  {
+    this->OrderWarning = refusal;
+    if (!refusal.empty())
+    {
+      vtkWarningWithObjectMacro(this->Self,
+        "the mesh can't be made convex, the order of its cells may be wrong: " << refusal);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
+{
+  VolumeScene& volume = *frame.Scene;
+  const tetralux::ProjectionScene& scene = this->Scene;
+  const tetralux::ProjectionPicture::Result& drawn = this->Picture.GetLastResult();
+  const auto cells = static_cast<double>(volume.GetMesh()->GetNumberOfCells());
+
+  JsonObject section;
+  section.Set("width", scene.Grid.Width);
+  section.Set("height", scene.Grid.Height);
+  section.Set("perspective_interpolation", scene.Interpolate);
+  section.Set("color_buffer", GetFormatName(scene.Format));
+  section.Set("alpha_dithering", scene.Dither);
+  section.Set("tetrahedra_in_order", static_cast<std::int64_t>(this->Order.size()));
+  section.Set("tetrahedra_drawn", drawn.Cells);
+  section.Set("triangles", drawn.Triangles);
+  section.Set(
+    "bytes_of_graphics_card", static_cast<std::int64_t>(this->Picture.GetNumberOfBytes()));
+  section.Set("order", this->Sorted ? GetMethodName(this->Method) : "none");
+  if (this->Sorted)
+  {
+    const tetralux::VisibilityCycles& cycles = this->Sorter->GetCycles();
+    section.Set("cycles", cycles.GetNumberOfCycles());
+    section.Set("tetrahedra_in_cycles", static_cast<std::int64_t>(cycles.Cells.size()));
+    section.Set("ignored_faces", cycles.IgnoredFaces);
+    section.Set("ignored_area", cycles.IgnoredArea);
+  }
+  frame.Sections.emplace_back("projection", section);
+
+  // A ray goes through some two cells for each that lie side by side along the mesh.
+  const double layers = 2 * std::cbrt(cells);
+  constexpr double SegmentError = 5e-7; // SegmentWeightError
+  frame.Errors = { { "integrals", SegmentError },
+    { "summation", layers * GetRounding(scene.Format) }, { "table", volume.GetTableError() },
+    { "geometry", volume.EstimateGeometryError(volume.GetWorldRadius(scene.Grid)) } };
+
+  frame.LeaveOut(!this->Sorted, "order", "what cells add commutes");
+  frame.LeaveOut(scene.Planes.empty(), "near and far plane", "they cut nothing");
+  frame.LeaveOut(
+    this->Order.size() < static_cast<std::size_t>(volume.GetMesh()->GetNumberOfCells()),
+    "unseen tetrahedra", "they are transparent or clipped");
+  frame.LeaveOut(!scene.Dither, "alpha dithering",
+    this->Self->ColorBuffer == UNORM8_BUFFER ? "it is off" : "colours have more than 8 bits");
+  frame.LeaveOut(
+    !scene.Frame->IsPerspective(), "perspective interpolation", "the view is parallel");
+}
+
+//------------------------------------------------------------------------------------------------
+vtkStandardNewMacro(vtkTetrahedraProjectionMapper);
+
+//------------------------------------------------------------------------------------------------
+vtkTetrahedraProjectionMapper::vtkTetrahedraProjectionMapper()
+  : Private(std::make_unique<Internals>(this))
+{
+}
+
+//------------------------------------------------------------------------------------------------
+vtkTetrahedraProjectionMapper::~vtkTetrahedraProjectionMapper() = default;
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::DrawFrame(MapperFrame& frame)
+{
+  this->Private->DrawFrame(frame);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Private->Picture.ReleaseGraphicsResources(window);
+  this->Private->Compositor.ReleaseGraphicsResources(window);
+  this->Private->Opaque.ReleaseGraphicsResources(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PerspectiveInterpolation: " << this->PerspectiveInterpolation << "\n"
+     << indent << "ColorBuffer: " << this->ColorBuffer << "\n"
+     << indent << "AlphaDithering: " << this->AlphaDithering << "\n"
+     << indent << "Order: " << this->Order << "\n";
+}

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The projection mapper's settings, orders, buffers and optical models; what it leaves behind.
+#include "OpenGLSnapshot.h"
+#include "RayCastScene.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkContourValues.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkPlane.h"
+#include "vtkTetrahedraProjectionMapper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+/// Calls a function on an event.
+class Observer
+{
+public:
+  Observer(vtkObject* object, unsigned long event, std::function<void()> function)
+    : Object(object)
+    , Function(std::move(function))
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+      { static_cast<Observer*>(self)->Function(); });
+    this->Tag = object->AddObserver(event, this->Command);
+  }
+  ~Observer() { this->Object->RemoveObserver(this->Tag); }
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+
+private:
+  vtkObject* Object;
+  std::function<void()> Function;
+  vtkNew<vtkCallbackCommand> Command;
+  unsigned long Tag;
+};
+
+class ProjectionMapperScene : public RayCastScene
+{
+public:
+  explicit ProjectionMapperScene(int width = 96, int height = 72)
+    : RayCastScene(width, height)
+  {
+    this->Use(this->Projection);
+  }
+
+  std::vector<float> Render()
+  {
+    this->Window->Render();
+    const vtkIdType size = 4 * this->Projection->GetOutputImage()->GetNumberOfPoints();
+    return { this->GetColors(), this->GetColors() + size };
+  }
+
+  /// The ray caster's picture of the same.
+  std::vector<float> RenderByRays()
+  {
+    this->Use(this->Mapper);
+    this->Mapper->SetBlendMode(this->Projection->GetBlendMode());
+    this->Mapper->SetMaximumError(1e-6);
+    std::vector<float> colors = this->Render(this->Mapper);
+    this->Use(this->Projection);
+    return colors;
+  }
+
+  bool Says(const std::string& text)
+  {
+    return this->Projection->GetStatistics().find(text) != std::string::npos;
+  }
+
+  vtkNew<vtkTetrahedraProjectionMapper> Projection;
+
+private:
+  std::vector<float> Render(vtkTetrahedraVolumeMapper* mapper)
+  {
+    this->Window->Render();
+    const vtkIdType size = 4 * mapper->GetOutputImage()->GetNumberOfPoints();
+    return { this->GetColors(), this->GetColors() + size };
+  }
+};
+
+double FindLargestDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+  EXPECT_EQ(a.size(), b.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+  {
+    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - b[i]));
+  }
+  return largest;
+}
+
+/// As for every scene of the tests: nothing but rounding.
+constexpr double Exact = 1e-4;
+
+TEST(ProjectionMapper, OrderIndependentModelsAreNotSorted)
+{
+  ProjectionMapperScene scene;
+  using Mapper = vtkTetrahedraProjectionMapper;
+  for (const int mode : { static_cast<int>(Mapper::MAXIMUM_INTENSITY_BLEND),
+         static_cast<int>(Mapper::ADDITIVE_BLEND), static_cast<int>(Mapper::ABSORPTION_BLEND) })
+  {
+    scene.Projection->SetBlendMode(mode);
+    EXPECT_LT(FindLargestDifference(scene.Render(), scene.RenderByRays()), Exact) << mode;
+    scene.Render();
+    EXPECT_TRUE(scene.Says("\"order\": \"none\"")) << mode;
+    EXPECT_TRUE(scene.Says("what cells add commutes"));
+  }
+  scene.Projection->SetBlendModeToComposite();
+  scene.Render();
+  EXPECT_TRUE(scene.Says("\"order\": \"meshed polyhedra\""));
+  EXPECT_TRUE(scene.Says("\"cycles\": 0"));
+}
+
+TEST(ProjectionMapper, Isosurfaces)
+{
+  ProjectionMapperScene scene;
+  scene.Projection->SetBlendModeToIsoSurface();
+  scene.Volume->GetProperty()->GetIsoSurfaceValues()->SetValue(0, -0.4);
+  scene.Volume->GetProperty()->GetIsoSurfaceValues()->SetValue(1, 0.3);
+  EXPECT_LT(FindLargestDifference(scene.Render(), scene.RenderByRays()), Exact);
+}
+
+TEST(ProjectionMapper, CellDataOfAllModels)
+{
+  ProjectionMapperScene scene;
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("OfCells");
+  for (vtkIdType cell = 0; cell < scene.Grid->GetNumberOfCells(); ++cell)
+  {
+    array->InsertNextValue(std::sin(1.7 * static_cast<double>(cell)));
+  }
+  scene.Grid->GetCellData()->AddArray(array);
+  for (vtkTetrahedraVolumeMapper* mapper :
+    { static_cast<vtkTetrahedraVolumeMapper*>(scene.Projection),
+      static_cast<vtkTetrahedraVolumeMapper*>(scene.Mapper) })
+  {
+    mapper->SetScalarModeToUseCellFieldData();
+    mapper->SelectScalarArray("OfCells");
+  }
+  using Mapper = vtkTetrahedraProjectionMapper;
+  for (const int mode :
+    { static_cast<int>(Mapper::COMPOSITE_BLEND), static_cast<int>(Mapper::MAXIMUM_INTENSITY_BLEND),
+      static_cast<int>(Mapper::ADDITIVE_BLEND), static_cast<int>(Mapper::ABSORPTION_BLEND) })
+  {
+    scene.Projection->SetBlendMode(mode);
+    EXPECT_LT(FindLargestDifference(scene.Render(), scene.RenderByRays()), Exact) << mode;
+  }
+}
+
+// Each correction of the paper matters, in the order of its artifact.
+TEST(ProjectionMapper, CorrectionsOff)
+{
+  ProjectionMapperScene scene;
+  const std::vector<float> best = scene.Render();
+  scene.Projection->PerspectiveInterpolationOff();
+  const double linear = FindLargestDifference(scene.Render(), best);
+  EXPECT_GT(linear, 1e-3);
+  EXPECT_LT(linear, 0.1);
+  scene.Projection->PerspectiveInterpolationOn();
+
+  scene.Projection->SetColorBufferToHalf();
+  const double half = FindLargestDifference(scene.Render(), best);
+  EXPECT_GT(half, 1e-5);
+  EXPECT_LT(half, scene.Projection->GetErrorEstimate());
+  EXPECT_LT(half, 1e-2);
+
+  scene.Projection->SetColorBufferToUNorm8();
+  scene.Projection->AlphaDitheringOff();
+  const double rounded = FindLargestDifference(scene.Render(), best);
+  EXPECT_GT(rounded, half);
+  EXPECT_LT(rounded, scene.Projection->GetErrorEstimate());
+  scene.Projection->AlphaDitheringOn();
+  const std::vector<float> dithered = scene.Render();
+  EXPECT_TRUE(scene.Says("\"alpha_dithering\": true"));
+  EXPECT_GT(FindLargestDifference(dithered, best), 0);
+  EXPECT_EQ(dithered, scene.Render()); // the same in each frame
+}
+
+TEST(ProjectionMapper, DitheringKeepsWhatIsTooThinForEightBits)
+{
+  // Each cell's opacity is far below half of 1/255.
+  ProjectionMapperScene scene;
+  scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(100);
+  const std::vector<float> best = scene.Render();
+  scene.Projection->SetColorBufferToUNorm8();
+  const std::vector<float> dithered = scene.Render();
+  scene.Projection->AlphaDitheringOff();
+  const std::vector<float> rounded = scene.Render();
+  const auto sumOpacities = [](const std::vector<float>& colors)
+  {
+    double sum = 0;
+    for (std::size_t i = 3; i < colors.size(); i += 4)
+    {
+      sum += colors[i];
+    }
+    return sum;
+  };
+  EXPECT_LT(sumOpacities(rounded), 0.2 * sumOpacities(best));
+  EXPECT_NEAR(sumOpacities(dithered), sumOpacities(best), 0.05 * sumOpacities(best));
+}
+
+TEST(ProjectionMapper, Orders)
+{
+  // In a box of cells all orders by faces are exact.
+  ProjectionMapperScene scene;
+  const std::vector<float> best = scene.Render();
+  scene.Projection->SetOrderToNonConvex();
+  EXPECT_LT(FindLargestDifference(scene.Render(), best), Exact);
+  EXPECT_TRUE(scene.Says("\"order\": \"meshed polyhedra, not convex\""));
+  scene.Projection->SetOrderToCentroid();
+  EXPECT_LT(FindLargestDifference(scene.Render(), best), 0.2);
+  EXPECT_TRUE(scene.Says("\"order\": \"distance of centroids\""));
+  scene.Projection->SetOrderToExact();
+  EXPECT_LT(FindLargestDifference(scene.Render(), best), Exact);
+}
+
+// After a frame with all that frames may have, and after an aborted one.
+TEST(ProjectionMapper, LeavesOpenGLAsItWas)
+{
+  ProjectionMapperScene scene;
+  scene.Window->Render(); // makes the context
+  OpenGLSnapshot before;
+  OpenGLSnapshot after;
+  const Observer start(scene.Projection, vtkCommand::VolumeMapperRenderStartEvent,
+    [&]() { before = TakeOpenGLSnapshot(scene.Window); });
+  const Observer end(scene.Projection, vtkCommand::VolumeMapperRenderEndEvent,
+    [&]() { after = TakeOpenGLSnapshot(scene.Window); });
+  scene.Renderer->PreserveDepthBufferOn(); // so that depths are read
+  scene.Projection->CroppingOn();
+  scene.Projection->SetCroppingRegionPlanes(0.2, 0.7, 0.35, 0.8, 0.3, 0.6);
+  scene.Projection->SetCroppingRegionFlagsToFence();
+  using Mapper = vtkTetrahedraProjectionMapper;
+  for (const int mode : { static_cast<int>(Mapper::COMPOSITE_BLEND),
+         static_cast<int>(Mapper::MAXIMUM_INTENSITY_BLEND) })
+  {
+    scene.Projection->SetBlendMode(mode);
+    scene.Window->Render();
+    EXPECT_EQ(FindDifferences(before, after), "");
+    after = TakeOpenGLSnapshot(scene.Window);
+    scene.Projection->GetOutputImage();
+    EXPECT_EQ(FindDifferences(after, TakeOpenGLSnapshot(scene.Window)), "");
+  }
+  {
+    const Observer progress(scene.Projection, vtkCommand::VolumeMapperRenderProgressEvent,
+      [&]() { scene.Window->SetAbortRender(1); });
+    scene.Window->Render();
+  }
+  EXPECT_TRUE(scene.Says("\"aborted\": true"));
+  EXPECT_EQ(FindDifferences(before, after), "");
+  scene.Render();
+  EXPECT_TRUE(scene.Says("\"aborted\": false"));
+}
+
+// One mapper in two windows, by turns; and in a third one where the others are no more.
+TEST(ProjectionMapper, SeveralWindows)
+{
+  vtkNew<vtkTetrahedraProjectionMapper> mapper;
+  ProjectionMapperScene first;
+  const std::vector<float> expected = first.Render();
+  {
+    ProjectionMapperScene second;
+    int turn = 0;
+    for (ProjectionMapperScene* scene : { &first, &second, &first, &second })
+    {
+      scene->Use(mapper);
+      scene->Window->Render();
+      const std::vector<float> colors(scene->GetColors(), scene->GetColors() + expected.size());
+      EXPECT_TRUE(colors == expected) << "turn " << turn++;
+    }
+    second.Window->Finalize();
+  }
+  first.Use(mapper);
+  first.Window->Render();
+  EXPECT_EQ(std::vector<float>(first.GetColors(), first.GetColors() + expected.size()), expected);
+  mapper->ReleaseGraphicsResources(first.Window);
+  first.Window->Render();
+  EXPECT_EQ(std::vector<float>(first.GetColors(), first.GetColors() + expected.size()), expected);
+
+  // The picture goes with the resources.
+  first.Window->Render();
+  mapper->ReleaseGraphicsResources(first.Window);
+  EXPECT_EQ(mapper->GetOutputImage()->GetNumberOfPoints(), 0);
+}
+
+TEST(ProjectionMapper, NothingLeft)
+{
+  ProjectionMapperScene scene;
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0, 0, 5);
+  scene.Projection->AddClippingPlane(plane);
+  for (const float channel : scene.Render())
+  {
+    ASSERT_EQ(channel, 0);
+  }
+  EXPECT_TRUE(scene.Says("\"tetrahedra_drawn\": 0"));
+  EXPECT_EQ(scene.GetDepths()[0], -1);
+}
+
+} // namespace
