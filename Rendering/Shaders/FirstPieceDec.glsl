@@ -5,15 +5,12 @@
 float FindFirst(float front, float back)
 {
   SegmentWalk walk = StartWalk(front, back, 1.0);
-  float passed = 1.0 - walk.Length;
-  Piece piece;
-  while (TakePiece(walk, piece))
+  float first = 2.0;
+  do
   {
-    if (piece.FrontDepth + piece.BackDepth > 0.0)
-    {
-      return passed;
-    }
-    passed = 1.0 - walk.Length;
-  }
-  return 2.0;
+    float passed = 1.0 - walk.Length;
+    Piece piece = TakePiece(walk);
+    first = first > 1.0 && piece.FrontDepth + piece.BackDepth > 0.0 ? passed : first;
+  } while (walk.More && first > 1.0);
+  return first;
 }
