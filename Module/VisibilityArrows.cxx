@@ -227,7 +227,7 @@ public:
 
   ClearTurns(const VisibilityGeometry& geometry, const VisibilityView& view)
     : Geometry(geometry)
-    , Parallel(view.Parallel)
+    , Start(view.Parallel ? 0 : 1)
   {
     double largest = 0;
     double vector[3];
@@ -240,7 +240,7 @@ public:
     for (int axis = 0; axis < 3; ++axis)
     {
       this->Vector[axis] =
-        static_cast<float>(view.Parallel ? vector[axis] / largest : vector[axis]);
+        static_cast<float>(view.Parallel ? -vector[axis] / largest : vector[axis]);
     }
     // Coordinates are at most 1, and off by their rounding, as all that is computed. Of a face whose
     // edges have components of at most l, seen along a vector with components of at most m: the edges
@@ -270,44 +270,55 @@ public:
     }
     std::fill_n(this->Positive, Width, 0);
     std::fill_n(this->Negative, Width, 0);
-    const bool parallel = this->Parallel;
-    const float v0 = this->Vector[0], v1 = this->Vector[1], v2 = this->Vector[2];
-    const float boundPerEdge = this->BoundPerEdge, bound = this->Bound;
-    for (int face = 0; face < 4; ++face)
-    {
-      const auto& a = x[FirstPoints[face]];
-      const auto& b = x[SecondPoints[face]];
-      const auto& c = x[ThirdPoints[face]];
-      const int bit = 1 << face;
-      for (int lane = 0; lane < Width; ++lane)
-      {
-        const float ab0 = b[0][lane] - a[0][lane], ac0 = c[0][lane] - a[0][lane];
-        const float ab1 = b[1][lane] - a[1][lane], ac1 = c[1][lane] - a[1][lane];
-        const float ab2 = b[2][lane] - a[2][lane], ac2 = c[2][lane] - a[2][lane];
-        float edge = std::abs(ab0);
-        edge = std::max(edge, std::abs(ab1));
-        edge = std::max(edge, std::abs(ab2));
-        edge = std::max(edge, std::abs(ac0));
-        edge = std::max(edge, std::abs(ac1));
-        edge = std::max(edge, std::abs(ac2));
-        const float d0 = parallel ? v0 : a[0][lane] - v0;
-        const float d1 = parallel ? v1 : a[1][lane] - v1;
-        const float d2 = parallel ? v2 : a[2][lane] - v2;
-        const float determinant = (ab1 * ac2 - ab2 * ac1) * d0 + (ab2 * ac0 - ab0 * ac2) * d1 +
-          (ab0 * ac1 - ab1 * ac0) * d2;
-        const float limit = edge * boundPerEdge + bound;
-        this->Positive[lane] |= determinant < -limit ? bit : 0;
-        this->Negative[lane] |= determinant > limit ? bit : 0;
-      }
-    }
+    this->AddFace<0>(x);
+    this->AddFace<1>(x);
+    this->AddFace<2>(x);
+    this->AddFace<3>(x);
   }
 
   int Positive[Width];
   int Negative[Width];
 
 private:
+  // A template, since compilers make vector instructions of it only for fixed corners.
+  template <int Face>
+  void AddFace(const float (&x)[4][3][Width])
+  {
+    const auto& a = x[FirstPoints[Face]];
+    const auto& b = x[SecondPoints[Face]];
+    const auto& c = x[ThirdPoints[Face]];
+    const float start = this->Start, boundPerEdge = this->BoundPerEdge, bound = this->Bound;
+    const float vector[3] = { this->Vector[0], this->Vector[1], this->Vector[2] };
+    int positive[Width];
+    int negative[Width];
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      const float ab0 = b[0][lane] - a[0][lane], ac0 = c[0][lane] - a[0][lane];
+      const float ab1 = b[1][lane] - a[1][lane], ac1 = c[1][lane] - a[1][lane];
+      const float ab2 = b[2][lane] - a[2][lane], ac2 = c[2][lane] - a[2][lane];
+      float edge = std::abs(ab0);
+      edge = std::max(edge, std::abs(ab1));
+      edge = std::max(edge, std::abs(ab2));
+      edge = std::max(edge, std::abs(ac0));
+      edge = std::max(edge, std::abs(ac1));
+      edge = std::max(edge, std::abs(ac2));
+      const float determinant = (ab1 * ac2 - ab2 * ac1) * (start * a[0][lane] - vector[0]) +
+        (ab2 * ac0 - ab0 * ac2) * (start * a[1][lane] - vector[1]) +
+        (ab0 * ac1 - ab1 * ac0) * (start * a[2][lane] - vector[2]);
+      const float limit = edge * boundPerEdge + bound;
+      positive[lane] = static_cast<int>(determinant < -limit) << Face;
+      negative[lane] = static_cast<int>(determinant > limit) << Face;
+    }
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      this->Positive[lane] |= positive[lane];
+      this->Negative[lane] |= negative[lane];
+    }
+  }
+
   const VisibilityGeometry& Geometry;
-  bool Parallel;
+  // Rays to a point x go along Start x - Vector.
+  float Start;
   float Vector[3];
   float BoundPerEdge;
   float Bound;

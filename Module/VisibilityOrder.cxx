@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VisibilityOrder.h"
 
+#include "CountingSort.h"
 #include "RadixSort.h"
 #include "VisibilityArrows.h"
 #include "VisibilityCycles.h"
@@ -75,6 +76,42 @@ private:
 
 } // namespace
 
+namespace
+{
+
+/// Writes cells to their places, farthest first, without those that are not wanted.
+class CellWriter
+{
+public:
+  CellWriter(std::vector<std::int32_t>& order, VisibilityDirection direction,
+    std::int64_t numberOfCells, Span<const std::uint8_t> drawn)
+    : Order(order.data())
+    , Next(direction == VisibilityDirection::BackToFront ? 0 : std::ptrdiff_t(order.size()) - 1)
+    , Step(direction == VisibilityDirection::BackToFront ? 1 : -1)
+    , NumberOfCells(numberOfCells)
+    , Drawn(drawn.empty() ? nullptr : drawn.data())
+  {
+  }
+
+  void operator()(std::int32_t cell)
+  {
+    if (cell < this->NumberOfCells && (this->Drawn == nullptr || this->Drawn[cell] != 0))
+    {
+      this->Order[this->Next] = cell;
+      this->Next += this->Step;
+    }
+  }
+
+private:
+  std::int32_t* Order;
+  std::ptrdiff_t Next;
+  std::ptrdiff_t Step;
+  std::int32_t NumberOfCells; ///< without imaginary ones
+  const std::uint8_t* Drawn;
+};
+
+} // namespace
+
 class VisibilityOrder::Internals
 {
 public:
@@ -84,10 +121,9 @@ public:
   template <class Select>
   void SortByDistance(const VisibilityView& view, const Select& select);
 
-  /// Hands the cells to place(cell), each behind all that it hides: roots first, then from the others
+  /// Hands the cells to write(cell), each behind all that it hides: roots first, then from the others
   /// those that are left. False, and some cells in no particular order, where there is a cycle.
-  template <class Place>
-  bool SortByFaces(Span<const KeyedItem> roots, const Place& place);
+  bool SortByFaces(Span<const KeyedItem> roots, CellWriter write);
 
   const WalkMesh& Mesh;
   std::vector<std::int32_t> ImaginaryCells;
@@ -96,7 +132,7 @@ public:
 
   // Of the last order, kept for the next one.
   std::vector<std::uint8_t> States;
-  std::vector<std::int32_t> Path;
+  std::unique_ptr<std::int32_t[]> Path; ///< one for each cell, hardly ever used that far
   std::vector<KeyedItem> KeyedCells, KeyedBuffer;
 };
 
@@ -187,61 +223,58 @@ void VisibilityOrder::Internals::SortByDistance(const VisibilityView& view, cons
 }
 
 //----------------------------------------------------------------------------
-template <class Place>
-bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, const Place& place)
+bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, CellWriter write)
 {
   // Depth first: a cell is placed once everything that it hides is. The bits of faces are cleared as
   // they are followed, so that a path needs no more than its cells.
-  std::uint8_t* states = this->States.data();
-  const WalkFace* faces = this->Geometry.Faces.data();
+  const std::int64_t numberOfCells = this->Geometry.GetNumberOfCells();
+  const std::int64_t numberOfRoots = static_cast<std::int64_t>(roots.size());
+  std::uint8_t* const states = this->States.data();
+  const WalkFace* const faces = this->Geometry.Faces.data();
+  std::int32_t* const path = this->Path.get();
   bool cycle = false;
-  const auto visit = [&](std::int32_t root)
+  for (std::int64_t i = 0; i < numberOfRoots + numberOfCells; ++i)
   {
+    const std::int32_t root =
+      i < numberOfRoots ? roots[i].Item : static_cast<std::int32_t>(i - numberOfRoots);
     if ((states[root] & VisitedCell) != 0)
     {
-      return;
+      continue;
     }
     states[root] |= VisitedCell;
-    this->Path.push_back(root);
-    while (!this->Path.empty())
+    path[0] = root;
+    std::int64_t depth = 1;
+    while (depth > 0)
     {
-      const std::int32_t cell = this->Path.back();
+      const std::int32_t cell = path[depth - 1];
       const WalkFace* facesOfCell = faces + 4 * static_cast<std::int64_t>(cell);
-      const std::uint8_t state = states[cell];
+      const unsigned state = states[cell];
       bool leaf = true;
-      for (int face = 0; face < 4; ++face)
+      for (unsigned face = 0; face < 4; ++face)
       {
         if ((state >> face & 1) != 0)
         {
           const std::int32_t behind = facesOfCell[face].Cell;
-          if ((states[behind] & VisitedCell) == 0)
+          const unsigned stateBehind = states[behind];
+          if ((stateBehind & VisitedCell) == 0)
           {
             // The faces before this one were followed, too.
-            states[cell] = state & static_cast<std::uint8_t>(~((2 << face) - 1));
-            states[behind] |= VisitedCell;
-            this->Path.push_back(behind);
+            states[cell] = static_cast<std::uint8_t>(state & ~((2U << face) - 1));
+            states[behind] = static_cast<std::uint8_t>(stateBehind | VisitedCell);
+            path[depth++] = behind;
             leaf = false;
             break;
           }
-          cycle = cycle || (states[behind] & PlacedCell) == 0;
+          cycle = cycle || (stateBehind & PlacedCell) == 0;
         }
       }
       if (leaf)
       {
-        this->Path.pop_back();
-        states[cell] |= PlacedCell;
-        place(cell);
+        --depth;
+        states[cell] = static_cast<std::uint8_t>(state | PlacedCell);
+        write(cell);
       }
     }
-  };
-  for (const KeyedItem& root : roots)
-  {
-    visit(root.Item);
-  }
-  const std::int64_t numberOfCells = this->Geometry.GetNumberOfCells();
-  for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
-  {
-    visit(static_cast<std::int32_t>(cell));
   }
   return !cycle;
 }
@@ -276,9 +309,6 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
     drawn.empty() ? ofMesh : ofMesh - std::count(drawn.begin(), drawn.end(), std::uint8_t{ 0 });
   this->Cycles = {};
   this->Order.resize(size);
-  // Both ways yield the farthest cell first.
-  const std::int64_t first = direction == VisibilityDirection::BackToFront ? 0 : size - 1;
-  const std::int64_t step = direction == VisibilityDirection::BackToFront ? 1 : -1;
 
   if (method == VisibilityMethod::CentroidDistance)
   {
@@ -286,12 +316,17 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
 #pragma omp parallel for schedule(static) if (size > (1 << 14))
     for (std::int64_t i = 0; i < size; ++i)
     {
-      this->Order[first + i * step] = tables.KeyedCells[i].Item;
+      this->Order[direction == VisibilityDirection::BackToFront ? i : size - 1 - i] =
+        tables.KeyedCells[i].Item;
     }
     return this->Order;
   }
 
-  tables.States.resize(tables.Geometry.GetNumberOfCells());
+  if (!tables.Path)
+  {
+    tables.States.resize(tables.Geometry.GetNumberOfCells());
+    tables.Path = NewArray<std::int32_t>(tables.Geometry.GetNumberOfCells());
+  }
   tables.Arrows.Point(view, tables.States);
   Span<const KeyedItem> roots;
   if (method == VisibilityMethod::MeshedNonConvex)
@@ -300,23 +335,14 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
       view, [&](std::int64_t cell) { return (tables.States[cell] & EnteredCell) != 0; });
     roots = tables.KeyedCells;
   }
-  std::int64_t next = first;
-  const auto place = [&](std::int32_t cell)
-  {
-    if (isDrawn(cell))
-    {
-      this->Order[next] = cell;
-      next += step;
-    }
-  };
-  if (!tables.SortByFaces(roots, place))
+  CellWriter write(this->Order, direction, ofMesh, drawn);
+  if (!tables.SortByFaces(roots, write))
   {
     tables.Arrows.Point(view, tables.States);
-    next = first;
     for (const std::int32_t cell :
       SortWithCycles(tables.Geometry, view, tables.States, roots, this->Cycles))
     {
-      place(cell);
+      write(cell);
     }
   }
   return this->Order;
@@ -327,7 +353,7 @@ std::size_t VisibilityOrder::GetSize() const
 {
   const Internals& tables = *this->Tables;
   return tables.Arrows.GetSize() + tables.ImaginaryCells.size() * sizeof(std::int32_t) +
-    tables.States.capacity() + tables.Path.capacity() * sizeof(std::int32_t) +
+    tables.States.size() * (1 + sizeof(std::int32_t)) +
     (tables.KeyedCells.capacity() + tables.KeyedBuffer.capacity()) * sizeof(KeyedItem) +
     this->Order.capacity() * sizeof(std::int32_t);
 }

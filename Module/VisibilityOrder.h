@@ -87,7 +87,7 @@ public:
   /// empty: all. The others order their neighbours all the same (but not by CentroidDistance).
   /// Imaginary cells are never in the result. Valid until the next call.
   ///
-  /// Linear time. Five bytes a cell (CentroidDistance: 20), kept for the next call, and 16 more where
+  /// Linear time. Nine bytes a cell (CentroidDistance: 20), kept for the next call, and 16 more where
   /// there are cycles. The same result for any number of threads.
   const std::vector<std::int32_t>& Sort(const VisibilityView& view, VisibilityMethod method,
     VisibilityDirection direction, Span<const std::uint8_t> drawn = {});
