@@ -388,6 +388,7 @@ const WalkTables* VolumeScene::GetVisibleTables()
       }
     }
     this->VisibleTablesValid = true;
+    ++this->VisibleTablesVersion;
   }
   return this->VisibleTables.Faces.empty() ? nullptr : &this->VisibleTables;
 }

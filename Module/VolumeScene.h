@@ -130,6 +130,9 @@ public:
   /// The topology of the visible cells alone; nullptr where leaving the others out would not pay.
   const WalkTables* GetVisibleTables();
 
+  /// Counts the changes of what GetVisibleTables() returns; 0 before the first. For copies of it.
+  std::uint64_t GetVisibleTablesVersion() const { return this->VisibleTablesVersion; }
+
   /// Radius of the mesh in the world, world units: along its longest extent, where MeshFromWorld of
   /// the grid stretches it.
   double GetWorldRadius(const RayGrid& grid) const;
@@ -169,6 +172,7 @@ private:
   std::uint64_t PointsVersion = 0;
   std::uint64_t TableVersion = 0;
   std::uint64_t CellValuesVersion = 0;
+  std::uint64_t VisibleTablesVersion = 0;
   bool CellValuesValid = false;
   bool PointGradientsValid = false;
   bool PlanValid = false;

@@ -74,6 +74,8 @@ public:
 
   template <class Real>
   const WalkPoint<Real>* GetPoints() const;
+  /// Of the mesh, and behind them those that MakeConvex added.
+  std::size_t GetNumberOfTablePoints() const { return this->FloatPoints.size(); }
   /// The topology of all cells.
   const WalkTables& GetTables() const { return this->Tables; }
   const WalkFace* GetFaces() const { return this->Tables.Faces.data(); }

@@ -86,7 +86,7 @@ WalkTables MakeWalkTables(std::vector<WalkFace> faces, Span<const std::int32_t> 
         entry.Cell = static_cast<std::int32_t>(cell);
         entry.Opposite = corners[face];
         std::copy_n(entry.Points, 3, &triangles[3 * static_cast<std::size_t>(entryId)]);
-        tables.Faces[4 * cell + face] = { ~entryId, 0 };
+        tables.Faces[4 * cell + face] = { ~entryId, corners[face] };
         ++entryId;
       }
     }

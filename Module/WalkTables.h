@@ -23,8 +23,9 @@ struct alignas(4 * sizeof(Real)) WalkPoint
 /// What lies behind one face of a cell, in one load of eight bytes.
 struct WalkFace
 {
-  std::int32_t Cell;  ///< the cell behind (a_{t,i} of the paper), or ~b at boundary face b
-  std::int32_t Point; ///< that cell's point opposite to the face; 0 at the boundary
+  std::int32_t Cell; ///< the cell behind (a_{t,i} of the paper), or ~b at boundary face b
+  /// That cell's point opposite to the face; at the boundary that of the face's own cell.
+  std::int32_t Point;
 };
 
 /// A boundary face and the cell it belongs to. Points ascending.

@@ -66,6 +66,16 @@ void JsonObject::Set(const std::string& name, const std::vector<std::string>& va
   this->Members.push_back({ name, values.empty() ? "[]" : text + ']', {} });
 }
 
+void JsonObject::Set(const std::string& name, const std::vector<std::int64_t>& values)
+{
+  std::string text;
+  for (const std::int64_t value : values)
+  {
+    text += (text.empty() ? "[" : ", ") + std::to_string(value);
+  }
+  this->Members.push_back({ name, values.empty() ? "[]" : text + ']', {} });
+}
+
 void JsonObject::Set(const std::string& name, const JsonObject& value)
 {
   this->Members.push_back({ name, {}, { value } });

@@ -2,6 +2,7 @@
 #ifndef tetralux_JsonObject_h
 #define tetralux_JsonObject_h
 
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -25,6 +26,7 @@ public:
   }
 
   void Set(const std::string& name, const std::vector<std::string>& values);
+  void Set(const std::string& name, const std::vector<std::int64_t>& values);
   void Set(const std::string& name, const JsonObject& value);
 
   /// In several lines, without a newline at the end.

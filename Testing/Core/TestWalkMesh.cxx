@@ -58,7 +58,7 @@ void CheckTables(const WalkMesh& mesh)
       ASSERT_EQ(entry.Opposite, points[i]);
       ASSERT_TRUE(entry.Points[0] < entry.Points[1] && entry.Points[1] < entry.Points[2]);
       ASSERT_EQ(corners, std::set<std::int32_t>(entry.Points, entry.Points + 3));
-      ASSERT_EQ(face.Point, 0); // must exist for lanes that rest
+      ASSERT_EQ(face.Point, points[i]);
     }
   }
   EXPECT_TRUE(std::all_of(timesSeen.begin(), timesSeen.end(), [](int n) { return n == 1; }));

@@ -148,8 +148,7 @@ tetralux::RayLimits RayCastScene::MakeReferenceLimits() const
 
 const float* RayCastScene::GetColors() const
 {
-  return vtkFloatArray::SafeDownCast(
-    this->Used->GetOutputImage()->GetPointData()->GetArray("RGBA"))
+  return vtkFloatArray::SafeDownCast(this->Used->GetOutputImage()->GetPointData()->GetArray("RGBA"))
     ->GetPointer(0);
 }
 

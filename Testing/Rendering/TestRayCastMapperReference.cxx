@@ -13,9 +13,11 @@
 #include "vtkPlaneSource.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkTetrahedraGPURayCastMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -23,6 +25,7 @@ namespace
 enum class Method
 {
   RayCast,
+  GPURayCast,
   Projection
 };
 
@@ -34,6 +37,10 @@ public:
   explicit ReferenceScene(Method method, const ArgumentsT&... arguments)
     : RayCastScene(arguments...)
   {
+    if (method == Method::GPURayCast)
+    {
+      this->Use(vtkSmartPointer<vtkTetrahedraGPURayCastMapper>::New());
+    }
     if (method == Method::Projection)
     {
       this->Use(vtkSmartPointer<vtkTetrahedraProjectionMapper>::New());
@@ -45,10 +52,15 @@ class MapperReference : public testing::TestWithParam<Method>
 {
 };
 
+std::string GetName(const testing::TestParamInfo<Method>& info)
+{
+  return info.param == Method::RayCast ? "RayCast"
+    : info.param == Method::GPURayCast ? "GPURayCast"
+                                       : "Projection";
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, MapperReference,
-  testing::Values(Method::RayCast, Method::Projection),
-  [](const testing::TestParamInfo<Method>& info)
-  { return info.param == Method::RayCast ? "RayCast" : "Projection"; });
+  testing::Values(Method::RayCast, Method::GPURayCast, Method::Projection), GetName);
 
 // The keep side of a plane, as the reference wants it.
 std::array<double, 4> MakePlane(const Vector& origin, const Vector& normal)

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScreenProgram.h"
+
+#include "CoverScreenVS.h"
+
+#include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLVertexArrayObject.h"
+#include "vtkShader.h"
+#include "vtkShaderProgram.h"
+#include "vtk_glew.h"
+
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Compiles a source by itself, since VTK's cache prints a program that does not compile line by line
+/// and keeps the compiler's words to itself.
+void CheckSource(const std::string& name, const std::string& source)
+{
+  vtkNew<vtkShader> shader;
+  shader->SetType(vtkShader::Fragment);
+  shader->SetSource(source);
+  const bool compiled = shader->Compile();
+  const std::string log = shader->GetError();
+  shader->Cleanup();
+  if (!compiled)
+  {
+    throw std::runtime_error("the shader " + name + " does not compile: " + log);
+  }
+}
+
+} // namespace
+
+ScreenProgram::ScreenProgram() = default;
+
+ScreenProgram::~ScreenProgram() { this->ReleaseGraphicsResources(this->Window); }
+
+vtkShaderProgram* ScreenProgram::Use(
+  vtkOpenGLRenderWindow* window, const std::string& name, const std::string& source)
+{
+  if (this->Window != window || source != this->Source)
+  {
+    this->ReleaseGraphicsResources(this->Window);
+    CheckSource(name, source);
+    this->Window = window;
+    this->Source = source;
+    this->Program = window->GetShaderCache()->ReadyShaderProgram(CoverScreenVS, source.c_str(), "");
+  }
+  if (!this->Program || !window->GetShaderCache()->ReadyShaderProgram(this->Program))
+  {
+    this->Source.clear();
+    throw std::runtime_error("the shader program " + name + " could not be linked");
+  }
+  return this->Program;
+}
+
+void ScreenProgram::Draw()
+{
+  this->Empty->Bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  this->Empty->Release();
+}
+
+void ScreenProgram::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (!this->Window || window != this->Window)
+  {
+    return;
+  }
+  this->Empty->ReleaseGraphicsResources();
+  this->Program = nullptr;
+  this->Source.clear();
+  this->Window = nullptr;
+}
+
+} // namespace tetralux

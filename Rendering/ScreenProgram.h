@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ScreenProgram_h
+#define tetralux_ScreenProgram_h
+
+#include "TetraluxRenderingModule.h"
+
+#include "vtkNew.h"
+#include "vtkWeakPointer.h"
+
+#include <string>
+
+class vtkOpenGLRenderWindow;
+class vtkOpenGLVertexArrayObject;
+class vtkShaderProgram;
+class vtkWindow;
+
+namespace tetralux
+{
+
+/// A fragment shader that is run for each pixel of the viewport, which it tells by gl_FragCoord. Belongs to one window's context, the
+/// last one.
+class TETRALUXRENDERING_EXPORT ScreenProgram
+{
+public:
+  ScreenProgram();
+  ~ScreenProgram();
+  ScreenProgram(const ScreenProgram&) = delete;
+  ScreenProgram& operator=(const ScreenProgram&) = delete;
+
+  /// The program of a source, which begins with its version, in use; compiled only where the source
+  /// changed. Outputs are fragOutput0, fragOutput1, ...; the source has to mention gl_FragData[0],
+  /// gl_FragData[1], ... for each of them, as VTK counts them by that. Throws std::runtime_error with
+  /// what the compiler says.
+  vtkShaderProgram* Use(
+    vtkOpenGLRenderWindow* window, const std::string& name, const std::string& source);
+
+  /// Runs it for all pixels of the viewport; their depth is 1.
+  void Draw();
+
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  std::string Source;
+  vtkShaderProgram* Program = nullptr; ///< belongs to the window's cache
+  vtkNew<vtkOpenGLVertexArrayObject> Empty;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,282 @@
+//VTK::System::Dec
+// SPDX-License-Identifier: BSD-3-Clause
+// A number of steps of each ray from cell to cell (Weiler et al. 2003, section 3), front to back: exit
+// face, scalar there, ray integral, blending, next cell. What a ray has come to is read from textures
+// and written to others; the next pass goes on from there.
+//
+// A cell is entered through the triangle a b c, whose corners surround the ray counter-clockwise. The
+// cell's fourth point p replaces one of them: the signs of det(p, a), det(p, b), det(p, c) tell which,
+// and thereby the face through which the ray leaves. So a step reads one point, 16 bytes, and one face,
+// 8 bytes: the cell behind it and that cell's fourth point.
+//
+// CELL_DATA: scalars are constant in each cell. GATHER_LARGEST: the largest scalar along the ray is
+// looked for; else segments are composited. IMAGINARY_CELLS: cells from numberOfCells on fill the
+// space between the mesh and its hull and contribute nothing. REENTRY: a ray that left the mesh may
+// come in again. LIT: lights shine on segments, by the gradients of cells or, SMOOTH_GRADIENTS, of
+// points; of isosurfaces, ISOSURFACES, only where there is one.
+
+//VTK::RayStates::Dec
+//VTK::GetRay::Dec
+//VTK::RayFrame::Dec
+//VTK::Lighting::Dec
+//VTK::RayIntegral::Dec
+
+// What rays have come to. States: points of the triangle, and index of the face that is crossed next,
+// or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps. Colors:
+// gathered so far, or the largest scalar. Firsts: of the first segment that contributed the distances
+// of its ends from the point nearest to the centre, and the scalars there; or the distance of the
+// largest scalar.
+uniform isampler2D rayStates;
+uniform isampler2D rayEntries;
+uniform sampler2D rayColors;
+uniform sampler2D rayFirsts;
+
+uniform isampler2D nextEntries; // of rays that need one; -1: there is none
+
+uniform isamplerBuffer walkFaces;
+uniform isamplerBuffer boundaryEntries;
+uniform int numberOfCells;
+uniform int stepsOfPass;
+uniform float maximumOpacity; // a ray that is this opaque ends
+
+// gl_FragData[0], gl_FragData[1], gl_FragData[2], gl_FragData[3]
+out ivec4 fragOutput0;
+out ivec4 fragOutput1;
+out vec4 fragOutput2;
+out vec4 fragOutput3;
+
+// Distance and scalar where the ray goes through a triangle. By differences: a constant stays exactly
+// what it is, also next to a step of the transfer function.
+void Interpolate(vec3 weights, Corner a, Corner b, Corner c, out float along, out float scalar)
+{
+  vec2 shares = GetShares(weights).yz;
+  along = a.Along + shares.x * (b.Along - a.Along) + shares.y * (c.Along - a.Along);
+  scalar = a.Scalar + shares.x * (b.Scalar - a.Scalar) + shares.y * (c.Scalar - a.Scalar);
+}
+
+#ifdef LIT
+#ifdef SMOOTH_GRADIENTS
+uniform samplerBuffer pointGradients; // in any unit
+
+const float SmallestLength = 1e-37; // keeps what is divided by it finite
+
+// Where the ray goes through a triangle, see Interpolate.
+vec3 InterpolateGradient(vec3 weights, ivec3 ids)
+{
+  vec3 first = texelFetch(pointGradients, ids.x).xyz;
+  vec2 shares = GetShares(weights).yz;
+  return first + shares.x * (texelFetch(pointGradients, ids.y).xyz - first) +
+    shares.y * (texelFetch(pointGradients, ids.z).xyz - first);
+}
+#else
+// Of the cell that a triangle and a point make: the direction, or the opposite one, which light does
+// not tell apart.
+vec3 FindCellGradient(ivec3 ids, int point)
+{
+  vec4 origin = texelFetch(walkPoints, point);
+  vec4 a = texelFetch(walkPoints, ids.x) - origin;
+  vec4 b = texelFetch(walkPoints, ids.y) - origin;
+  vec4 c = texelFetch(walkPoints, ids.z) - origin;
+  return a.w * cross(b.xyz, c.xyz) + b.w * cross(c.xyz, a.xyz) + c.w * cross(a.xyz, b.xyz);
+}
+#endif
+#endif
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec4 state = texelFetch(rayStates, pixel, 0);
+  ivec3 entry = texelFetch(rayEntries, pixel, 0).xyz;
+  vec4 gathered = texelFetch(rayColors, pixel, 0);
+  vec4 first = texelFetch(rayFirsts, pixel, 0);
+
+  Ray ray = GetRay(gl_FragCoord.xy);
+  RayFrame frame = MakeRayFrame(ray);
+  bool walking = state.w >= 0;
+  if (state.w == RayNeedsEntry)
+  {
+    int next = texelFetch(nextEntries, pixel, 0).x;
+    walking = next >= 0;
+    entry.x = next;
+    state = walking ? texelFetch(boundaryEntries, next) : ivec4(0);
+  }
+  vec2 limits = GetRayPart(ray, gl_FragCoord.xy, entry.y) - (frame.Start - ray.Distance);
+
+  // The triangle. Weights of the corners are areas across, and not normalized.
+  Corner a = LoadCorner(frame, state.x);
+  Corner b = LoadCorner(frame, state.y);
+  Corner c = LoadCorner(frame, state.z);
+  bool clockwise;
+  bool unused;
+  vec3 weights = vec3(GetDeterminant(b, c, clockwise), 0.0, 0.0);
+  weights.y = GetDeterminant(c, a, unused);
+  weights.z = GetDeterminant(a, b, unused);
+  weights = abs(weights);
+  if (!clockwise)
+  {
+    Corner corner = b;
+    b = c;
+    c = corner;
+    weights = weights.xzy;
+  }
+  float along;
+  float scalar;
+  Interpolate(weights, a, b, c, along, scalar);
+
+  // At a boundary face that is entered its own cell is meant.
+  int face = max(state.w, 0);
+  ivec2 behind = texelFetch(walkFaces, face).xy;
+  int cell = behind.x < 0 ? face >> 2 : behind.x;
+  bool outside = false;
+  int steps = 0;
+  walking = walking && along <= limits.y;
+  bool partEnded = !walking;
+
+  for (; walking && steps < stepsOfPass; ++steps)
+  {
+    // To the face that the fourth point makes with two of the triangle's.
+    Corner p = LoadCorner(frame, behind.y);
+    bool aSide;
+    bool bSide;
+    bool cSide;
+    float pa = abs(GetDeterminant(p, a, aSide));
+    float pb = abs(GetDeterminant(p, b, bSide));
+    float pc = abs(GetDeterminant(p, c, cSide));
+    bool dropA = bSide && !cSide;
+    bool dropB = cSide && !aSide;
+    bool keepC = dropA || dropB;
+#ifdef LIT
+    ivec3 ids0 = ivec3(a.Id, b.Id, c.Id);
+    vec3 weights0 = weights;
+#endif
+    // The index of a face is the place of its opposite point among the cell's ascending ones.
+    int dropped = dropA ? a.Id : dropB ? b.Id : c.Id;
+    // det(p, x) is the weight of the corner across; the replaced corner keeps its weight for p.
+    weights = vec3(dropA ? weights.x : dropB ? pc : pb, dropB ? weights.y : dropA ? pc : pa,
+      keepC ? (dropA ? pb : pa) : weights.z);
+    if (dropA)
+    {
+      a = p;
+    }
+    else if (dropB)
+    {
+      b = p;
+    }
+    else
+    {
+      c = p;
+    }
+    face = 4 * cell + int(dropped > a.Id) + int(dropped > b.Id) + int(dropped > c.Id);
+    int cellBefore = cell;
+    behind = texelFetch(walkFaces, face).xy;
+    cell = behind.x;
+
+    float along0 = along;
+    float scalar0 = scalar;
+    Interpolate(weights, a, b, c, along, scalar);
+
+    // An inverted cell among others is walked from its far side to its near one; it is seen as any
+    // other cell. What the limits cut is left out, by shares of the cell: a slope may overflow.
+    bool backward = along < along0;
+    float near = min(along, along0);
+    float far = max(along, along0);
+    float from = max(near, limits.x);
+    float to = min(far, limits.y);
+    float fromScalar = backward ? scalar : scalar0;
+    float toScalar = backward ? scalar0 : scalar;
+    float scalarChange = (toScalar - fromScalar) / (far - near);
+    toScalar = to < far ? fromScalar + (to - near) * scalarChange : toScalar;
+    fromScalar = near < from ? fromScalar + (from - near) * scalarChange : fromScalar;
+#ifdef IMAGINARY_CELLS
+    bool real = cellBefore < numberOfCells;
+#else
+    bool real = true;
+#endif
+    if (real && from <= to)
+    {
+#ifdef GATHER_LARGEST
+#ifdef CELL_DATA
+      float largest = GetCellScalar(cellBefore);
+      float largestAlong = from;
+#else
+      float largest = fromScalar + toScalar < LargestFloat ? max(fromScalar, toScalar) : -LargestFloat;
+      float largestAlong = fromScalar < toScalar ? to : from;
+#endif
+      if (largest > gathered.r)
+      {
+        gathered.r = largest;
+        first.x = largestAlong;
+      }
+#else
+#ifdef CELL_DATA
+      vec4 segment = IntegrateCell(cellBefore, to - from);
+#else
+#ifdef LIT
+      vec4 segment = vec4(0.0);
+#ifdef ISOSURFACES
+      float surface;
+      vec4 surfaceColor;
+      if (FindCrossing(fromScalar, toScalar, 0, surface, surfaceColor) < numberOfIsosurfaces)
+#endif
+      {
+#ifdef SMOOTH_GRADIENTS
+        vec3 nearGradient = InterpolateGradient(weights0, ids0);
+        vec3 farGradient = InterpolateGradient(weights, ivec3(a.Id, b.Id, c.Id));
+        if (backward)
+        {
+          vec3 gradient = nearGradient;
+          nearGradient = farGradient;
+          farGradient = gradient;
+        }
+        vec3 gradientChange = (farGradient - nearGradient) / max(far - near, SmallestLength);
+        vec3 fromGradient = nearGradient + (from - near) * gradientChange;
+        vec3 toGradient = nearGradient + (to - near) * gradientChange;
+#else
+        vec3 fromGradient = FindCellGradient(ids0, p.Id);
+        vec3 toGradient = fromGradient;
+#endif
+        float nearest = frame.Start - ray.Distance;
+        segment = IntegrateShadedSegment(fromScalar, toScalar, to - from, fromGradient, toGradient,
+          ray.Point + (nearest + from) * ray.Direction, ray.Point + (nearest + to) * ray.Direction,
+          ray.Direction);
+      }
+#else
+      vec4 segment = IntegrateSegment(fromScalar, toScalar, to - from);
+#endif
+#endif
+      gathered += (1.0 - gathered.a) * segment;
+      first = from < first.x && any(greaterThan(segment, vec4(0.0)))
+        ? vec4(from, to, fromScalar, toScalar)
+        : first;
+#endif
+    }
+
+    outside = cell < 0;
+    walking = !outside && along < limits.y && gathered.a < maximumOpacity;
+  }
+
+  // Where the part of the ray ends, the next one begins anew: by the first entry into the mesh.
+  partEnded = partEnded || along >= limits.y || gathered.a >= maximumOpacity;
+#ifdef REENTRY
+  bool leaves = false;
+#else
+  bool leaves = outside;
+#endif
+  if (gathered.a >= maximumOpacity)
+  {
+    state.w = RayIsDone;
+  }
+  else if (partEnded || leaves)
+  {
+    state.w = entry.y + 1 < NUMBER_OF_PARTS ? RayNeedsEntry : RayIsDone;
+    entry.xy = ivec2(-1, entry.y + 1);
+  }
+  else
+  {
+    state = ivec4(a.Id, b.Id, c.Id, outside ? RayNeedsEntry : face);
+  }
+  fragOutput0 = state;
+  fragOutput1 = ivec4(entry.xy, entry.z + steps, 0);
+  fragOutput2 = gathered;
+  fragOutput3 = first;
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "WalkTexels.h"
+
+#include "CellOrientation.h"
+#include "GeneratedMeshes.h"
+#include "WalkMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace
+{
+
+using tetralux::WalkMesh;
+using tetralux::WalkTexels;
+
+WalkMesh MakeRing()
+{
+  return WalkMesh(tetralux::GenerateMesh(
+    "cylinder-with-hole", { { "across", 2 }, { "around", 12 }, { "along", 3 }, { "hole", 0.5 } })
+                    .Mesh);
+}
+
+WalkTexels MakeTexels(const WalkMesh& mesh)
+{
+  return tetralux::MakeWalkTexels(mesh.GetTables(),
+    tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces));
+}
+
+// Each boundary face once, with the face's own index, and seen from outside: a ray that comes in has
+// the cell behind the face.
+TEST(WalkTexels, Entries)
+{
+  const WalkMesh mesh = MakeRing();
+  const WalkTexels texels = MakeTexels(mesh);
+  const auto numberOfFaces = static_cast<std::size_t>(mesh.GetNumberOfBoundaryFaces());
+  ASSERT_EQ(texels.Entries.size(), 4 * numberOfFaces);
+  const auto& points = mesh.GetMesh().Points;
+  std::set<std::int32_t> seen;
+  for (std::size_t k = 0; k < numberOfFaces; ++k)
+  {
+    const std::int32_t* entry = &texels.Entries[4 * k];
+    EXPECT_TRUE(seen.insert(entry[3]).second);
+    const tetralux::WalkFace& face = mesh.GetFaces()[entry[3]];
+    ASSERT_LT(face.Cell, 0);
+    const std::int32_t* cell = &mesh.GetMesh().Cells[4 * static_cast<std::size_t>(entry[3] / 4)];
+    EXPECT_EQ(face.Point, cell[entry[3] % 4]);
+    std::set<std::int32_t> corners(entry, entry + 3);
+    corners.insert(face.Point);
+    EXPECT_EQ(corners, std::set<std::int32_t>(cell, cell + 4));
+    // Along the normal of the points in their order lies the cell.
+    double edges[3][3];
+    const std::int32_t others[3] = { entry[1], entry[2], face.Point };
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        edges[i][a] = points[3 * static_cast<std::size_t>(others[i]) + a] -
+          points[3 * static_cast<std::size_t>(entry[0]) + a];
+      }
+    }
+    double height = 0;
+    for (int a = 0; a < 3; ++a)
+    {
+      const int b = (a + 1) % 3;
+      const int c = (a + 2) % 3;
+      height += edges[2][a] * (edges[0][b] * edges[1][c] - edges[0][c] * edges[1][b]);
+    }
+    EXPECT_GT(height, 0);
+  }
+}
+
+// What a traversal by links finds that never misses a box is every leaf once; by one that misses all,
+// nothing.
+TEST(WalkTexels, Links)
+{
+  const WalkMesh mesh = MakeRing();
+  const WalkTexels texels = MakeTexels(mesh);
+  const auto numberOfNodes = static_cast<std::int32_t>(texels.Links.size() / 2);
+  ASSERT_EQ(texels.Boxes.size(), 8 * static_cast<std::size_t>(numberOfNodes));
+  std::int32_t entries = 0;
+  std::int32_t steps = 0;
+  for (std::int32_t node = 0; node < numberOfNodes; ++steps)
+  {
+    const std::int32_t leaf = texels.Links[2 * node + 1];
+    if (leaf > 0)
+    {
+      EXPECT_EQ(leaf / 8, entries);
+      entries += leaf % 8;
+    }
+    node = leaf == 0 ? node + 1 : texels.Links[2 * node];
+  }
+  EXPECT_EQ(steps, numberOfNodes);
+  EXPECT_EQ(entries, mesh.GetNumberOfBoundaryFaces());
+  EXPECT_EQ(texels.Links[0], numberOfNodes);
+  // Past a subtree comes what is not within it.
+  for (std::int32_t node = 0; node < numberOfNodes; ++node)
+  {
+    EXPECT_GT(texels.Links[2 * node], node);
+    EXPECT_LE(texels.Links[2 * node], numberOfNodes);
+  }
+  // The boxes contain their leaves' points.
+  for (std::int32_t node = 0; node < numberOfNodes; ++node)
+  {
+    for (std::int32_t below = node; below < texels.Links[2 * node]; ++below)
+    {
+      const std::int32_t leaf = texels.Links[2 * below + 1];
+      for (std::int32_t entry = leaf / 8; entry < leaf / 8 + leaf % 8; ++entry)
+      {
+        const tetralux::WalkPoint<float>& point =
+          mesh.GetPoints<float>()[texels.Entries[4 * static_cast<std::size_t>(entry)]];
+        const float* box = &texels.Boxes[8 * static_cast<std::size_t>(node)];
+        EXPECT_LE(std::abs(point.X - box[0]), box[3]);
+        EXPECT_LE(std::abs(point.Y - box[1]), box[4]);
+        EXPECT_LE(std::abs(point.Z - box[2]), box[5]);
+      }
+    }
+  }
+}
+
+TEST(WalkTexels, EmptyMesh)
+{
+  const WalkMesh mesh{ tetralux::TetrahedralMesh() };
+  const WalkTexels texels = MakeTexels(mesh);
+  EXPECT_TRUE(texels.Entries.empty());
+  EXPECT_TRUE(texels.Links.empty());
+}
+
+TEST(WalkTexels, Obstacles)
+{
+  tetralux::TexelLimits limits;
+  limits.MaximumTexels = 65536;
+  EXPECT_EQ(tetralux::FindObstacle({ { "faces", 65536, 8 }, { "points", 10, 16 } }, limits), "");
+  const std::string many = tetralux::FindObstacle({ { "faces", 65537, 8 } }, limits);
+  EXPECT_NE(many.find("faces"), std::string::npos);
+  EXPECT_NE(many.find("65537"), std::string::npos);
+  EXPECT_NE(many.find("65536"), std::string::npos);
+
+  limits.FreeBytes = 1000000;
+  EXPECT_EQ(tetralux::FindObstacle({ { "faces", 65536, 8 } }, limits), "");
+  const std::string full =
+    tetralux::FindObstacle({ { "faces", 65536, 8 }, { "points", 40000, 16 } }, limits);
+  EXPECT_NE(full.find("1164288"), std::string::npos);
+  EXPECT_NE(full.find("1000000"), std::string::npos);
+}
+
+} // namespace
