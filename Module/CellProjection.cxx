@@ -2,6 +2,7 @@
 #include "CellProjection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -326,34 +327,34 @@ public:
     return { scale * constant, scale * normal.X, scale * normal.Y };
   }
 
-  /// The scalar at z = base + something, times z where homogeneous, on base and for something.
-  void FindScalar(
-    const ScreenPoint* const points[4], const Linear& base, Linear& scalar, double& slope) const
+  /// A value that is linear in the cell, from those at its points: at z = base + something, times z
+  /// where homogeneous, on base and for something.
+  void FindField(const double values[4], const Linear& base, Linear& onBase, double& slope) const
   {
     Vector gradient = { 0, 0, 0 };
     for (int i = 1; i < 4; ++i)
     {
-      const double share = (points[i]->Scalar - points[0]->Scalar) / this->Volume;
+      const double share = (values[i] - values[0]) / this->Volume;
       gradient.X += share * this->Normals[i].X;
       gradient.Y += share * this->Normals[i].Y;
       gradient.Z += share * this->Normals[i].Z;
     }
-    const double origin = points[0]->Scalar - Dot(gradient, this->Points[0]);
+    const double origin = values[0] - Dot(gradient, this->Points[0]);
     if (this->Homogeneous)
     {
-      // scalar z = origin z + gradient . (x, y, 1)
+      // value z = origin z + gradient . (x, y, 1)
       slope = origin;
-      scalar = { gradient.Z, gradient.X, gradient.Y };
+      onBase = { gradient.Z, gradient.X, gradient.Y };
     }
     else
     {
-      // scalar = origin + gradient . (x, y, -z)
+      // value = origin + gradient . (x, y, -z)
       slope = -gradient.Z;
-      scalar = { origin, gradient.X, gradient.Y };
+      onBase = { origin, gradient.X, gradient.Y };
     }
-    scalar.Value += slope * base.Value;
-    scalar.SlopeX += slope * base.SlopeX;
-    scalar.SlopeY += slope * base.SlopeY;
+    onBase.Value += slope * base.Value;
+    onBase.SlopeX += slope * base.SlopeX;
+    onBase.SlopeY += slope * base.SlopeY;
   }
 
 private:
@@ -386,12 +387,17 @@ std::uint32_t MakeKey(std::int32_t cell)
   return key & LargestCellKey;
 }
 
-} // namespace
-
-int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, const ScreenPoint& a,
-  const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d, ProjectedCell& result)
+/// ProjectCell, with gradients where gradient is not nullptr.
+int Project(const ScreenFrame& frame, const ProjectionSettings& settings,
+  const std::array<const ScreenPoint*, 4>& cellPoints, ProjectedCell& result,
+  const double (*gradients)[3], ProjectedGradient* gradient)
 {
-  const ScreenPoint* const points[4] = { &a, &b, &c, &d };
+  const ScreenPoint* const points[4] = { cellPoints[0], cellPoints[1], cellPoints[2],
+    cellPoints[3] };
+  const ScreenPoint& a = *points[0];
+  const ScreenPoint& b = *points[1];
+  const ScreenPoint& c = *points[2];
+  const ScreenPoint& d = *points[3];
   const bool allInFront =
     frame.IsInFront(a) && frame.IsInFront(b) && frame.IsInFront(c) && frame.IsInFront(d);
   Box box = FindBox(frame, points);
@@ -502,7 +508,8 @@ int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, co
 
   Linear scalar;
   double slope;
-  cell.FindScalar(points, faces[base], scalar, slope);
+  const double scalars[4] = { a.Scalar, b.Scalar, c.Scalar, d.Scalar };
+  cell.FindField(scalars, faces[base], scalar, slope);
   Store(scalar, 1, result.Third.Scalar);
   result.Third.ScalarSlope = static_cast<float>(sign * slope);
   result.Third.ScalarRange[0] = static_cast<float>(scalarLo);
@@ -510,7 +517,87 @@ int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, co
   result.Fourth.Reference[0] = static_cast<float>(referenceX + Half);
   result.Fourth.Reference[1] = static_cast<float>(referenceY + Half);
   result.Fourth.Code = static_cast<float>(entries + (sign < 0 ? 4 : 0));
+  for (int component = 0; gradient && component < 3; ++component)
+  {
+    const double values[4] = { gradients[0][component], gradients[1][component],
+      gradients[2][component], gradients[3][component] };
+    Linear field;
+    cell.FindField(values, faces[base], field, slope);
+    gradient->Base[component] = static_cast<float>(field.Value);
+    gradient->SlopeX[component] = static_cast<float>(field.SlopeX);
+    gradient->SlopeY[component] = static_cast<float>(field.SlopeY);
+    gradient->Slope[component] = static_cast<float>(sign * slope);
+  }
   return n;
+}
+
+/// The gradient of a field in a cell, of any length.
+void FindGradient(Span<const double> coordinates, Span<const ScreenPoint> points,
+  const std::int32_t* cell, double gradient[3])
+{
+  const auto subtract = [&](int i)
+  {
+    const double* p = &coordinates[3 * static_cast<std::size_t>(cell[i])];
+    const double* q = &coordinates[3 * static_cast<std::size_t>(cell[0])];
+    return Vector{ p[0] - q[0], p[1] - q[1], p[2] - q[2] };
+  };
+  const Vector a = subtract(1);
+  const Vector b = subtract(2);
+  const Vector c = subtract(3);
+  const Vector normals[3] = { Cross(b, c), Cross(c, a), Cross(a, b) };
+  const double sign = Dot(normals[0], a) < 0 ? -1 : 1;
+  Vector sum = { 0, 0, 0 };
+  for (int i = 0; i < 3; ++i)
+  {
+    const double change = sign * (points[cell[i + 1]].Scalar - points[cell[0]].Scalar);
+    sum = { sum.X + change * normals[i].X, sum.Y + change * normals[i].Y,
+      sum.Z + change * normals[i].Z };
+  }
+  // A length of 1 keeps it in the range of single precision.
+  const double length = std::max({ std::abs(sum.X), std::abs(sum.Y), std::abs(sum.Z) });
+  const double scale = length > 0 ? 1 / length : 0;
+  gradient[0] = scale * sum.X;
+  gradient[1] = scale * sum.Y;
+  gradient[2] = scale * sum.Z;
+}
+
+/// Gradients at the points of a cell as they are asked for.
+void FindGradients(const CellData& data, Span<const ScreenPoint> points, const std::int32_t* cell,
+  double gradients[4][3])
+{
+  for (int i = 0; i < 4; ++i)
+  {
+    if (data.Gradients == CellData::Gradient::Points)
+    {
+      const PointGradient& gradient = data.PointGradients[cell[i]];
+      gradients[i][0] = gradient.X;
+      gradients[i][1] = gradient.Y;
+      gradients[i][2] = gradient.Z;
+    }
+    else if (i == 0)
+    {
+      FindGradient(data.Coordinates, points, cell, gradients[0]);
+    }
+    else
+    {
+      std::copy_n(gradients[0], 3, gradients[i]);
+    }
+  }
+}
+
+} // namespace
+
+int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, const ScreenPoint& a,
+  const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d, ProjectedCell& result)
+{
+  return Project(frame, settings, { &a, &b, &c, &d }, result, nullptr, nullptr);
+}
+
+int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, const ScreenPoint& a,
+  const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d, ProjectedCell& result,
+  const double gradients[4][3], ProjectedGradient& gradient)
+{
+  return Project(frame, settings, { &a, &b, &c, &d }, result, gradients, &gradient);
 }
 
 double FindShift(const ScreenFrame& frame, const ProjectionSettings& settings,
@@ -544,6 +631,8 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   std::vector<Counts> counts(blocks + 1);
   std::vector<std::uint8_t> corners(n);
   result.Cells.resize(n);
+  const bool withGradients = data.Gradients != CellData::Gradient::None;
+  result.Gradients.resize(withGradients ? n : 0);
 #pragma omp parallel for schedule(dynamic)
   for (std::int64_t block = 0; block < blocks; ++block)
   {
@@ -555,8 +644,14 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
       const std::int32_t cell = order[i];
       const std::int32_t* p = &cells[4 * static_cast<std::size_t>(cell)];
       ProjectedCell& projected = result.Cells[last];
-      const int count = ProjectCell(
-        frame, settings, points[p[0]], points[p[1]], points[p[2]], points[p[3]], projected);
+      double gradients[4][3];
+      if (withGradients)
+      {
+        FindGradients(data, points, p, gradients);
+      }
+      const int count =
+        Project(frame, settings, { &points[p[0]], &points[p[1]], &points[p[2]], &points[p[3]] },
+          projected, gradients, withGradients ? &result.Gradients[last] : nullptr);
       if (count == 0)
       {
         continue;
@@ -603,11 +698,17 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   }
   for (std::int64_t block = 0; block < blocks; ++block)
   {
+    const std::int64_t size = counts[block + 1].Cells - counts[block].Cells;
     const auto begin = result.Cells.begin() + block * BlockSize;
-    std::copy(begin, begin + (counts[block + 1].Cells - counts[block].Cells),
-      result.Cells.begin() + counts[block].Cells);
+    std::copy(begin, begin + size, result.Cells.begin() + counts[block].Cells);
+    if (withGradients)
+    {
+      const auto first = result.Gradients.begin() + block * BlockSize;
+      std::copy(first, first + size, result.Gradients.begin() + counts[block].Cells);
+    }
   }
   result.Cells.resize(sum.Cells + 1);
+  result.Gradients.resize(withGradients ? sum.Cells + 1 : 0);
 }
 
 } // namespace tetralux

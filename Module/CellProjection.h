@@ -24,6 +24,7 @@
 // wide keep that: of the faces' functions only differences to the least steep of them count for the
 // thickness.
 
+#include "PointGradients.h"
 #include "ScreenFrame.h"
 #include "Span.h"
 #include "TetraluxCoreModule.h"
@@ -97,6 +98,15 @@ struct ProjectedCell
 };
 static_assert(sizeof(ProjectedCell) == 4 * 32, "corners are 32 bytes apart");
 
+/// The gradient in a projected cell, spread over its four corners as well: its three components are
+/// found as the scalar is, by Gradient(dx, dy) + Slope near and far, divided by z in a perspective.
+struct ProjectedGradient
+{
+  float Base[3];
+  float SlopeX[3], SlopeY[3]; ///< of the base
+  float Slope[3];
+};
+
 /// Projects one cell. Returns the number of its corners: 3 or 4, in the order of a fan, or 0 where
 /// it covers no pixel's centre, has no volume, or touches a scalar that is not a number.
 ///
@@ -105,6 +115,11 @@ static_assert(sizeof(ProjectedCell) == 4 * 32, "corners are 32 bytes apart");
 TETRALUXCORE_EXPORT int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings,
   const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d,
   ProjectedCell& result);
+
+/// The same with gradients at the points, three components each.
+TETRALUXCORE_EXPORT int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings,
+  const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d,
+  ProjectedCell& result, const double gradients[4][3], ProjectedGradient& gradient);
 
 /// The smallest ProjectionSettings::Shift by which no ray that is meant to run exactly along faces seen
 /// from the side meets the cells on both sides, or none, by rounding of single precision: in proportion
@@ -123,6 +138,9 @@ struct ProjectedCells
     return static_cast<std::int64_t>(this->Cells.size()) - 1;
   }
 
+  /// Those of Cells where they are asked for, else empty.
+  std::vector<ProjectedGradient> Gradients;
+
   /// Three for each triangle, of corners: corner k of cell i is 4 i + k. The last one is the cell's
   /// first corner, which has the data of the cell with it.
   std::vector<std::uint32_t> Triangles;
@@ -136,6 +154,17 @@ struct CellData
 
   /// The cell's id in Own: CellIdBase Own[0] + Own[1].
   bool Ids = false;
+
+  /// Gradients in the coordinates of the mesh, of any length.
+  enum class Gradient
+  {
+    None,
+    Cells, ///< of each cell
+    Points ///< interpolated between points
+  };
+  Gradient Gradients = Gradient::None;
+  Span<const PointGradient> PointGradients;
+  Span<const double> Coordinates; ///< of the points, three each: for gradients of cells
 };
 
 constexpr int LargestCellKey = (1 << 12) - 1;

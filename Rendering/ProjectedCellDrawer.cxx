@@ -23,6 +23,8 @@ namespace
 /// first corner's, from where the other corners have room.
 constexpr std::size_t CornerSize = sizeof(ProjectedCell) / 4;
 
+constexpr std::size_t GradientSize = sizeof(ProjectedGradient) / 4;
+
 struct Attribute
 {
   const char* Name;
@@ -42,6 +44,13 @@ constexpr Attribute CellAttributes[] = {
   { "cellOwn", offsetof(ProjectedCell, Fourth.Own), 3 },
 };
 
+constexpr Attribute GradientAttributes[] = {
+  { "cellGradient0", offsetof(ProjectedGradient, Base), 3 },
+  { "cellGradient1", offsetof(ProjectedGradient, SlopeX), 3 },
+  { "cellGradient2", offsetof(ProjectedGradient, SlopeY), 3 },
+  { "cellGradient3", offsetof(ProjectedGradient, Slope), 3 },
+};
+
 } // namespace
 
 ProjectedCellDrawer::ProjectedCellDrawer() = default;
@@ -55,13 +64,15 @@ vtkShaderProgram* ProjectedCellDrawer::Use(vtkOpenGLRenderWindow* window, const 
     this->ReleaseGraphicsResources(this->Window);
     this->Window = window;
   }
+  std::string vertex = ProjectedCellVS;
+  vtkShaderProgram::Substitute(vertex, "//VTK::Projection::Dec", shader.Projection);
   std::string fragment = ProjectedCellFS;
   vtkShaderProgram::Substitute(fragment, "//VTK::Projection::Dec", shader.Projection);
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Dec", shader.Segment);
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Impl", shader.Output);
   vtkShaderProgram::Substitute(fragment, "//VTK::Dither::Impl", shader.Dither);
   vtkShaderProgram* program =
-    window->GetShaderCache()->ReadyShaderProgram(ProjectedCellVS, fragment.c_str(), "");
+    window->GetShaderCache()->ReadyShaderProgram(vertex.c_str(), fragment.c_str(), "");
   if (!program)
   {
     throw std::runtime_error("the shader program that draws projected cells did not compile");
@@ -81,21 +92,36 @@ void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
     return;
   }
   this->LargestBatch = std::max(this->LargestBatch,
-    cells.Cells.size() * sizeof(ProjectedCell) + cells.Triangles.size() * sizeof(std::uint32_t));
+    cells.Cells.size() * sizeof(ProjectedCell) + cells.Triangles.size() * sizeof(std::uint32_t) +
+      cells.Gradients.size() * sizeof(ProjectedGradient));
   this->Attributes->Bind();
   if (!this->Corners->Upload(
         cells.Cells.data(), cells.Cells.size(), vtkOpenGLBufferObject::ArrayBuffer) ||
-    !this->Triangles->Upload(cells.Triangles, vtkOpenGLBufferObject::ElementArrayBuffer))
+    !this->Triangles->Upload(cells.Triangles, vtkOpenGLBufferObject::ElementArrayBuffer) ||
+    (!cells.Gradients.empty() &&
+      !this->Gradients->Upload(cells.Gradients, vtkOpenGLBufferObject::ArrayBuffer)))
   {
     this->Attributes->Release();
     throw std::runtime_error("projected cells could not be sent to the graphics card");
   }
-  for (const Attribute& attribute : CellAttributes)
+  const auto add = [this](
+                     const Attribute& attribute, vtkOpenGLBufferObject* buffer, std::size_t stride)
   {
     if (this->Program->IsAttributeUsed(attribute.Name))
     {
-      this->Attributes->AddAttributeArray(this->Program, this->Corners, attribute.Name,
-        static_cast<int>(attribute.Offset), CornerSize, VTK_FLOAT, attribute.Components, false);
+      this->Attributes->AddAttributeArray(this->Program, buffer, attribute.Name,
+        static_cast<int>(attribute.Offset), stride, VTK_FLOAT, attribute.Components, false);
+    }
+  };
+  for (const Attribute& attribute : CellAttributes)
+  {
+    add(attribute, this->Corners, CornerSize);
+  }
+  for (const Attribute& attribute : GradientAttributes)
+  {
+    if (!cells.Gradients.empty())
+    {
+      add(attribute, this->Gradients, GradientSize);
     }
   }
   glDrawElements(
@@ -111,6 +137,7 @@ void ProjectedCellDrawer::ReleaseGraphicsResources(vtkWindow* window)
   }
   this->Attributes->ReleaseGraphicsResources();
   this->Corners->ReleaseGraphicsResources();
+  this->Gradients->ReleaseGraphicsResources();
   this->Triangles->ReleaseGraphicsResources();
   this->Program = nullptr;
   this->Window = nullptr;

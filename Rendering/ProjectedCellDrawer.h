@@ -32,7 +32,7 @@ public:
   /// What the fragment shader, ProjectedCellFS.glsl, is made of.
   struct Shader
   {
-    std::string Projection; ///< VTK::Projection::Dec: defines
+    std::string Projection; ///< VTK::Projection::Dec: defines, of the vertex shader, too
     std::string Segment;    ///< VTK::Segment::Dec: functions
     std::string Output;     ///< VTK::Segment::Impl: returns what front, back and len add
     std::string Dither;     ///< VTK::Dither::Impl: changes color
@@ -55,6 +55,7 @@ private:
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkNew<vtkOpenGLVertexArrayObject> Attributes;
   vtkNew<vtkOpenGLBufferObject> Corners;
+  vtkNew<vtkOpenGLBufferObject> Gradients;
   vtkNew<vtkOpenGLBufferObject> Triangles;
   vtkShaderProgram* Program = nullptr; ///< the cache's
   std::size_t LargestBatch = 0;

@@ -5,6 +5,8 @@
 #include "FirstPieceDec.h"
 #include "FirstSurfaceDec.h"
 #include "LargestPictureFS.h"
+#include "RayGridDec.h"
+#include "RayLimits.h"
 #include "Stopwatch.h"
 #include "VolumeScene.h"
 
@@ -111,7 +113,19 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
     }
     this->Window = window;
   }
-  this->Integral.Update(window, MakeSegmentSource(*scene.Volume));
+  SegmentSource source = MakeSegmentSource(*scene.Volume);
+  // As the paper has it, graphics cards interpolate in all but floating point tables.
+  source.HardwareFiltering = source.Table && source.Table->Settings.Format != TexelFormat::Float;
+  source.Shaded = scene.Shaded;
+  source.ConstantColor = source.ConstantColor && !scene.Shaded;
+  this->Integral.Update(window, source);
+  if (scene.Shaded)
+  {
+    const WalkMesh& mesh = *scene.Volume->GetMesh();
+    this->Lighting.Update(
+      scene.Lights, scene.Surface, scene.Grid, mesh.GetCenter(), mesh.GetRadius());
+    this->Rays.emplace(scene.Grid, RayLimits(), mesh.GetCenter(), mesh.GetRadius());
+  }
   const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
   this->Colors.Prepare(window, MakeSettings(scene.Grid, 4, scene.Format));
   if (scene.Volume->GetOpticalModel() == OpticalModel::MaximumIntensity)
@@ -143,9 +157,9 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
       }
       else
       {
-        // Front to back: opacities add up, also those that 1 - opacity does not differ from 1 for.
-        state->vtkglBlendFuncSeparate(
-          GL_ONE_MINUS_DST_ALPHA, GL_ONE, GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+        const GLenum source = scene.FrontToBack ? GL_ONE_MINUS_DST_ALPHA : GL_ONE;
+        const GLenum destination = scene.FrontToBack ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA;
+        state->vtkglBlendFuncSeparate(source, destination, source, destination);
       }
       state->vtkglClearColor(0, 0, 0, 0);
       break;
@@ -162,7 +176,14 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
 
   vtkShaderProgram* program = this->Drawer.Use(this->Window, this->MakeShader(pass, scene));
   this->SetUniforms(program, scene);
-  this->Integral.Activate(program);
+  GpuSegmentIntegral& integral = pass == Pass::FirstDistances ? this->Pieces : this->Integral;
+  integral.Activate(program);
+  const bool shaded = scene.Shaded && pass == Pass::Colors;
+  if (shaded)
+  {
+    this->Lighting.Set(program);
+    this->Rays->Set(program);
+  }
   if (scene.OpaqueDepth)
   {
     scene.OpaqueDepth->Activate();
@@ -192,6 +213,16 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   CellData data;
   data.Keys = scene.Dither;
   data.Ids = scene.Volume->HasCellScalars();
+  if (shaded && scene.SmoothShading)
+  {
+    data.Gradients = CellData::Gradient::Points;
+    data.PointGradients = scene.Volume->GetPointGradients();
+  }
+  else if (shaded)
+  {
+    data.Gradients = CellData::Gradient::Cells;
+    data.Coordinates = scene.Volume->GetMesh()->GetMesh().Points;
+  }
 
   Result result;
   const std::size_t size = scene.Order.size();
@@ -217,7 +248,7 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   {
     scene.OpaqueDepth->Deactivate();
   }
-  this->Integral.Deactivate();
+  integral.Deactivate();
   return result;
 }
 
@@ -234,7 +265,7 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
   if (!scene.Planes.empty() || !scene.Cropping.empty() || scene.OpaqueDepth)
   {
     defines +=
-      "#define LIMITED\n#define NUMBER_OF_PLANES " + std::to_string(scene.Planes.size()) + "\n";
+      "#define LIMITED\n#define NUMBER_OF_LIMITS " + std::to_string(scene.Planes.size()) + "\n";
     defines += !scene.OpaqueDepth ? "" : "#define OPAQUE\n";
     defines += scene.Cropping.empty() ? "" : "#define CROPPED\n";
   }
@@ -242,7 +273,7 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
   const bool ofCells = scene.Volume->HasCellScalars();
   const bool largest = model == OpticalModel::MaximumIntensity;
   const std::string cell = "int(cellData.x) * " + std::to_string(CellIdBase) + " + int(cellData.y)";
-  shader.Segment = this->Integral.GetDeclarations();
+  shader.Segment = (pass == Pass::FirstDistances ? this->Pieces : this->Integral).GetDeclarations();
   switch (pass)
   {
     case Pass::Colors:
@@ -250,8 +281,21 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
         ? "#define GATHER before + added\n"
         : "#define GATHER before + (1.0 - before.a) * added\n";
       defines += "#define NOTHING 0.0\n";
-      shader.Output = ofCells ? "return IntegrateCell(" + cell + ", len);"
-                              : "return IntegrateSegment(front, back, len);";
+      if (scene.Shaded)
+      {
+        defines += "#define SHADED\n";
+        shader.Segment =
+          this->Rays->GetDefines() + RayGridDec + this->Lighting.GetDeclarations() + shader.Segment;
+        shader.Output = "Ray ray = GetRay(gl_FragCoord.xy);\n"
+                        "  vec3 point = ray.Point + (begin - ray.Distance) * ray.Direction;\n"
+                        "  return IntegrateShadedSegment(front, back, len, frontGradient, "
+                        "backGradient, point, point + len * ray.Direction, ray.Direction);";
+      }
+      else
+      {
+        shader.Output = ofCells ? "return IntegrateCell(" + cell + ", len);"
+                                : "return IntegrateSegment(front, back, len);";
+      }
       break;
     case Pass::LargestScalars:
       defines += "#define GATHER max(before, added)\n#define NOTHING -Beyond\n";
@@ -366,6 +410,10 @@ void ProjectionPicture::Read(const ProjectionScene& scene, Span<float> colors, S
 {
   this->Colors.Read(0, colors);
   const vtkOpenGLState::ScopedglActiveTexture unit(this->Window->GetState());
+  // A table does not tell where in a segment the function first contributes.
+  SegmentSource source = MakeSegmentSource(*scene.Volume);
+  source.Table = nullptr;
+  this->Pieces.Update(this->Window, source);
   this->Distances.Prepare(this->Window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));
   this->DrawCells(Pass::FirstDistances, this->Distances, scene, {});
   this->Distances.Read(0, depths);
@@ -380,7 +428,7 @@ std::size_t ProjectionPicture::GetNumberOfBytes() const
 {
   return this->Colors.GetNumberOfBytes() + this->Scalars.GetNumberOfBytes() +
     this->Distances.GetNumberOfBytes() + this->Drawer.GetNumberOfBytes() +
-    this->Integral.GetNumberOfBytes();
+    this->Integral.GetNumberOfBytes() + this->Pieces.GetNumberOfBytes();
 }
 
 void ProjectionPicture::ReleaseGraphicsResources(vtkWindow* window)
@@ -394,6 +442,7 @@ void ProjectionPicture::ReleaseGraphicsResources(vtkWindow* window)
   this->Distances.ReleaseGraphicsResources(window);
   this->Drawer.ReleaseGraphicsResources(window);
   this->Integral.ReleaseGraphicsResources(window);
+  this->Pieces.ReleaseGraphicsResources(window);
   this->Classifier.reset();
   this->Window = nullptr;
 }

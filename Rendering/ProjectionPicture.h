@@ -4,9 +4,11 @@
 
 #include "CellProjection.h"
 #include "FloatTarget.h"
+#include "GpuLighting.h"
 #include "GpuSegmentIntegral.h"
 #include "ProjectedCellDrawer.h"
 #include "RayGrid.h"
+#include "RayGridUniforms.h"
 #include "ScreenFrame.h"
 #include "Span.h"
 
@@ -15,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,14 +39,23 @@ struct ProjectionScene
   RayGrid Grid;
   std::unique_ptr<ScreenFrame> Frame; ///< of Grid
   Span<const ScreenPoint> Points;     ///< of the mesh
-  Span<const std::int32_t> Order;     ///< the cells that are drawn, front to back
-  bool Commutes = false;              ///< what cells add, so that their order does not matter
+  Span<const std::int32_t> Order;     ///< the cells that are drawn
+
+  /// Front to back, opacities add up: also those that are too small for 1 - opacity to differ from 1.
+  /// Back to front, rounding to few bits does less harm: what is in front is not rounded again.
+  bool FrontToBack = true;
+  bool Commutes = false; ///< what cells add, so that their order does not matter
 
   std::vector<ScreenPlane> Planes;   ///< rays are kept on their positive sides
   std::vector<ScreenPlane> Cropping; ///< xmin, xmax, ymin, ymax, zmin, zmax; empty: none
   std::uint32_t CroppingFlags = 0;
   vtkTextureObject* OpaqueDepth = nullptr; ///< of the window, 0..1; nullptr: none
   float OpaquePlaces[4][2];                ///< see ProjectedCellFS.glsl
+
+  bool Shaded = false;       ///< lit by Lights
+  bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
+  std::vector<Light> Lights;
+  Material Surface;
 
   bool Interpolate = true; ///< with perspective correction
   ChannelFormat Format = ChannelFormat::Float;
@@ -113,6 +125,9 @@ private:
   FloatTarget Distances;
   ProjectedCellDrawer Drawer;
   GpuSegmentIntegral Integral;
+  GpuSegmentIntegral Pieces; ///< in closed form, for the distances
+  GpuLighting Lighting;
+  std::optional<RayGridUniforms> Rays; ///< where there is light
   std::unique_ptr<vtkOpenGLQuadHelper> Classifier;
   ProjectedCells Cells;
   Result Last;

@@ -78,12 +78,12 @@ const char* GetMethodName(VisibilityMethod method)
 }
 
 /// Whether it does not matter in which order cells contribute.
-bool Commutes(VolumeScene& scene)
+bool Commutes(VolumeScene& scene, bool shaded)
 {
   switch (scene.GetOpticalModel())
   {
     case OpticalModel::EmissionAbsorption:
-      return scene.GetPlan().ConstantColor;
+      return scene.GetPlan().ConstantColor && !shaded;
     case OpticalModel::Isosurfaces:
       return false;
     default:
@@ -208,6 +208,12 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   scene.Format = this->Self->ColorBuffer == UNORM8_BUFFER ? ChannelFormat::UNorm8
     : this->Self->ColorBuffer == HALF_BUFFER              ? ChannelFormat::Half
                                                           : ChannelFormat::Float;
+  scene.FrontToBack = scene.Format == ChannelFormat::Float;
+
+  scene.Shaded = frame.Shaded;
+  scene.SmoothShading = this->Self->SmoothShading != 0;
+  scene.Lights = frame.Lights;
+  scene.Surface = frame.Surface;
 
   const tetralux::Stopwatch stopwatch;
   scene.Frame = std::make_unique<ScreenFrame>(scene.Grid, mesh.GetCenter(), mesh.GetRadius());
@@ -266,14 +272,17 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
 void vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
 {
   const tetralux::WalkMesh& mesh = *frame.Scene->GetMesh();
-  this->Scene.Commutes = Commutes(*frame.Scene);
+  this->Scene.Commutes = Commutes(*frame.Scene, frame.Shaded);
   this->Sorted = !this->Scene.Commutes;
   if (this->Sorted)
   {
     this->Method = this->ChooseMethod(frame);
     const tetralux::Stopwatch stopwatch;
     this->Order = this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
-      this->Method, tetralux::VisibilityDirection::FrontToBack, this->DrawnCells);
+      this->Method,
+      this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
+                              : tetralux::VisibilityDirection::BackToFront,
+      this->DrawnCells);
     frame.Seconds.emplace_back("order", stopwatch.GetSeconds());
     return;
   }
@@ -360,8 +369,8 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   }
   frame.Sections.emplace_back("projection", section);
 
-  // A ray goes through some two cells for each that lie side by side along the mesh.
-  const double layers = 2 * std::cbrt(cells);
+  // A ray goes through at most some four cells for each that lie side by side along the mesh.
+  const double layers = 4 * std::cbrt(cells);
   constexpr double SegmentError = 5e-7; // SegmentWeightError
   frame.Errors = { { "integrals", SegmentError },
     { "summation", layers * GetRounding(scene.Format) }, { "table", volume.GetTableError() },

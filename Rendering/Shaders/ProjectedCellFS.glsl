@@ -6,12 +6,13 @@
 // Defines:
 //   PERSPECTIVE       z is 1 / depth and what is interpolated is divided by it; else z is -depth
 //   LIMITED           rays do not go through all of the mesh:
-//   NUMBER_OF_PLANES    kept on the positive side of so many planes
+//   NUMBER_OF_LIMITS    kept on the positive side of so many planes
 //   OPAQUE              not behind opaque geometry
 //   CROPPED             in some of 27 regions only
 //   LINEAR            a perspective, but without PERSPECTIVE: what limits rays has 1 / depth all the same
 //   GATHER            what two parts of a ray in the same cell add, of vec4 before and added, where CROPPED
 //   NOTHING           what adds nothing to that
+//   SHADED            lit: gradients are interpolated, too
 //   FIRST             the distance of the first contribution instead of what is contributed
 
 //VTK::Output::Dec
@@ -25,6 +26,12 @@ flat in vec3 face2;
 flat in vec3 scalar;
 flat in vec3 place;  // reference, code
 flat in vec3 cellData;
+#ifdef SHADED
+flat in vec3 gradient0; // ProjectedGradient
+flat in vec3 gradient1;
+flat in vec3 gradient2;
+flat in vec3 gradient3;
+#endif
 
 uniform vec3 rayDirection; // of the pixel in the lower left, and its change from pixel to pixel
 uniform vec3 rayStepX;
@@ -57,8 +64,8 @@ float Exchange(float z)
 #endif
 
 uniform vec2 pictureMiddle; // in the coordinates of gl_FragCoord
-#if NUMBER_OF_PLANES > 0
-uniform vec4 limitPlanes[NUMBER_OF_PLANES]; // ScreenPlane
+#if NUMBER_OF_LIMITS > 0
+uniform vec4 limitPlanes[NUMBER_OF_LIMITS]; // ScreenPlane
 #endif
 #ifdef OPAQUE
 uniform sampler2D opaqueDepth; // of the window, 0..1
@@ -100,15 +107,15 @@ float FindCut(vec2 m, float z, float end)
 #endif
 
 // z where rays begin and end to count.
-vec2 LimitRay(vec2 m)
+vec2 FindLimits(vec2 m)
 {
 #if defined(PERSPECTIVE) || defined(LINEAR)
   vec2 limits = vec2(Beyond, 1.0 / Beyond);
 #else
   vec2 limits = vec2(Beyond, -Beyond);
 #endif
-#if NUMBER_OF_PLANES > 0
-  for (int p = 0; p < NUMBER_OF_PLANES; ++p)
+#if NUMBER_OF_LIMITS > 0
+  for (int p = 0; p < NUMBER_OF_LIMITS; ++p)
   {
     vec4 plane = limitPlanes[p];
     float side = dot(plane.xyz, vec3(m, 1.0));
@@ -141,6 +148,9 @@ struct View
   float Z;         // on the base
   float Scalar;    // on the base, times Z in a perspective
   float RayLength; // world length of a unit of depth
+#ifdef SHADED
+  vec3 Gradient; // as Scalar
+#endif
 };
 
 #ifdef FIRST
@@ -169,7 +179,17 @@ vec4 AddPart(View view, float near, float far)
   sFar = clamp(sFar, face0.w, face1.w);
   float front = view.Sign > 0.0 ? sNear : sFar;
   float back = view.Sign > 0.0 ? sFar : sNear;
-#ifdef FIRST
+#ifdef SHADED
+  vec3 gNear = view.Gradient + near * gradient3;
+  vec3 gFar = view.Gradient + far * gradient3;
+#ifdef PERSPECTIVE
+  gNear /= zNear;
+  gFar /= zFar;
+#endif
+  vec3 frontGradient = view.Sign > 0.0 ? gNear : gFar;
+  vec3 backGradient = view.Sign > 0.0 ? gFar : gNear;
+#endif
+#if defined(FIRST) || defined(SHADED)
   float z = view.Z + view.Sign * (view.Sign > 0.0 ? near : far);
 #ifdef PERSPECTIVE
   float begin = view.RayLength / z;
@@ -200,6 +220,9 @@ void main()
   view.Z = At(base.xyz, d);
   view.Scalar = At(scalar, d);
   view.RayLength = depthUnit * rayLength;
+#ifdef SHADED
+  view.Gradient = gradient0 + d.x * gradient1 + d.y * gradient2;
+#endif
 
   // Differences to the base: only they count for the thickness, however thin the cell is.
   float e0 = At(face0.xyz, d);
@@ -212,7 +235,7 @@ void main()
 
 #ifdef LIMITED
   vec2 m = gl_FragCoord.xy - pictureMiddle;
-  vec2 limits = LimitRay(m);
+  vec2 limits = FindLimits(m);
   vec2 ends = view.Sign * (limits - view.Z);
   near = min(near, view.Sign > 0.0 ? ends.x : ends.y);
   far = max(far, view.Sign > 0.0 ? ends.y : ends.x);

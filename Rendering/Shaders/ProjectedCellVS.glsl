@@ -3,6 +3,8 @@
 // A corner of a projected cell's silhouette. What is the same for the whole cell comes with its first
 // corner, the last one of each of its triangles: see ProjectedCell in CellProjection.h.
 
+//VTK::Projection::Dec
+
 in vec2 corner; // pixels, from the lower left of the picture
 in vec3 cellBase;
 in vec3 cellFace0;
@@ -12,6 +14,17 @@ in vec3 cellScalar;
 in vec3 cellScalars; // slope, smallest, largest
 in vec3 cellPlace;   // reference, code
 in vec3 cellOwn;     // CellData
+
+#ifdef SHADED
+in vec3 cellGradient0; // ProjectedGradient: on the base, its changes for a pixel, and behind the base
+in vec3 cellGradient1;
+in vec3 cellGradient2;
+in vec3 cellGradient3;
+flat out vec3 gradient0;
+flat out vec3 gradient1;
+flat out vec3 gradient2;
+flat out vec3 gradient3;
+#endif
 
 uniform vec2 pictureSize; // pixels
 
@@ -32,5 +45,11 @@ void main()
   scalar = cellScalar;
   place = cellPlace;
   cellData = cellOwn;
+#ifdef SHADED
+  gradient0 = cellGradient0;
+  gradient1 = cellGradient1;
+  gradient2 = cellGradient2;
+  gradient3 = cellGradient3;
+#endif
   gl_Position = vec4(2.0 * corner / pictureSize - 1.0, 0.0, 1.0);
 }

@@ -157,6 +157,62 @@ TEST(ProjectionMapper, CellDataOfAllModels)
   }
 }
 
+TEST(ProjectionMapper, Lit)
+{
+  ProjectionMapperScene scene;
+  scene.Volume->GetProperty()->ShadeOn();
+  scene.Volume->GetProperty()->GetIsoSurfaceValues()->SetValue(0, 0.3);
+  using Mapper = vtkTetrahedraProjectionMapper;
+  for (const int mode :
+    { static_cast<int>(Mapper::COMPOSITE_BLEND), static_cast<int>(Mapper::ISOSURFACE_BLEND) })
+  {
+    for (const bool smooth : { true, false })
+    {
+      scene.Projection->SetBlendMode(mode);
+      scene.Projection->SetSmoothShading(smooth);
+      scene.Mapper->SetSmoothShading(smooth);
+      const std::vector<float> lit = scene.Render();
+      EXPECT_LT(FindLargestDifference(lit, scene.RenderByRays()), 1e-3) << mode << smooth;
+      scene.Volume->GetProperty()->ShadeOff();
+      EXPECT_GT(FindLargestDifference(lit, scene.Render()), 0.05) << mode << smooth;
+      scene.Volume->GetProperty()->ShadeOn();
+    }
+  }
+}
+
+// The same table as on the processor; formats of few bits are interpolated by the graphics card.
+TEST(ProjectionMapper, Tables)
+{
+  ProjectionMapperScene scene;
+  const std::vector<float> best = scene.Render();
+  using Mapper = vtkTetrahedraProjectionMapper;
+  for (const int scale :
+    { static_cast<int>(Mapper::LINEAR_SCALE), static_cast<int>(Mapper::LOGARITHMIC_SCALE) })
+  {
+    for (const int format : { static_cast<int>(Mapper::UNORM8_FORMAT),
+           static_cast<int>(Mapper::UNORM16_FORMAT), static_cast<int>(Mapper::FLOAT_FORMAT) })
+    {
+      for (vtkTetrahedraVolumeMapper* mapper :
+        { static_cast<vtkTetrahedraVolumeMapper*>(scene.Projection),
+          static_cast<vtkTetrahedraVolumeMapper*>(scene.Mapper) })
+      {
+        mapper->SetIntegrationToTable();
+        mapper->SetTableScalarSize(64);
+        mapper->SetTableLengthSize(32);
+        mapper->SetTableScalarAxis(Mapper::UNIFORM_AXIS);
+        mapper->SetTableLengthScale(scale);
+        mapper->SetTableFormat(format);
+      }
+      const std::vector<float> colors = scene.Render();
+      EXPECT_TRUE(scene.Says("\"integration\": \"table\""));
+      EXPECT_GT(scene.GetDepths()[96 * 36 + 48], 0); // which tables do not tell
+      const double tolerance = format == Mapper::FLOAT_FORMAT ? Exact : 0.02;
+      EXPECT_LT(FindLargestDifference(colors, scene.RenderByRays()), tolerance) << scale << format;
+      EXPECT_LT(FindLargestDifference(colors, best), 0.1) << scale << format;
+    }
+  }
+}
+
 // Each correction of the paper matters, in the order of its artifact.
 TEST(ProjectionMapper, CorrectionsOff)
 {
