@@ -14,9 +14,10 @@ namespace tetralux
 namespace
 {
 
-/// How many arrows are looked at to find ignored ones that close no cycle, for each arrow of a cycle:
-/// all that it takes in cycles of some hundred cells, and no more than a limit in the largest.
-constexpr std::int64_t StepsOfArrow = 256;
+/// How many arrows of a cycle are followed, in all, to find ignored ones that close no cycle: a tenth of
+/// a second, and all that there are in cycles of some thousand cells. More is only in meshes whose cells
+/// overlap everywhere.
+constexpr std::int64_t LargestNumberOfSteps = 1 << 22;
 
 /// How large a triangle looks: its solid angle, or its area across the direction of the view.
 double MeasureTriangle(const std::array<const double*, 3>& corners, const VisibilityView& view)
@@ -206,7 +207,7 @@ private:
     }
     std::stable_sort(ignored.begin(), ignored.end(),
       [this](std::int32_t a, std::int32_t b) { return this->All[a].Size > this->All[b].Size; });
-    std::int64_t budget = StepsOfArrow * static_cast<std::int64_t>(this->All.size());
+    std::int64_t budget = LargestNumberOfSteps;
     std::vector<std::int32_t> reached(this->Cells.size(), -1);
     std::vector<std::int32_t> path;
     for (const std::int32_t arrow : ignored)
