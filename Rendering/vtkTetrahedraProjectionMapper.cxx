@@ -142,7 +142,7 @@ private:
   std::vector<std::int32_t> Order;
   std::unique_ptr<tetralux::VisibilityOrder> Sorter;
   std::uint64_t SorterVersion = 0; ///< of the mesh that Sorter is of
-  bool SorterIsConvex = false;     ///< it was tried to make that mesh convex
+  bool SorterIsConvex = false;     ///< its imaginary cells take part, where it has some
   bool Sorted = false;             ///< in the last frame
   VisibilityMethod Method = VisibilityMethod::Meshed;
   std::string OrderWarning; ///< the last one
@@ -302,7 +302,7 @@ VisibilityMethod vtkTetrahedraProjectionMapper::Internals::ChooseMethod(MapperFr
   tetralux::WalkMesh& mesh = *frame.Scene->GetMesh();
   const std::uint64_t version = frame.Scene->GetMeshVersion();
   const bool exact = this->Self->Order == AUTOMATIC_ORDER || this->Self->Order == EXACT_ORDER;
-  if (!this->Sorter || this->SorterVersion != version || (exact && !this->SorterIsConvex))
+  if (!this->Sorter || this->SorterVersion != version || exact != this->SorterIsConvex)
   {
     const tetralux::Stopwatch stopwatch;
     this->Sorter.reset();
@@ -310,7 +310,7 @@ VisibilityMethod vtkTetrahedraProjectionMapper::Internals::ChooseMethod(MapperFr
     {
       mesh.MakeConvex();
     }
-    this->Sorter = std::make_unique<tetralux::VisibilityOrder>(mesh);
+    this->Sorter = std::make_unique<tetralux::VisibilityOrder>(mesh, exact);
     this->SorterVersion = version;
     this->SorterIsConvex = exact;
     frame.Seconds.emplace_back("convexification", stopwatch.GetSeconds());
