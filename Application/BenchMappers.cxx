@@ -2,7 +2,6 @@
 #include "BenchMappers.h"
 
 #include "BenchSettings.h"
-#include "MapperProperties.h"
 #include "Methods.h"
 #include "vtkTetrahedraRayIntegrator.h"
 #include "vtkTetrahedraVolumeMapper.h"
@@ -18,12 +17,9 @@ namespace
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeOurMapper(
   const BenchSetting& setting, int numberOfThreads)
 {
-  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeMapper(setting.Method, numberOfThreads);
-  for (const std::string& assignment : setting.Assignments)
-  {
-    SetProperty(mapper, assignment);
-  }
-  return mapper;
+  // Threads are set where there are any to set.
+  const int threads = setting.Method == "ray-cast" ? numberOfThreads : 0;
+  return MakeMapper(setting.Method, threads, setting.Assignments);
 }
 
 vtkSmartPointer<vtkUnstructuredGridVolumeRayCastMapper> MakeBunykMapper()

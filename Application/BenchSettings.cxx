@@ -123,6 +123,60 @@ void AddReentry(std::vector<BenchSetting>& settings)
     { "Reentry=2" } });
 }
 
+void AddGpuRayCast(std::vector<BenchSetting>& settings)
+{
+  const std::string group = "ray casting by OpenGL (Weiler 2003)";
+  const std::string method = "gpu-ray-cast";
+  settings.push_back({ method, group, "nothing set", method, {} });
+  settings.push_back(
+    { "gpu-no-termination", group, "early ray termination switched off", method, { ToTheEnd } });
+  settings.push_back({ "gpu-imaginary", group, "through imaginary cells of a convexified mesh",
+    method, { "Reentry=2" } });
+  settings.push_back({ "gpu-weiler", group,
+    "table 128 x 128 x 256, linear lengths, 8 bit, uniform in the scalar, as in the paper", method,
+    MakeTable(128, 256, { LinearLengths, Format8Bit, UniformScalars }) });
+  settings.push_back({ "gpu-table-128x16", group,
+    "table of 128 scalars on nodes, 16 logarithmic lengths, single precision", method,
+    MakeTable(128, 16, { LogarithmicLengths, FormatFloat, ScalarsAtNodes }) });
+}
+
+/// With everything that the paper corrects switched off alone, and all of it at once.
+void AddProjection(std::vector<BenchSetting>& settings)
+{
+  const std::string group = "projected tetrahedra (Kraus 2004)";
+  const std::string method = "projection";
+  const Assignments kraus = MakeTable(256, 16, { LogarithmicLengths, Format16Bit, UniformScalars });
+  const auto with = [](Assignments assignments, const Assignments& others)
+  {
+    assignments.insert(assignments.end(), others.begin(), others.end());
+    return assignments;
+  };
+  settings.push_back({ method, group, "nothing set: all corrections, 32-bit buffer", method, {} });
+  settings.push_back({ "projection-kraus", group,
+    "as in the paper: table 256 x 256 x 16, logarithmic, 16 bit; 8-bit buffer with dithering",
+    method, with(kraus, { "ColorBuffer=2" }) });
+  settings.push_back({ "projection-no-perspective", group, "perspective interpolation switched off",
+    method, { "PerspectiveInterpolation=0" } });
+  settings.push_back({ "projection-linear-table", group, "table with linear lengths, 16 bit",
+    method, MakeTable(256, 16, { LinearLengths, Format16Bit, UniformScalars }) });
+  settings.push_back({ "projection-8-bit-table", group, "table with 8 bit", method,
+    MakeTable(256, 16, { LogarithmicLengths, Format8Bit, UniformScalars }) });
+  settings.push_back(
+    { "projection-half-buffer", group, "16-bit float buffer", method, { "ColorBuffer=1" } });
+  settings.push_back({ "projection-8-bit-buffer", group, "8-bit buffer, no dithering", method,
+    { "ColorBuffer=2", "AlphaDithering=0" } });
+  settings.push_back(
+    { "projection-dithered", group, "8-bit buffer, dithering", method, { "ColorBuffer=2" } });
+  settings.push_back(
+    { "projection-mpvonc", group, "order across gaps guessed (MPVONC)", method, { "Order=2" } });
+  settings.push_back(
+    { "projection-centroids", group, "order by distance of centroids", method, { "Order=3" } });
+  settings.push_back({ "projection-plain", group,
+    "all corrections off: linear interpolation, 8-bit table and buffer, order by centroids", method,
+    with(MakeTable(256, 16, { LinearLengths, Format8Bit, UniformScalars }),
+      { "PerspectiveInterpolation=0", "ColorBuffer=2", "AlphaDithering=0", "Order=3" }) });
+}
+
 void AddPeers(std::vector<BenchSetting>& settings)
 {
   const std::string group = "mappers of VTK";
@@ -136,22 +190,30 @@ void AddPeers(std::vector<BenchSetting>& settings)
     "the same with vtkTetrahedraRayIntegrator, the closed form", "vtk-bunyk-closed-form", {} });
 }
 
-/// "Property=Value Property=Value" as a setting of that name.
+/// "Property=Value Property=Value", with a method before them or alone, as a setting of that name.
 BenchSetting ReadSetting(const std::string& text)
 {
   BenchSetting setting;
   setting.Name = text;
   setting.Group = "as asked for";
   std::istringstream words(text);
-  for (std::string word; words >> word;)
+  bool first = true;
+  for (std::string word; words >> word; first = false)
   {
-    setting.Assignments.push_back(word);
+    if (first && word.find('=') == std::string::npos)
+    {
+      setting.Method = word;
+    }
+    else
+    {
+      setting.Assignments.push_back(word);
+    }
   }
-  if (setting.Assignments.empty())
+  if (first)
   {
     throw UsageError("--setting: '" + text +
-      "' is not Property=Value, or several with blanks "
-      "between");
+      "' is not Property=Value, or several with blanks between, with or without a method before "
+      "them");
   }
   CheckSetting(setting);
   // A name of files, too.
@@ -182,6 +244,8 @@ std::vector<BenchSetting> ListSettings(const BenchOptions& options)
     AddSampleDistances(settings);
     AddTables(settings);
     AddReentry(settings);
+    AddGpuRayCast(settings);
+    AddProjection(settings);
   }
   for (const std::string& text : options.Settings)
   {

@@ -3,6 +3,8 @@
 
 #include "CommandErrors.h"
 #include "OptionValues.h"
+#include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include <algorithm>
@@ -129,10 +131,34 @@ Properties WithCommonProperties(Properties properties)
   return properties;
 }
 
+Properties MakeGpuRayCastProperties()
+{
+  using Mapper = vtkTetrahedraGPURayCastMapper;
+  return {
+    MakeSwitch("CountFragments", &Mapper::SetCountFragments),
+    MakeInteger("Reentry", &Mapper::SetReentry, Mapper::AUTOMATIC_REENTRY, Mapper::NO_REENTRY),
+    MakeInteger("StepsPerPass", &Mapper::SetStepsPerPass, 1, 65535),
+  };
+}
+
+Properties MakeProjectionProperties()
+{
+  using Mapper = vtkTetrahedraProjectionMapper;
+  return {
+    MakeSwitch("AlphaDithering", &Mapper::SetAlphaDithering),
+    MakeInteger(
+      "ColorBuffer", &Mapper::SetColorBuffer, Mapper::FLOAT_BUFFER, Mapper::UNORM8_BUFFER),
+    MakeInteger("Order", &Mapper::SetOrder, Mapper::AUTOMATIC_ORDER, Mapper::CENTROID_ORDER),
+    MakeSwitch("PerspectiveInterpolation", &Mapper::SetPerspectiveInterpolation),
+  };
+}
+
 /// All properties of each mapper, by name.
 const std::map<std::string, Properties>& GetPropertiesOfMappers()
 {
   static const std::map<std::string, Properties> ofMappers = {
+    { "vtkTetrahedraGPURayCastMapper", WithCommonProperties(MakeGpuRayCastProperties()) },
+    { "vtkTetrahedraProjectionMapper", WithCommonProperties(MakeProjectionProperties()) },
     { "vtkTetrahedraRayCastMapper", WithCommonProperties(MakeRayCastProperties()) },
   };
   return ofMappers;

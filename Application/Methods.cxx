@@ -4,7 +4,12 @@
 #include "CommandErrors.h"
 #include "MapperProperties.h"
 #include "OptionValues.h"
+#include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
+
+#include "vtkNew.h"
+#include "vtkRenderWindow.h"
 
 #include <functional>
 
@@ -27,6 +32,8 @@ const std::vector<Method>& GetMethods()
 {
   static const std::vector<Method> methods = {
     MakeMethod<vtkTetrahedraRayCastMapper>("ray-cast"),
+    MakeMethod<vtkTetrahedraGPURayCastMapper>("gpu-ray-cast"),
+    MakeMethod<vtkTetrahedraProjectionMapper>("projection"),
   };
   return methods;
 }
@@ -44,12 +51,11 @@ std::vector<std::string> GetMethodNames()
 }
 
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
-  const std::string& method, int numberOfThreads)
+  const std::string& method, int numberOfThreads, const std::vector<std::string>& settings)
 {
-  const std::string chosen = method == "auto" ? "ray-cast" : method;
   for (const Method& candidate : GetMethods())
   {
-    if (candidate.Name != chosen)
+    if (candidate.Name != method)
     {
       continue;
     }
@@ -64,10 +70,38 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
     }
     else if (numberOfThreads > 0)
     {
-      throw UsageError("--threads: the method '" + chosen + "' has none to set");
+      throw UsageError("--threads: the method '" + method + "' has none to set");
+    }
+    for (const std::string& setting : settings)
+    {
+      SetProperty(mapper, setting);
     }
     return mapper;
   }
   throw UsageError("--method: this version has no method '" + method + "'; there are " +
     JoinNames(GetMethodNames()));
+}
+
+MethodChoice ChooseMethod(const std::string& method, vtkRenderWindow* window, int numberOfThreads,
+  const std::vector<std::string>& settings)
+{
+  if (method != "auto")
+  {
+    return { method, "" };
+  }
+  if (numberOfThreads > 0)
+  {
+    return { "ray-cast", "a number of threads is set" };
+  }
+  vtkNew<vtkTetrahedraGPURayCastMapper> mapper;
+  for (const std::string& setting : settings)
+  {
+    const std::string name = ParseAssignment("--set", setting).first;
+    if (!HasProperty(mapper, name))
+    {
+      return { "ray-cast", "gpu-ray-cast has no property " + name };
+    }
+  }
+  const bool supported = mapper->IsSupported(window);
+  return { supported ? "gpu-ray-cast" : "ray-cast", mapper->GetSupportReason() };
 }

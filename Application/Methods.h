@@ -7,15 +7,28 @@
 #include <string>
 #include <vector>
 
+class vtkRenderWindow;
 class vtkTetrahedraVolumeMapper;
 
 /// Names that --method takes, "auto" first.
 std::vector<std::string> GetMethodNames();
 
-/// The mapper of a method, for still pictures: one ray a pixel unless something else is set; for
-/// "auto" that of the best method there is. numberOfThreads: 0 for as many as there are. Throws
-/// UsageError where there is no such method, or where it has no threads to be set.
+/// The mapper of a method other than "auto", for still pictures: one ray a pixel unless something else
+/// is set. numberOfThreads: 0 for as many as there are. settings: as SetProperty takes them. Throws
+/// UsageError where there is no such method, where it has no threads to be set, and what SetProperty
+/// throws.
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
-  const std::string& method, int numberOfThreads);
+  const std::string& method, int numberOfThreads, const std::vector<std::string>& settings = {});
+
+struct MethodChoice
+{
+  std::string Method; ///< other than "auto"
+  std::string Reason; ///< one line; empty where it was asked for
+};
+
+/// The best method for what a window draws with, for "auto": gpu-ray-cast on a graphics card, else
+/// ray-cast, and ray-cast where a property is set that only it has.
+MethodChoice ChooseMethod(const std::string& method, vtkRenderWindow* window, int numberOfThreads,
+  const std::vector<std::string>& settings);
 
 #endif

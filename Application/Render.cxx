@@ -56,28 +56,42 @@ void CheckOptions(const RenderOptions& options)
   CheckCamera(options);
 }
 
-vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(const RenderOptions& options)
+vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
+  const std::string& method, const RenderOptions& options)
 {
   vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper =
-    MakeMapper(options.Method, options.NumberOfThreads);
+    MakeMapper(method, options.NumberOfThreads, options.Settings);
   if (options.MaximumError)
   {
     mapper->SetMaximumError(*options.MaximumError);
   }
-  if (!options.Isovalues.empty())
+  const bool isosurfaces = mapper->GetBlendMode() == vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND;
+  if (isosurfaces && options.Isovalues.empty())
   {
+    throw UsageError("BlendMode=isosurface needs --isovalues A,B,...");
+  }
+  if (!isosurfaces && !options.Isovalues.empty())
+  {
+    if (mapper->GetBlendMode() != vtkTetrahedraVolumeMapper::COMPOSITE_BLEND)
+    {
+      throw UsageError("--isovalues A,B,... and BlendMode=isosurface belong together");
+    }
     mapper->SetBlendModeToIsoSurface();
   }
-  for (const std::string& setting : options.Settings)
-  {
-    SetProperty(mapper, setting);
-  }
-  if ((mapper->GetBlendMode() == vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND) !=
-    !options.Isovalues.empty())
-  {
-    throw UsageError("--isovalues A,B,... and BlendMode=isosurface belong together");
-  }
   return mapper;
+}
+
+MethodChoice ChooseMethodFor(const RenderOptions& options, vtkRenderWindow* window)
+{
+  // The window may fail to make its context.
+  const MessageCapture messages;
+  const MethodChoice choice =
+    ChooseMethod(options.Method, window, options.NumberOfThreads, options.Settings);
+  if (!messages.GetError().empty())
+  {
+    throw WorkError(messages.GetError());
+  }
+  return choice;
 }
 
 void SelectScalars(const ArrayChoice& choice, vtkTetrahedraVolumeMapper* mapper)
@@ -188,12 +202,67 @@ void WritePicture(const RenderOptions& options, vtkRenderWindow* window, vtkImag
     output.GetTemporaryName(), output.GetName());
 }
 
+vtkSmartPointer<vtkVolumeProperty> MakeProperty(
+  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6])
+{
+  auto property = vtkSmartPointer<vtkVolumeProperty>::New();
+  property->SetColor(functions.Color);
+  property->SetScalarOpacity(functions.Opacity);
+  property->SetScalarOpacityUnitDistance(options.OpacityUnitDistance.value_or(
+    DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
+  for (std::size_t i = 0; i < options.Isovalues.size(); ++i)
+  {
+    property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
+  }
+  // Flat surfaces have no shape.
+  property->SetShade(options.Shade || !options.Isovalues.empty());
+  return property;
+}
+
+/// Renders the volume of an input once. Returns VTK's first error, empty where there was none; warnings
+/// are printed then.
+std::string Draw(
+  const std::string& input, vtkTetrahedraVolumeMapper* mapper, vtkRenderWindow* window)
+{
+  const MessageCapture messages;
+  ProgressLine progress("rendering");
+  progress.Observe(mapper, vtkCommand::ProgressEvent);
+  progress.Observe(mapper, vtkCommand::VolumeMapperRenderProgressEvent);
+  window->Render();
+  if (messages.GetError().empty())
+  {
+    CheckRendered(input, nlohmann::ordered_json::parse(mapper->GetStatistics()));
+    messages.PrintWarnings();
+  }
+  return messages.GetError();
+}
+
+/// The statistics, with why this method was chosen where none was asked for.
+nlohmann::ordered_json ReadStatistics(vtkTetrahedraVolumeMapper* mapper, const MethodChoice& method)
+{
+  const auto ofMapper = nlohmann::ordered_json::parse(mapper->GetStatistics());
+  nlohmann::ordered_json statistics;
+  for (const auto& [name, member] : ofMapper.items())
+  {
+    statistics[name] = member;
+    if (name == "method" && !method.Reason.empty())
+    {
+      statistics["method_reason"] = method.Reason;
+    }
+  }
+  return statistics;
+}
+
 } // namespace
 
 void RenderPicture(const RenderOptions& options)
 {
   CheckOptions(options);
-  const vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeConfiguredMapper(options);
+  vtkNew<vtkHeadlessRenderWindow> window;
+  window->SetSize(options.Width, options.Height);
+  window->SetMultiSamples(0);
+  MethodChoice method = ChooseMethodFor(options, window);
+  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeConfiguredMapper(method.Method, options);
 
   AtomicFile output(options.Output);
   std::unique_ptr<AtomicFile> statisticsOutput;
@@ -222,25 +291,9 @@ void RenderPicture(const RenderOptions& options)
     throw WorkError("'" + options.Input + "': it has no points");
   }
 
-  vtkNew<vtkVolumeProperty> property;
-  property->SetColor(functions.Color);
-  property->SetScalarOpacity(functions.Opacity);
-  property->SetScalarOpacityUnitDistance(options.OpacityUnitDistance.value_or(
-    DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
-  for (std::size_t i = 0; i < options.Isovalues.size(); ++i)
-  {
-    property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
-  }
-  if (!options.Isovalues.empty())
-  {
-    property->ShadeOn(); // flat surfaces have no shape
-  }
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);
-  volume->SetProperty(property);
-  vtkNew<vtkHeadlessRenderWindow> window;
-  window->SetSize(options.Width, options.Height);
-  window->SetMultiSamples(0);
+  volume->SetProperty(MakeProperty(options, functions, bounds));
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(options.Background.data());
   renderer->AddVolume(volume);
@@ -248,21 +301,22 @@ void RenderPicture(const RenderOptions& options)
   window->AddRenderer(renderer);
   PlaceCamera(options, bounds, renderer);
 
-  nlohmann::ordered_json statistics;
+  std::string error = Draw(options.Input, mapper, window);
+  if (!error.empty() && options.Method == "auto" && method.Method != "ray-cast")
   {
-    const MessageCapture messages;
-    ProgressLine progress("rendering");
-    progress.Observe(mapper, vtkCommand::ProgressEvent);
-    progress.Observe(mapper, vtkCommand::VolumeMapperRenderProgressEvent);
-    window->Render();
-    if (!messages.GetError().empty())
-    {
-      throw WorkError("'" + options.Input + "': " + messages.GetError());
-    }
-    statistics = nlohmann::ordered_json::parse(mapper->GetStatistics());
-    CheckRendered(options.Input, statistics);
-    messages.PrintWarnings();
+    // No room for the mesh, say: a processor has it.
+    method = { "ray-cast", method.Method + " failed: " + error };
+    mapper = MakeConfiguredMapper(method.Method, options);
+    SelectScalars(choice, mapper);
+    mapper->SetInputData(data.GetPointer());
+    volume->SetMapper(mapper);
+    error = Draw(options.Input, mapper, window);
   }
+  if (!error.empty())
+  {
+    throw WorkError("'" + options.Input + "': " + error);
+  }
+  const nlohmann::ordered_json statistics = ReadStatistics(mapper, method);
   vtkImageData* image = mapper->GetOutputImage();
   if (IsEmpty(image))
   {

@@ -20,6 +20,7 @@ struct RenderOptions
   std::string TransferFile;
   std::optional<double> OpacityUnitDistance;
   std::vector<double> Isovalues; ///< empty: a volume, not surfaces
+  bool Shade = false;            ///< lights the volume; surfaces are lit in any case
 
   std::optional<Vector> CameraPosition;
   std::optional<Vector> CameraFocalPoint;

@@ -179,6 +179,7 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
     { options.Isovalues = ParseNumbers(option, text); })
     ->type_name("A,B,...");
 
+  command->add_flag("--shade", options.Shade, "Let a light at the camera shine on the volume");
   AddOption(command, "--background", "Colour behind a .png, each from 0 to 1; default: 0,0,0",
     [&options](const std::string& option, const std::string& text)
     {
@@ -326,9 +327,11 @@ void AddBenchCommand(CLI::App& app, BenchOptions& options, StabilityOptions& sta
   command
     ->add_option("--setting", options.Settings,
       "Measure this in place of the settings there are, and once more for each further one: "
-      "properties as render --set takes them, with blanks between")
+      "properties as render --set takes them, with blanks between, of ray-cast or of a method "
+      "named "
+      "before them")
     ->allow_extra_args(false)
-    ->type_name("'Property=Value ...'");
+    ->type_name("'[METHOD] Property=Value ...'");
   AddOption(command, "--frames", "Frames timed of each picture, at most; default: 10",
     [&options](const std::string& option, const std::string& text)
     { options.Frames = ParseInteger(option, text, 1, 10000); })

@@ -36,8 +36,14 @@ class WrongUsage(ToolTest):
         self.render_fails("more.vtu", says="more.vtu")
 
     def test_methods(self):
-        for method in ("bunyk", "isosurface", "gpu-ray-cast", ""):
-            self.render_fails("--method", method, says=["--method", "auto and ray-cast"])
+        for method in ("bunyk", "isosurface", "gpu", ""):
+            self.render_fails("--method", method, says=["--method", "auto, ray-cast, gpu-ray-cast and projection"])
+
+    def test_properties_of_other_methods(self):
+        self.render_fails(
+            "--method", "projection", "--set", "Precision=2", says=["'Precision'", "ColorBuffer"]
+        )
+        self.render_fails("--method", "gpu-ray-cast", "--threads", 2, says=["--threads", "gpu-ray-cast"])
 
     def test_numbers(self):
         for option, text, right in [

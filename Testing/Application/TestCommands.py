@@ -52,7 +52,7 @@ class Commands(ToolTest):
         for option in (
             "--array --component --method --transfer --opacity-unit-distance --camera-position "
             "--camera-focal-point --camera-view-up --camera-view-angle --camera-parallel-scale "
-            "--size --background --max-error --set --threads --stats --output --plot3d-q"
+            "--size --background --shade --max-error --set --threads --stats --output --plot3d-q"
         ).split():
             self.assertIn(option, text)
         self.assertIn("--plot3d-q", self.succeed("info", "--help"))
@@ -103,6 +103,44 @@ class Commands(ToolTest):
         self.assertIn("microseconds a tetrahedron", rows["time to prepare"])
         self.assertRegex(rows["memory of the tables"], r"MB$")
         self.assertGreater(int(rows["boundary faces"]), 0)
+
+    def test_all_methods_make_the_same_picture(self):
+        # A wall, so that rays leave and enter again.
+        self.succeed("generate", "ring", "--around", 24, "--across", 3, "--output", "m.vtu")
+        for further in ([], ["--shade"], ["--isovalues", "0.3,0.6"], ["--set", "BlendMode=additive"]):
+            with self.subTest(further=further):
+                pictures = {}
+                for method in ("auto", "ray-cast", "gpu-ray-cast", "projection"):
+                    self.succeed(
+                        "render", "m.vtu", "--size", "80,60", "--method", method, *further,
+                        "--stats", "s.json", "--output", "m.vti",
+                    )
+                    pictures[method], _ = self.read_vti("m.vti")
+                    with open(self.path("s.json"), encoding="utf-8") as file:
+                        statistics = json.load(file)
+                    if method == "auto":
+                        # With OpenGL in software, as in most tests, or on a graphics card.
+                        self.assertIn(statistics["method"], ("ray-cast", "gpu-ray-cast"))
+                        self.assertGreater(len(statistics["method_reason"]), 10)
+                    else:
+                        self.assertEqual(statistics["method"], method)
+                        self.assertNotIn("method_reason", statistics)
+                self.assertGreater(pictures["ray-cast"].max(), 0.3)
+                for method in ("auto", "gpu-ray-cast", "projection"):
+                    error = abs(pictures[method] - pictures["ray-cast"]).max(axis=2)
+                    # Silhouette pixels may differ by what the ray grazes.
+                    self.assertLess(numpy.quantile(error, 0.99), 1e-4, method)
+                    self.assertLess(error.max(), 1 / 255, method)
+
+    def test_auto_takes_the_method_that_has_the_property(self):
+        self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
+        self.succeed(
+            "render", "ball.vtu", "--set", "Precision=2", "--stats", "s.json", "--output", "b.png"
+        )
+        with open(self.path("s.json"), encoding="utf-8") as file:
+            statistics = json.load(file)
+        self.assertEqual(statistics["method"], "ray-cast")
+        self.assertIn("Precision", statistics["method_reason"])
 
     def test_the_two_outputs_are_one_picture(self):
         self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")
