@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuRayCaster.h"
 
+#include "BoundaryEntryDec.h"
 #include "FirstPieceDec.h"
 #include "FirstSurfaceDec.h"
 #include "GpuLighting.h"
 #include "GpuRayLimits.h"
 #include "GpuSegmentIntegral.h"
+#include "PixelProjection.h"
 #include "RayDoneFS.h"
 #include "RayEntryFS.h"
 #include "RayFrameDec.h"
+#include "RayLayerFS.h"
+#include "RayLayerVS.h"
 #include "RayPictureFS.h"
 #include "RayStatesDec.h"
 #include "RayWalkFS.h"
@@ -20,6 +24,7 @@
 #include "vtkTextureObject.h"
 #include "vtk_glew.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -49,6 +54,7 @@ std::string MakeSource(const char* file, const std::vector<std::string>& defines
   vtkShaderProgram::Substitute(source, "//VTK::RayStates::Dec", RayStatesDec);
   vtkShaderProgram::Substitute(source, "//VTK::GetRay::Dec", rays);
   vtkShaderProgram::Substitute(source, "//VTK::RayFrame::Dec", RayFrameDec);
+  vtkShaderProgram::Substitute(source, "//VTK::BoundaryEntry::Dec", BoundaryEntryDec);
   vtkShaderProgram::Substitute(source, "//VTK::Lighting::Dec", lighting);
   vtkShaderProgram::Substitute(source, "//VTK::RayIntegral::Dec", integral);
   return source;
@@ -193,7 +199,14 @@ public:
       const int from = pass % 2;
       if (pass == 0 || this->EntersAgain())
       {
-        this->FindEntries(from);
+        if (this->Options.Layers)
+        {
+          this->DrawLayer(from);
+        }
+        else
+        {
+          this->FindEntries(from);
+        }
       }
       this->CoverDone(from);
       counts.Begin();
@@ -243,6 +256,12 @@ private:
     return name == "isosurfaces" ? FirstSurfaceDec : FirstPieceDec;
   }
 
+  std::vector<std::string> GetEntryDefines() const
+  {
+    return this->MayEnterAgain() ? std::vector<std::string>{ "DIRECTED" }
+                                 : std::vector<std::string>();
+  }
+
   std::string GetLighting() const
   {
     return this->Options.Lighting ? this->Options.Lighting->GetDeclarations() : std::string();
@@ -279,13 +298,8 @@ private:
   void FindEntries(int from)
   {
     RayTargets& targets = this->Self.Targets;
-    std::vector<std::string> directed;
-    if (this->MayEnterAgain())
-    {
-      directed.emplace_back("DIRECTED");
-    }
-    vtkShaderProgram* program = this->Self.Entry.Use(
-      this->Window, "RayEntryFS", MakeSource(RayEntryFS, directed, this->Limits.GetDeclarations()));
+    vtkShaderProgram* program = this->Self.Entry.Use(this->Window, "RayEntryFS",
+      MakeSource(RayEntryFS, this->GetEntryDefines(), this->Limits.GetDeclarations()));
     this->Limits.Activate(program);
     this->Mesh.ActivateForEntry(program);
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
@@ -294,6 +308,37 @@ private:
     targets.DrawInto(RayTargets::OfNextEntries);
     this->TestDepth();
     this->Self.Entry.Draw();
+    this->Deactivate();
+  }
+
+  void DrawLayer(int from)
+  {
+    RayTargets& targets = this->Self.Targets;
+    this->State->vtkglDepthMask(GL_TRUE); // clearing, too, heeds it
+    targets.ClearLayer();
+    vtkShaderProgram* program = this->Self.Layer.Use(this->Window, "RayLayerFS",
+      MakeSource(RayLayerFS, this->GetEntryDefines(), this->Limits.GetDeclarations()),
+      MakeSource(RayLayerVS, {}));
+    this->Limits.Activate(program);
+    this->Mesh.ActivateForLayer(program);
+    float rows[3][4];
+    for (int row = 0; row < 3; ++row)
+    {
+      std::transform(this->Options.Layers->Rows[row], this->Options.Layers->Rows[row] + 4,
+        rows[row], [](double x) { return static_cast<float>(x); });
+    }
+    program->SetUniform4fv("pixelFromRay", 3, rows);
+    const FloatTarget::Settings& settings = this->Self.Picture.GetSettings();
+    const float size[2] = { static_cast<float>(settings.Width),
+      static_cast<float>(settings.Height) };
+    program->SetUniform2f("pictureSize", size);
+    const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
+    const ActiveTexture entries(
+      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
+    targets.DrawInto(RayTargets::OfLayer);
+    this->State->vtkglDepthFunc(GL_LESS);
+    constexpr int VerticesOfEntry = 6;
+    this->Self.Layer.Draw(VerticesOfEntry * this->Mesh.GetNumberOfEntries());
     this->Deactivate();
   }
 
@@ -422,7 +467,8 @@ void GpuRayCaster::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Targets.ReleaseGraphicsResources(window);
   this->Picture.ReleaseGraphicsResources(window);
-  for (ScreenProgram* program : { &this->Entry, &this->Walk, &this->Done, &this->Result })
+  for (ScreenProgram* program :
+    { &this->Entry, &this->Layer, &this->Walk, &this->Done, &this->Result })
   {
     program->ReleaseGraphicsResources(window);
   }

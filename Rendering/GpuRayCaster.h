@@ -24,12 +24,13 @@ class GpuLighting;
 class GpuRayLimits;
 class GpuSegmentIntegral;
 class WalkTextures;
+struct PixelProjection;
 
 /// How rays that left the mesh are to go on.
 enum class GpuReentry
 {
   None,     ///< they are done: the mesh is convex
-  Boundary, ///< by a hierarchy over the boundary
+  Boundary, ///< where they cross the boundary next
   Imaginary ///< they go on through imaginary cells, and are done where they leave those
 };
 
@@ -41,7 +42,10 @@ struct GpuRayCastOptions
   bool LargestScalar = false;            ///< look for the largest scalar, instead of compositing
   const GpuLighting* Lighting = nullptr; ///< nullptr: nothing is lit
   bool SmoothGradients = false;          ///< light by gradients of points, see WalkTextures
-  float MaximumOpacity = 1;              ///< a ray that is this opaque is done; more than 1: never
+  /// Entries are found by drawing the boundary, layer after layer, with this projection; nullptr: by the
+  /// hierarchy. It has to be regular.
+  const PixelProjection* Layers = nullptr;
+  float MaximumOpacity = 1; ///< a ray that is this opaque is done; more than 1: never
   int StepsPerPass = 1;
   bool CountFragments = false; ///< wait for the count of each pass, and count steps
   /// Called between passes, without a share that is done, which nobody knows; returns false to abort.
@@ -84,7 +88,7 @@ private:
 
   RayTargets Targets;
   FloatTarget Picture;
-  ScreenProgram Entry, Walk, Done, Result;
+  ScreenProgram Entry, Layer, Walk, Done, Result;
 };
 
 } // namespace tetralux

@@ -36,8 +36,8 @@ constexpr Format FormatOf[RayTargets::NumberOfTextures] = {
 };
 constexpr Format FormatOfNextEntries = { GL_R32I, GL_RED_INTEGER, GL_INT, VTK_INT, 1 };
 
-/// Bytes of a pixel: both sets, next entries and depth, four each.
-constexpr std::size_t PixelSize = 4 * (2 * 16 + 1 + 1);
+/// Bytes of a pixel: both sets, next entries and two depths, four each.
+constexpr std::size_t PixelSize = 4 * (2 * 16 + 1 + 2);
 
 void AllocateTexture(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, const Format& format,
   int width, int height)
@@ -54,6 +54,18 @@ void AllocateTexture(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, c
   {
     throw std::runtime_error("no texture of " + std::to_string(width) + " x " +
       std::to_string(height) + " pixels could be made for the states of rays");
+  }
+  texture->Deactivate();
+}
+
+void AllocateDepth(
+  vtkOpenGLRenderWindow* window, vtkTextureObject* texture, int width, int height, int format)
+{
+  texture->SetContext(window);
+  if (!texture->AllocateDepth(
+        static_cast<unsigned int>(width), static_cast<unsigned int>(height), format))
+  {
+    throw std::runtime_error("no depth buffer could be made for the states of rays");
   }
   texture->Deactivate();
 }
@@ -97,13 +109,9 @@ void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int height)
     }
   }
   AllocateTexture(window, this->NextEntries, FormatOfNextEntries, width, height);
-  this->Depth->SetContext(window);
-  if (!this->Depth->AllocateDepth(static_cast<unsigned int>(width),
-        static_cast<unsigned int>(height), vtkTextureObject::Fixed24))
-  {
-    throw std::runtime_error("no depth buffer could be made for rays that are done");
-  }
-  this->Depth->Deactivate();
+  AllocateDepth(window, this->Depth, width, height, vtkTextureObject::Fixed24);
+  // Distances in it are compared with each other in single precision.
+  AllocateDepth(window, this->LayerDepth, width, height, vtkTextureObject::Float32);
 
   bool complete = true;
   constexpr GLenum Attachments[NumberOfTextures] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
@@ -117,24 +125,20 @@ void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int height)
   for (int k = 0; k < NumberOfFramebuffers; ++k)
   {
     state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Framebuffers[k]);
-    attach(GL_DEPTH_ATTACHMENT, this->Depth);
-    if (k == OfDepth)
+    attach(GL_DEPTH_ATTACHMENT, k == OfLayer ? this->LayerDepth : this->Depth);
+    int colors = 0;
+    if (k == OfNextEntries || k == OfLayer)
     {
-      glDrawBuffers(0, nullptr);
+      attach(Attachments[colors++], this->NextEntries);
     }
-    else if (k == OfNextEntries)
+    else if (k != OfDepth)
     {
-      attach(Attachments[0], this->NextEntries);
-      glDrawBuffers(1, Attachments);
-    }
-    else
-    {
-      for (int texture = 0; texture < NumberOfTextures; ++texture)
+      for (const auto& texture : this->Textures[k])
       {
-        attach(Attachments[texture], this->Textures[k][texture]);
+        attach(Attachments[colors++], texture);
       }
-      glDrawBuffers(NumberOfTextures, Attachments);
     }
+    glDrawBuffers(colors, Attachments);
     complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   }
   state->PopFramebufferBindings();
@@ -163,6 +167,15 @@ void RayTargets::DrawInto(int framebuffer)
 {
   this->Window->GetState()->vtkglBindFramebuffer(
     GL_DRAW_FRAMEBUFFER, this->Framebuffers[framebuffer]);
+}
+
+void RayTargets::ClearLayer()
+{
+  const GLint none[4] = { -1, 0, 0, 0 };
+  const GLfloat farthest = 1;
+  this->DrawInto(OfLayer);
+  glClearBufferiv(GL_COLOR, 0, none);
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
 void RayTargets::Clear(float firstColor)
@@ -208,6 +221,7 @@ void RayTargets::ReleaseGraphicsResources(vtkWindow* window)
   }
   this->NextEntries->ReleaseGraphicsResources(window);
   this->Depth->ReleaseGraphicsResources(window);
+  this->LayerDepth->ReleaseGraphicsResources(window);
   this->Size[0] = this->Size[1] = 0;
   this->Window = nullptr;
 }

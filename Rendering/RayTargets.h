@@ -49,17 +49,22 @@ public:
   ///@}
 
   /// What can be drawn into: the sets, the texture of entries that rays come in by next, and nothing;
-  /// each with the depth buffer. Nothing that is drawn into may be read.
+  /// each with the depth buffer; and that texture with a depth buffer of its own. Nothing that is drawn
+  /// into may be read.
   enum Framebuffer
   {
     OfSet0,
     OfSet1,
     OfNextEntries,
     OfDepth,
+    OfLayer,
     NumberOfFramebuffers
   };
 
   void DrawInto(int framebuffer);
+
+  /// An empty layer: no entry, farthest depth.
+  void ClearLayer();
 
   /// Both sets as they are before the first pass, no ray done.
   void Clear(float firstColor);
@@ -78,10 +83,11 @@ private:
   void Allocate(vtkOpenGLRenderWindow* window, int width, int height);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  unsigned int Framebuffers[NumberOfFramebuffers] = { 0, 0, 0, 0 };
+  unsigned int Framebuffers[NumberOfFramebuffers] = { 0, 0, 0, 0, 0 };
   vtkNew<vtkTextureObject> Textures[2][NumberOfTextures];
   vtkNew<vtkTextureObject> NextEntries;
   vtkNew<vtkTextureObject> Depth;
+  vtkNew<vtkTextureObject> LayerDepth;
   int Size[2] = { 0, 0 };
   int Viewport[4] = { 0, 0, 0, 0 }; ///< of others
 };

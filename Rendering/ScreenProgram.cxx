@@ -20,10 +20,10 @@ namespace
 
 /// Compiles a source by itself, since VTK's cache prints a program that does not compile line by line
 /// and keeps the compiler's words to itself.
-void CheckSource(const std::string& name, const std::string& source)
+void CheckSource(const std::string& name, const std::string& source, vtkShader::Type type)
 {
   vtkNew<vtkShader> shader;
-  shader->SetType(vtkShader::Fragment);
+  shader->SetType(type);
   shader->SetSource(source);
   const bool compiled = shader->Compile();
   const std::string log = shader->GetError();
@@ -40,16 +40,21 @@ ScreenProgram::ScreenProgram() = default;
 
 ScreenProgram::~ScreenProgram() { this->ReleaseGraphicsResources(this->Window); }
 
-vtkShaderProgram* ScreenProgram::Use(
-  vtkOpenGLRenderWindow* window, const std::string& name, const std::string& source)
+vtkShaderProgram* ScreenProgram::Use(vtkOpenGLRenderWindow* window, const std::string& name,
+  const std::string& source, const std::string& vertexSource)
 {
   if (this->Window != window || source != this->Source)
   {
     this->ReleaseGraphicsResources(this->Window);
-    CheckSource(name, source);
+    CheckSource(name, source, vtkShader::Fragment);
+    if (!vertexSource.empty())
+    {
+      CheckSource(name, vertexSource, vtkShader::Vertex);
+    }
     this->Window = window;
     this->Source = source;
-    this->Program = window->GetShaderCache()->ReadyShaderProgram(CoverScreenVS, source.c_str(), "");
+    this->Program = window->GetShaderCache()->ReadyShaderProgram(
+      vertexSource.empty() ? CoverScreenVS : vertexSource.c_str(), source.c_str(), "");
   }
   if (!this->Program || !window->GetShaderCache()->ReadyShaderProgram(this->Program))
   {
@@ -59,10 +64,10 @@ vtkShaderProgram* ScreenProgram::Use(
   return this->Program;
 }
 
-void ScreenProgram::Draw()
+void ScreenProgram::Draw(int numberOfVertices)
 {
   this->Empty->Bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDrawArrays(GL_TRIANGLES, 0, numberOfVertices);
   this->Empty->Release();
 }
 

@@ -17,7 +17,8 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// A fragment shader that is run for each pixel of the viewport, which it tells by gl_FragCoord. Belongs to one window's context, the
+/// A fragment shader that is run for each pixel of the viewport, which it tells by gl_FragCoord, or for
+/// the triangles that a vertex shader makes of the numbers of their vertices. Belongs to one window's context, the
 /// last one.
 class TETRALUXRENDERING_EXPORT ScreenProgram
 {
@@ -31,11 +32,12 @@ public:
   /// changed. Outputs are fragOutput0, fragOutput1, ...; the source has to mention gl_FragData[0],
   /// gl_FragData[1], ... for each of them, as VTK counts them by that. Throws std::runtime_error with
   /// what the compiler says.
-  vtkShaderProgram* Use(
-    vtkOpenGLRenderWindow* window, const std::string& name, const std::string& source);
+  /// vertexSource: empty for one triangle that covers the viewport.
+  vtkShaderProgram* Use(vtkOpenGLRenderWindow* window, const std::string& name,
+    const std::string& source, const std::string& vertexSource = {});
 
-  /// Runs it for all pixels of the viewport; their depth is 1.
-  void Draw();
+  /// Runs it, for all pixels of the viewport, whose depth is 1, or for a number of vertices.
+  void Draw(int numberOfVertices = 3);
 
   void ReleaseGraphicsResources(vtkWindow* window);
 

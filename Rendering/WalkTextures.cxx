@@ -28,6 +28,7 @@ void WalkTextures::SetTopology(vtkOpenGLRenderWindow* window, const WalkTables& 
   this->Links.Upload(
     window, texels.Links.data(), texels.Links.size() / 2, 2, "the hierarchy over the boundary");
   this->NumberOfNodes = static_cast<int>(texels.Links.size() / 2);
+  this->NumberOfEntries = static_cast<int>(tables.Entries.size());
   this->UploadedBytes += this->Faces.GetNumberOfBytes() + this->Entries.GetNumberOfBytes() +
     this->Boxes.GetNumberOfBytes() + this->Links.GetNumberOfBytes();
   this->TopologyVersion = version;
@@ -75,10 +76,15 @@ std::string WalkTextures::FindObstacle(
     DescribeGraphicsCard(window).Limits);
 }
 
-void WalkTextures::ActivateForEntry(vtkShaderProgram* program)
+void WalkTextures::ActivateForLayer(vtkShaderProgram* program)
 {
   this->Points.Activate(program, "walkPoints");
   this->Entries.Activate(program, "boundaryEntries");
+}
+
+void WalkTextures::ActivateForEntry(vtkShaderProgram* program)
+{
+  this->ActivateForLayer(program);
   this->Boxes.Activate(program, "boundaryBoxes");
   this->Links.Activate(program, "boundaryLinks");
   program->SetUniformi("numberOfBoundaryNodes", this->NumberOfNodes);

@@ -51,13 +51,16 @@ public:
   static std::string FindObstacle(
     vtkOpenGLRenderWindow* window, const WalkTables& tables, std::size_t numberOfPoints);
 
-  /// For a program in use: the arrays that RayEntryFS.glsl or RayWalkFS.glsl read, bound to texture
+  /// For a program in use: the arrays that RayEntryFS.glsl, RayLayerFS.glsl or RayWalkFS.glsl reads, bound to texture
   /// units until Deactivate.
   ///@{
   void ActivateForEntry(vtkShaderProgram* program);
+  void ActivateForLayer(vtkShaderProgram* program);
   void ActivateForWalk(vtkShaderProgram* program, bool gradients);
   void Deactivate();
   ///@}
+
+  int GetNumberOfEntries() const { return this->NumberOfEntries; }
 
   /// On the graphics card.
   std::size_t GetNumberOfBytes() const;
@@ -76,6 +79,7 @@ private:
   TextureBuffer Faces, Entries, Boxes, Links, Points, Gradients;
   std::size_t NumberOfPoints = 0;
   int NumberOfNodes = 0;
+  int NumberOfEntries = 0;
   vtkOpenGLRenderWindow* Window = nullptr; ///< only compared
   Version TopologyVersion;
   Version PointsVersion;

@@ -11,6 +11,7 @@
 #include "ImageCompositor.h"
 #include "JsonObject.h"
 #include "MapperFrame.h"
+#include "PixelProjection.h"
 #include "Stopwatch.h"
 #include "VolumeScene.h"
 #include "WalkTextures.h"
@@ -67,8 +68,8 @@ private:
   void UpdateOrientation(const tetralux::VolumeScene& scene);
   void Upload(MapperFrame& frame, const tetralux::WalkTables& tables, GpuReentry reentry);
   void Read(vtkImageData* image);
-  void Describe(
-    const tetralux::GpuRayCastStatistics& statistics, GpuReentry reentry, MapperFrame& frame);
+  void Describe(const tetralux::GpuRayCastStatistics& statistics,
+    const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
   void WarnOfReentry(const tetralux::WalkMesh& mesh);
 
   vtkTetrahedraGPURayCastMapper* Self;
@@ -135,6 +136,12 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   const double terminationError = endsEarly ? 0.5 * this->Self->MaximumError : 0;
   tetralux::GpuRayCastOptions options;
   options.Reentry = reentry;
+  const tetralux::PixelProjection projection(
+    grid, scene.GetMesh()->GetCenter(), scene.GetMesh()->GetRadius());
+  if (this->Self->Reentry == BOUNDARY_LAYERS && projection.Regular)
+  {
+    options.Layers = &projection;
+  }
   options.NumberOfCells = scene.GetMesh()->GetNumberOfCells();
   options.CellData = scene.HasCellScalars();
   options.LargestScalar = model == tetralux::OpticalModel::MaximumIntensity;
@@ -176,13 +183,14 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     tables == scene.GetVisibleTables(), "transparent tetrahedra", "nothing of them is seen");
   frame.LeaveOut(reentry != GpuReentry::Imaginary, "imaginary cells",
     reentry == GpuReentry::None ? "rays do not enter again" : "rays enter by the boundary");
-  this->Describe(statistics, reentry, frame);
+  this->Describe(statistics, options, frame);
   this->WarnOfReentry(*scene.GetMesh());
 }
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::Internals::Describe(
-  const tetralux::GpuRayCastStatistics& statistics, GpuReentry reentry, MapperFrame& frame)
+  const tetralux::GpuRayCastStatistics& statistics, const tetralux::GpuRayCastOptions& options,
+  MapperFrame& frame)
 {
   const tetralux::FloatTarget::Settings& picture = this->Caster.GetPicture().GetSettings();
   JsonObject rays;
@@ -196,10 +204,12 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   {
     rays.Set("segments", statistics.Steps);
   }
+  const char* boundary = options.Layers ? "boundary layers" : "boundary hierarchy";
+  rays.Set("first_entry", boundary);
   rays.Set("reentry",
-    reentry == GpuReentry::Imaginary    ? "imaginary cells"
-      : reentry == GpuReentry::Boundary ? "boundary hierarchy"
-                                        : "none");
+    options.Reentry == GpuReentry::Imaginary    ? "imaginary cells"
+      : options.Reentry == GpuReentry::Boundary ? boundary
+                                                : "none");
   rays.Set("shader_variant", statistics.Variant);
   frame.Sections.emplace_back("rays", rays);
 

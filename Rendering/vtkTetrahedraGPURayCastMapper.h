@@ -36,23 +36,28 @@ public:
     AUTOMATIC_REENTRY,
     BOUNDARY_HIERARCHY,
     IMAGINARY_CELLS,
+    BOUNDARY_LAYERS,
     NO_REENTRY
   };
 
   ///@{
   /**
-   * How rays that left the mesh find where they enter it again: by a hierarchy over its boundary
-   * faces, between passes; through imaginary cells between the mesh and its convex hull (Weiler et al.
-   * 2003, section 3.4, see vtkConvexifyTetrahedra), which are made in the first frame that needs them,
-   * and which transparent cells are not left out with; or not at all, which is right for convex meshes
-   * only. Automatic (default) is BOUNDARY_HIERARCHY. A mesh that can't be made convex is entered by its
-   * boundary, and one warning says why.
+   * How rays find where they enter the mesh, for the first time and, where they left it, again. By a
+   * hierarchy over its boundary faces, between passes. By drawing all boundary faces, layer after layer
+   * (depth peeling), which takes the hierarchy's place where the mesh reaches through the plane of the
+   * eye. Through imaginary cells between the mesh and its convex hull (Weiler et al. 2003, section 3.4,
+   * see vtkConvexifyTetrahedra), which are made in the first frame that needs them, and which
+   * transparent cells are not left out with. Or not again at all, which is right for convex meshes only.
+   * Each of them decides by the same exact signs as the walk. Automatic (default) is
+   * BOUNDARY_HIERARCHY. A mesh that can't be made convex is entered by its boundary, and one warning
+   * says why.
    */
   vtkSetClampMacro(Reentry, int, AUTOMATIC_REENTRY, NO_REENTRY);
   vtkGetMacro(Reentry, int);
   void SetReentryToAutomatic() { this->SetReentry(AUTOMATIC_REENTRY); }
   void SetReentryToBoundaryHierarchy() { this->SetReentry(BOUNDARY_HIERARCHY); }
   void SetReentryToImaginaryCells() { this->SetReentry(IMAGINARY_CELLS); }
+  void SetReentryToBoundaryLayers() { this->SetReentry(BOUNDARY_LAYERS); }
   void SetReentryToNone() { this->SetReentry(NO_REENTRY); }
   ///@}
 

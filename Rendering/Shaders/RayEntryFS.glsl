@@ -2,18 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where rays that are outside of the mesh come in next: the boundary face whose crossing is the
 // nearest one behind that of the last entry, by the hierarchy over the boundary, without a stack.
-//
-// DIRECTED: only faces through which rays come in count; else each ray asks once, and the nearest
-// crossing is the right one.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
 //VTK::RayFrame::Dec
+//VTK::BoundaryEntry::Dec
 
 uniform isampler2D rayStates;
 uniform isampler2D rayEntries;
 
-uniform isamplerBuffer boundaryEntries; // WalkTexels::Entries
 uniform samplerBuffer boundaryBoxes;    // WalkTexels::Boxes
 uniform isamplerBuffer boundaryLinks;   // WalkTexels::Links
 uniform int numberOfBoundaryNodes;
@@ -23,28 +20,6 @@ out ivec4 fragOutput0; // gl_FragData[0]
 // Boxes are grown by what distances along the ray may be rounded by, as the hierarchy's margin is for
 // those across: radii.
 const float AlongMargin = 1.9073486328125e-06; // 2^-19
-
-// Whether the ray comes in through a boundary face, and at which distance.
-bool TestEntry(RayFrame frame, int entry, out float distance)
-{
-  ivec3 ids = texelFetch(boundaryEntries, entry).xyz;
-  Corner a = LoadCorner(frame, ids.x);
-  Corner b = LoadCorner(frame, ids.y);
-  Corner c = LoadCorner(frame, ids.z);
-  bool p;
-  bool q;
-  bool r;
-  vec3 weights =
-    vec3(GetDeterminant(b, c, p), GetDeterminant(c, a, q), GetDeterminant(a, b, r));
-  SAME_EVERYWHERE vec3 shares = GetShares(weights);
-  SAME_EVERYWHERE float along = shares.x * a.Along + shares.y * b.Along + shares.z * c.Along;
-  distance = along;
-#ifdef DIRECTED
-  return p && q && r;
-#else
-  return p == q && q == r;
-#endif
-}
 
 void main()
 {

@@ -199,6 +199,20 @@ TEST(GPURayCastMapper, ReentryGivesTheSamePicture)
   scene.ExpectProcessorsPicture();
   EXPECT_EQ(scene.GetStatistic("reentry"), "\"imaginary cells\"");
 
+  scene.GPUMapper->SetReentryToBoundaryLayers();
+  scene.ExpectProcessorsPicture();
+  EXPECT_EQ(scene.GetStatistic("reentry"), "\"boundary layers\"");
+  scene.Renderer->GetActiveCamera()->ParallelProjectionOn();
+  scene.Renderer->GetActiveCamera()->SetParallelScale(1.5);
+  scene.ExpectProcessorsPicture();
+  EXPECT_EQ(scene.GetStatistic("reentry"), "\"boundary layers\"");
+
+  // Layers that reach through the plane of the eye have no bounds in the picture.
+  scene.Renderer->GetActiveCamera()->ParallelProjectionOff();
+  scene.SetCamera({ 0.7, -0.1, 0.4 }, { 0.1, 0.3, 1 }, { 0, 0, 1 }, 0.001, 10);
+  scene.ExpectProcessorsPicture();
+  EXPECT_EQ(scene.GetStatistic("reentry"), "\"boundary hierarchy\"");
+
   // A box is convex.
   GPUScene box;
   for (const int reentry :
@@ -319,9 +333,18 @@ TEST(GPURayCastMapper, TransparentCells)
 }
 
 // Rays through vertices, along edges and in faces, in single precision: none is lost.
-TEST(GPURayCastMapper, RaysAlongTheLattice)
+class GPURayCastMapperReentry : public testing::TestWithParam<int>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Modes, GPURayCastMapperReentry,
+  testing::Values(vtkTetrahedraGPURayCastMapper::BOUNDARY_HIERARCHY,
+    vtkTetrahedraGPURayCastMapper::BOUNDARY_LAYERS, vtkTetrahedraGPURayCastMapper::NO_REENTRY));
+
+TEST_P(GPURayCastMapperReentry, RaysAlongTheLattice)
 {
   GPUScene scene(64, 64);
+  scene.GPUMapper->SetReentry(this->GetParam());
   scene.SetMesh(tetralux::MakeBox(4, 4, 4, { 0, 0, 0 }, { 1, 1, 1 }));
   scene.Parallel = true;
   scene.ParallelScale = 1;
@@ -345,6 +368,31 @@ TEST(GPURayCastMapper, RaysAlongTheLattice)
   scene.ExpectReference();
   scene.SetCamera({ 0.5, 0.25, 0.6 }, { 1, 0.75, 0.6 }, { 0, 0, 1 }, 1e-3, 10);
   scene.ExpectReference();
+}
+
+// Thin and thick cells together, the thin ones a millionth as thick; and attenuation so high that rays
+// end in a few of them.
+TEST(GPURayCastMapper, BoundaryLayers)
+{
+  GPUScene scene;
+  tetralux::TetrahedralMesh mesh = tetralux::MakeBox(5, 5, 12, { 0, 0, 0 }, { 1, 1, 1 });
+  for (std::size_t p = 0; p < mesh.GetNumberOfPoints(); ++p)
+  {
+    // Heights 1, 1 / 4, 1 / 16 and so on, down to 2.4e-7 at the bottom.
+    double& height = mesh.Points[3 * p + 2];
+    height = height == 0 ? 0 : std::pow(4, 12 * height - 12);
+  }
+  scene.SetMesh(std::move(mesh));
+  scene.SetCamera({ 1.6, 1.3, 1.9 }, { 0.5, 0.5, 0.4 }, { 0, 0, 1 });
+  scene.ExpectReference();
+  scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(2.5e-3);
+  for (auto& node : scene.Function.Nodes)
+  {
+    node.Left.Attenuation *= 100;
+    node.Right.Attenuation *= 100;
+  }
+  scene.GPUMapper->SetMaximumError(1e-5);
+  scene.ExpectProcessorsPicture(2);
 }
 
 TEST(GPURayCastMapper, UploadsWhatChanged)

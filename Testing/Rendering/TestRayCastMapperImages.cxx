@@ -15,6 +15,7 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkSphereSource.h"
+#include "vtkTetrahedraGPURayCastMapper.h"
 
 #include <cmath>
 #include <string>
@@ -84,6 +85,14 @@ public:
   vtkNew<vtkHeadlessRenderWindow> Window;
 };
 
+// The mapper on the graphics card makes the same pictures.
+void UseGPU(PipeScene& scene)
+{
+  vtkNew<vtkTetrahedraGPURayCastMapper> mapper;
+  mapper->SetInputData(scene.Grid);
+  scene.Volume->SetMapper(mapper);
+}
+
 TEST(RayCastMapperImages, PerspectiveWithGeometry)
 {
   PipeScene scene;
@@ -91,6 +100,8 @@ TEST(RayCastMapperImages, PerspectiveWithGeometry)
   scene.AddSphere(-0.6, -0.47, 1.3, 0.4); // half inside of the wall
   scene.AddSphere(0, 0, 1.8, 0.25);       // in the hole
   scene.AddSphere(-0.9, 1.9, 0.6, 0.45);  // behind
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastGeometry", Tolerance));
+  UseGPU(scene);
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastGeometry", Tolerance));
 }
 
@@ -112,6 +123,8 @@ TEST(RayCastMapperImages, CameraInside)
   camera->SetFocalPoint(0.1, 0.3, 1);
   camera->SetViewAngle(90);
   camera->SetClippingRange(0.001, 10);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastInside", Tolerance));
+  UseGPU(scene);
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastInside", Tolerance));
 }
 

@@ -1,0 +1,53 @@
+//VTK::System::Dec
+// SPDX-License-Identifier: BSD-3-Clause
+// A layer of the boundary: where rays that are outside of the mesh come in next, of all faces that are
+// drawn the nearest one by the depth test, behind the last entry (depth peeling).
+
+//VTK::RayStates::Dec
+//VTK::GetRay::Dec
+//VTK::RayFrame::Dec
+//VTK::BoundaryEntry::Dec
+
+uniform isampler2D rayStates;
+uniform isampler2D rayEntries;
+
+flat in int entryVSOutput;
+
+out ivec4 fragOutput0; // gl_FragData[0]
+
+// Distances from the point nearest to the centre in depths: within a radius of it, with a reserve.
+float FindDepth(RayFrame frame, float distance)
+{
+  SAME_EVERYWHERE float depth = 0.5 + 0.25 * distance / length(frame.Along);
+  return depth;
+}
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  if (texelFetch(rayStates, pixel, 0).w != RayNeedsEntry)
+  {
+    discard;
+  }
+  RayFrame frame = MakeRayFrame(GetRay(gl_FragCoord.xy));
+  float distance;
+  if (!TestEntry(frame, entryVSOutput, distance))
+  {
+    discard;
+  }
+  float depth = FindDepth(frame, distance);
+  int last = texelFetch(rayEntries, pixel, 0).x;
+  if (last >= 0)
+  {
+    // In the order of depths, and of faces, which are drawn in their order, where they are the same.
+    float lastDistance;
+    TestEntry(frame, last, lastDistance);
+    float lastDepth = FindDepth(frame, lastDistance);
+    if (depth < lastDepth || (depth == lastDepth && entryVSOutput <= last))
+    {
+      discard;
+    }
+  }
+  gl_FragDepth = depth;
+  fragOutput0 = ivec4(entryVSOutput);
+}
