@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeScene.h"
 
+#include "CellVolumes.h"
+
 #include "VisibleCells.h"
 
 #include <algorithm>
@@ -47,6 +49,7 @@ double EstimateEmissionAbsorptionError(
 void VolumeScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
 {
   this->Mesh = std::move(mesh);
+  this->LongestEdge = -1;
   ++this->MeshVersion;
   this->Scalars.clear();
   this->FloatScalars = this->DoubleScalars = ScalarMap();
@@ -391,6 +394,33 @@ const WalkTables* VolumeScene::GetVisibleTables()
     ++this->VisibleTablesVersion;
   }
   return this->VisibleTables.Faces.empty() ? nullptr : &this->VisibleTables;
+}
+
+double VolumeScene::GetLongestSegment(const RayGrid& grid)
+{
+  if (this->LongestEdge < 0)
+  {
+    this->LongestEdge = MeasureCells(this->Mesh->GetMesh()).LongestEdge;
+  }
+  // The root of the sum of squares of the inverse matrix, its cofactors over its determinant, bounds
+  // what it stretches by.
+  const double(*m)[4] = grid.MeshFromWorld;
+  double determinant = 0;
+  double squares = 0;
+  for (int row = 0; row < 3; ++row)
+  {
+    const double* a = m[(row + 1) % 3];
+    const double* b = m[(row + 2) % 3];
+    for (int column = 0; column < 3; ++column)
+    {
+      const int i = (column + 1) % 3;
+      const int j = (column + 2) % 3;
+      const double cofactor = a[i] * b[j] - a[j] * b[i];
+      squares += cofactor * cofactor;
+      determinant += row == 0 ? m[0][column] * cofactor : 0;
+    }
+  }
+  return this->LongestEdge * std::sqrt(squares) / std::abs(determinant);
 }
 
 double VolumeScene::GetWorldRadius(const RayGrid& grid) const

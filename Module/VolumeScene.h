@@ -133,6 +133,9 @@ public:
   /// Counts the changes of what GetVisibleTables() returns; 0 before the first. For copies of it.
   std::uint64_t GetVisibleTablesVersion() const { return this->VisibleTablesVersion; }
 
+  /// No segment of a ray is longer, world units: the longest edge, where it is stretched most.
+  double GetLongestSegment(const RayGrid& grid);
+
   /// Radius of the mesh in the world, world units: along its longest extent, where MeshFromWorld of
   /// the grid stretches it.
   double GetWorldRadius(const RayGrid& grid) const;
@@ -169,6 +172,7 @@ private:
   std::int64_t NumberOfTransparentCells = 0;
   ScalarMap FloatScalars, DoubleScalars; ///< of the mesh's tables
   std::uint64_t MeshVersion = 0;
+  double LongestEdge = -1; ///< of the mesh; negative: not measured yet
   std::uint64_t PointsVersion = 0;
   std::uint64_t TableVersion = 0;
   std::uint64_t CellValuesVersion = 0;

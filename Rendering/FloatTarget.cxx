@@ -62,6 +62,7 @@ void FloatTarget::Prepare(vtkOpenGLRenderWindow* window, const Settings& setting
   if (this->Framebuffer->GetContext())
   {
     this->ReleaseGraphicsResources(this->Framebuffer->GetContext());
+    window->MakeCurrent();
   }
   try
   {

@@ -47,7 +47,7 @@ public:
     int Width = 1;
     int Height = 1;
     /// What the shader's gl_FragData has, in its order.
-    std::vector<Picture> Pictures{ Picture() };
+    std::vector<Picture> Pictures = std::vector<Picture>(1);
     /// 24 bits of depth, 8 of stencil.
     bool DepthStencil = false;
     bool operator==(const Settings& other) const

@@ -35,6 +35,9 @@ namespace
 constexpr std::size_t TexelsOfInterval = sizeof(IntervalTable::Interval) / (4 * sizeof(float));
 constexpr std::size_t TexelsOfSurface = 2;
 
+/// Optical depth that the thin form takes, see SegmentWeightsDec.glsl, but for rounding.
+constexpr double ThinDepth = 1.4999;
+
 /// As in TransferIntervalsDec.glsl.
 constexpr float SmallestScalar = 1e-30f;
 
@@ -88,6 +91,8 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
     (source.Model == OpticalModel::EmissionAbsorption && source.ConstantColor);
   this->ByTable = source.Model == OpticalModel::EmissionAbsorption && source.Table &&
     !this->OfCells && !this->OpticalDepth;
+  this->OnlyThin = source.Model == OpticalModel::EmissionAbsorption && source.Intervals &&
+    source.Intervals->MaximumAttenuation * source.LongestSegment <= ThinDepth;
   for (int c = 0; c < 3; ++c)
   {
     this->Color[c] =
@@ -200,6 +205,7 @@ std::string GpuSegmentIntegral::GetFlatDeclarations() const
   }
   else
   {
+    code += this->OnlyThin ? "#define ONLY_THIN_SEGMENTS\n" : "";
     code += std::string(SegmentWeightsDec) + ScalarBucketsDec + TransferIntervalsDec;
   }
   if (this->Model == OpticalModel::MaximumIntensity)

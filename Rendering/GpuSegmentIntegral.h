@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,10 @@ struct SegmentSource
   /// Let the graphics card interpolate in the table, see GpuSegmentTable.
   bool HardwareFiltering = false;
 
+  /// No segment is longer, world units. Where all of them are thin, the shader is without what thick
+  /// ones need.
+  double LongestSegment = std::numeric_limits<double>::infinity();
+
   /// Whether segments are lit: emission and absorption, and isosurfaces, of scalars at points.
   bool Shaded = false;
 
@@ -58,7 +63,8 @@ struct SegmentSource
   std::uint64_t CellValuesVersion = 0;
 };
 
-/// Of a scene that is complete, as long as it does not change.
+/// Of a scene that is complete, as long as it does not change; not lit, its segments of any length, see
+/// VolumeScene::GetLongestSegment.
 TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(VolumeScene& scene);
 
 /// GLSL 1.50 functions for what a source asks for; all colours are premultiplied.
@@ -130,6 +136,7 @@ private:
   bool OpticalDepth = false;
   bool ByTable = false;
   bool Shaded = false;
+  bool OnlyThin = false;
   float Color[3] = { 0, 0, 0 };
   std::string Name;
 

@@ -64,6 +64,7 @@ void GpuSegmentTable::Update(vtkOpenGLRenderWindow* window, const PreIntegration
   if (this->Texture->GetContext() && this->Texture->GetContext() != window)
   {
     this->ReleaseGraphicsResources(this->Texture->GetContext());
+    window->MakeCurrent();
   }
   const int filter = hardwareFiltering ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
   this->HardwareFiltering = hardwareFiltering;

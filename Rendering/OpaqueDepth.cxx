@@ -74,6 +74,7 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
   if (this->Framebuffer->GetContext() && this->Framebuffer->GetContext() != window)
   {
     this->ReleaseGraphicsResources(this->Framebuffer->GetContext());
+    window->MakeCurrent();
   }
   while (glGetError() != GL_NO_ERROR) // of others
   {

@@ -41,9 +41,33 @@ GLenum GetFormat(int type, int components)
 
 } // namespace
 
-TextureBuffer::TextureBuffer() = default;
+TextureBuffer::TextureBuffer()
+  : Buffer(vtkSmartPointer<vtkOpenGLBufferObject>::New())
+{
+}
 
-TextureBuffer::~TextureBuffer() = default;
+TextureBuffer::~TextureBuffer() { this->ReleaseBuffer(); }
+
+void TextureBuffer::ReleaseBuffer()
+{
+  vtkOpenGLRenderWindow* const window = this->Texture->GetContext();
+  if (window)
+  {
+    // Names of buffers are those of a context, and another one may be current.
+    window->PushContext();
+    this->Buffer->ReleaseGraphicsResources();
+    this->Texture->ReleaseGraphicsResources(window);
+    window->PopContext();
+  }
+  else if (this->Bytes > 0)
+  {
+    // The window went away, and its context with all that it had. The buffer's name may be that of
+    // another one in another context, so it must not be deleted: its object is given up.
+    this->Buffer->Register(nullptr);
+    this->Buffer = vtkSmartPointer<vtkOpenGLBufferObject>::New();
+  }
+  this->Bytes = 0;
+}
 
 void TextureBuffer::Upload(vtkOpenGLRenderWindow* window, const float* texels,
   std::size_t numberOfTexels, int components, const std::string& what)
@@ -60,9 +84,10 @@ void TextureBuffer::Upload(vtkOpenGLRenderWindow* window, const std::int32_t* te
 void TextureBuffer::UploadBytes(vtkOpenGLRenderWindow* window, const void* texels,
   std::size_t numberOfTexels, int components, int type, const std::string& what)
 {
-  if (this->Texture->GetContext() && this->Texture->GetContext() != window)
+  if (this->Texture->GetContext() != window)
   {
-    this->ReleaseGraphicsResources(this->Texture->GetContext());
+    this->ReleaseBuffer();
+    window->MakeCurrent(); // not all windows have a way back to the context before
   }
   if (numberOfTexels == 0)
   {
@@ -125,9 +150,7 @@ void TextureBuffer::ReleaseGraphicsResources(vtkWindow* window)
 {
   if (this->Texture->GetContext() == window)
   {
-    this->Texture->ReleaseGraphicsResources(window);
-    this->Buffer->ReleaseGraphicsResources();
-    this->Bytes = 0;
+    this->ReleaseBuffer();
   }
 }
 

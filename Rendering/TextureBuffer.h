@@ -5,6 +5,7 @@
 #include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"
+#include "vtkSmartPointer.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -55,8 +56,10 @@ private:
   void UploadBytes(vtkOpenGLRenderWindow* window, const void* texels, std::size_t numberOfTexels,
     int components, int type, const std::string& what);
 
+  void ReleaseBuffer();
+
   vtkNew<vtkTextureObject> Texture;
-  vtkNew<vtkOpenGLBufferObject> Buffer;
+  vtkSmartPointer<vtkOpenGLBufferObject> Buffer; ///< of the texture
   std::size_t Bytes = 0;
 };
 

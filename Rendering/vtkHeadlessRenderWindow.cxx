@@ -210,6 +210,15 @@ private:
   EGLContext Context = EGL_NO_CONTEXT;
 };
 
+/// Whichever context is current in this thread, of whatever window, or none.
+struct vtkHeadlessRenderWindow::CurrentContext
+{
+  EGLDisplay Display = eglGetCurrentDisplay();
+  EGLSurface Draw = eglGetCurrentSurface(EGL_DRAW);
+  EGLSurface Read = eglGetCurrentSurface(EGL_READ);
+  EGLContext Context = eglGetCurrentContext();
+};
+
 vtkStandardNewMacro(vtkHeadlessRenderWindow);
 
 //------------------------------------------------------------------------------------------------
@@ -293,6 +302,28 @@ void vtkHeadlessRenderWindow::MakeCurrent()
 
 //------------------------------------------------------------------------------------------------
 bool vtkHeadlessRenderWindow::IsCurrent() { return this->Context && this->Context->IsCurrent(); }
+
+//------------------------------------------------------------------------------------------------
+void vtkHeadlessRenderWindow::PushContext()
+{
+  this->Pushed.emplace_back();
+  this->MakeCurrent();
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkHeadlessRenderWindow::PopContext()
+{
+  if (this->Pushed.empty())
+  {
+    return;
+  }
+  const CurrentContext before = this->Pushed.back();
+  this->Pushed.pop_back();
+  if (before.Context != EGL_NO_CONTEXT && before.Context != eglGetCurrentContext())
+  {
+    eglMakeCurrent(before.Display, before.Draw, before.Read, before.Context);
+  }
+}
 
 //------------------------------------------------------------------------------------------------
 int vtkHeadlessRenderWindow::SupportsOpenGL()

@@ -20,6 +20,7 @@
 #include "vtkGenericOpenGLRenderWindow.h"
 
 #include <memory> // For std::unique_ptr
+#include <vector> // For std::vector
 
 class TETRALUXRENDERING_EXPORT vtkHeadlessRenderWindow : public vtkGenericOpenGLRenderWindow
 {
@@ -49,6 +50,14 @@ public:
 
   bool IsCurrent() override;
 
+  ///@{
+  /**
+   * Makes the window's context current, and again the one that was before. To be called in pairs.
+   */
+  void PushContext() override;
+  void PopContext() override;
+  ///@}
+
   /**
    * Releases every graphics resource and the context. A later Render() makes a new one.
    */
@@ -74,6 +83,9 @@ private:
 
   class EglContext;
   std::unique_ptr<EglContext> Context;
+
+  struct CurrentContext;
+  std::vector<CurrentContext> Pushed;
 
   // One report per cause, not one per frame.
   bool ContextFailed = false;

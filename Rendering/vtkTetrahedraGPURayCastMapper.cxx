@@ -66,7 +66,8 @@ public:
 private:
   const tetralux::WalkTables* ChooseTables(MapperFrame& frame, GpuReentry& reentry);
   void UpdateOrientation(const tetralux::VolumeScene& scene);
-  void Upload(MapperFrame& frame, const tetralux::WalkTables& tables, GpuReentry reentry);
+  void Upload(MapperFrame& frame, const tetralux::RayGrid& grid, const tetralux::WalkTables& tables,
+    GpuReentry reentry);
   void Read(vtkImageData* image);
   void Describe(const tetralux::GpuRayCastStatistics& statistics,
     const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
@@ -123,7 +124,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     frame.Image->Initialize();
     return;
   }
-  this->Upload(frame, *tables, reentry);
+  this->Upload(frame, grid, *tables, reentry);
   frame.Seconds.emplace_back("upload", uploadStopwatch.GetSeconds());
 
   const tetralux::Stopwatch castStopwatch;
@@ -305,8 +306,8 @@ void vtkTetrahedraGPURayCastMapper::Internals::UpdateOrientation(const tetralux:
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::Internals::Upload(
-  MapperFrame& frame, const tetralux::WalkTables& tables, GpuReentry reentry)
+void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
+  const tetralux::RayGrid& grid, const tetralux::WalkTables& tables, GpuReentry reentry)
 {
   tetralux::VolumeScene& scene = *frame.Scene;
   this->Mesh.ResetUploadedBytes();
@@ -350,6 +351,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(
   }
 
   tetralux::SegmentSource source = tetralux::MakeSegmentSource(scene);
+  source.LongestSegment = scene.GetLongestSegment(grid);
   source.Shaded = frame.Shaded;
   this->Integral.Update(frame.Window, source);
 }

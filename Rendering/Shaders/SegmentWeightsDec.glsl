@@ -63,6 +63,9 @@ vec2 WeighThinSegment(float d0, float d1)
 // The same for any depth.
 vec2 WeighSegment(float d0, float d1)
 {
+#ifdef ONLY_THIN_SEGMENTS
+  return WeighThinSegment(d0, d1);
+#else
   vec2 weights = vec2(0.0);
   float slope = d1 - d0;
   float begin = 0.0; // of the part, as a share of the segment
@@ -88,4 +91,5 @@ vec2 WeighSegment(float d0, float d1)
     front = back;
   }
   return weights;
+#endif
 }

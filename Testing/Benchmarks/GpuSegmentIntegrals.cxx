@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <limits>
 #include <string>
 
 namespace
@@ -133,6 +134,9 @@ int main()
       SegmentSource source;
       source.Intervals = &intervals;
       Measure(window, "closed form" + suffix, source, cellSize, 0.05f);
+      source.LongestSegment = 0.5; // of an optical depth of 1 at most
+      Measure(window, "closed form, only thin" + suffix, source, cellSize, 0.05f);
+      source.LongestSegment = std::numeric_limits<double>::infinity();
       Measure(window, "closed form, thick" + suffix, source, cellSize, 5);
       source.ConstantColor = true;
       Measure(window, "optical depth" + suffix, source, cellSize, 0.05f);

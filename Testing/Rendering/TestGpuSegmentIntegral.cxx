@@ -287,6 +287,34 @@ TEST_F(GpuSegmentIntegralTest, EmissionAlone)
   this->Expect(OpticalModel::EmissionOnly, tetralux::IntegrateEmissionOnly, getSize);
 }
 
+TEST_F(GpuSegmentIntegralTest, ThinSegmentsNeedNoParts)
+{
+  const IntervalTable table = tetralux::MakeIntervalTable(MakeFunction(0.01, 1e-2));
+  tetralux::SegmentSource source;
+  source.Intervals = &table;
+  const double longest = 1.49 / table.MaximumAttenuation;
+  const std::vector<Arguments> segments = MakeSegments(table, longest);
+  const std::vector<Result> any = this->Integrate(source, segments);
+  EXPECT_EQ(this->Integral.GetDeclarations().find("#define ONLY_THIN"), std::string::npos);
+  source.LongestSegment = longest;
+  const std::vector<Result> thin = this->Integrate(source, segments);
+  EXPECT_NE(this->Integral.GetDeclarations().find("#define ONLY_THIN"), std::string::npos);
+  const TransferFunction mapped = MakeMappedFunction(table);
+  Measured measured;
+  for (std::size_t i = 0; i < segments.size(); ++i)
+  {
+    const SegmentRadiance expected =
+      tetralux::IntegrateEmissionAbsorption(mapped, segments[i][0], segments[i][1], segments[i][2]);
+    Add(measured, thin[i], expected, expected.Opacity);
+    for (int c = 0; c < 4; ++c)
+    {
+      EXPECT_NEAR(thin[i][c], any[i][c], SegmentError * expected.Opacity);
+    }
+  }
+  EXPECT_LE(measured.Error, SegmentError);
+  EXPECT_EQ(measured.NeverRight, 0);
+}
+
 TEST_F(GpuSegmentIntegralTest, HugeScalarsAreBeyondAllNodes)
 {
   const IntervalTable table = tetralux::MakeIntervalTable(MakeFunction(1, 1e-2));
