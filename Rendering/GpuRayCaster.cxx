@@ -218,7 +218,11 @@ public:
       {
         break;
       }
-      if (this->Options.Continue && !this->Options.Continue())
+      const double running = statistics.Fragments.empty()
+        ? 1
+        : static_cast<double>(statistics.Fragments.back()) /
+          static_cast<double>(statistics.Fragments.front());
+      if (this->Options.Continue && !this->Options.Continue(1 - running))
       {
         statistics.Aborted = true;
         break;

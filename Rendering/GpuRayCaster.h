@@ -48,8 +48,9 @@ struct GpuRayCastOptions
   float MaximumOpacity = 1; ///< a ray that is this opaque is done; more than 1: never
   int StepsPerPass = 1;
   bool CountFragments = false; ///< wait for the count of each pass, and count steps
-  /// Called between passes, without a share that is done, which nobody knows; returns false to abort.
-  std::function<bool()> Continue;
+  /// Called between passes, with the share of the rays that is known to be done, 0..1; returns false to
+  /// abort.
+  std::function<bool(double)> Continue;
 };
 
 struct GpuRayCastStatistics

@@ -13,10 +13,7 @@ namespace
 
 using Vector = std::array<double, 3>;
 
-double Dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector Add(const Vector& a, double t, const Vector& b)
 {
@@ -67,8 +64,7 @@ RayGridUniforms::RayGridUniforms(
       grid.Direction[a] + middle[0] * grid.DirectionStepX[a] + middle[1] * grid.DirectionStepY[a]);
   }
   // World directions are of length 1 in the middle.
-  PixelVectors world(
-    grid.Direction, grid.DirectionStepX, grid.DirectionStepY, middle, 1 / length);
+  PixelVectors world(grid.Direction, grid.DirectionStepX, grid.DirectionStepY, middle, 1 / length);
   PixelVectors worldPoint(grid.Origin, grid.OriginStepX, grid.OriginStepY, middle, 1);
   PixelVectors direction = world;
   PixelVectors point = worldPoint;

@@ -124,7 +124,7 @@ void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int height)
   glGenFramebuffers(NumberOfFramebuffers, this->Framebuffers);
   for (int k = 0; k < NumberOfFramebuffers; ++k)
   {
-    state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Framebuffers[k]);
+    state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffers[k]);
     attach(GL_DEPTH_ATTACHMENT, k == OfLayer ? this->LayerDepth : this->Depth);
     int colors = 0;
     if (k == OfNextEntries || k == OfLayer)
@@ -139,6 +139,8 @@ void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int height)
       }
     }
     glDrawBuffers(colors, Attachments);
+    glReadBuffer(
+      colors > 0 ? Attachments[0] : GL_NONE); // OpenGL before 4.1 wants that one to exist
     complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   }
   state->PopFramebufferBindings();

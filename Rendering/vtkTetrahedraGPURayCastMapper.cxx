@@ -156,7 +156,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   options.StepsPerPass = this->Self->StepsPerPass;
   options.CountFragments = this->Self->CountFragments != 0;
-  options.Continue = [&frame]() { return frame.Continue(0.5); };
+  options.Continue = [&frame](double share) { return frame.Continue(share); };
   const tetralux::GpuRayCastStatistics statistics = this->Caster.Cast(
     frame.Window, grid.Width, grid.Height, this->Limits, this->Mesh, this->Integral, options);
   frame.Aborted = statistics.Aborted;
@@ -167,6 +167,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   else
   {
+    frame.Continue(1); // too late to abort
     this->Compositor.Composite(
       frame.Window, rays.GetVisible(), this->Caster.GetPicture().GetTexture(0));
     frame.ReadPicture = [this](vtkImageData* image) { this->Read(image); };
@@ -353,6 +354,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   tetralux::SegmentSource source = tetralux::MakeSegmentSource(scene);
   source.LongestSegment = scene.GetLongestSegment(grid);
   source.Shaded = frame.Shaded;
+  // Weights of eight bits, where texels have no more.
+  source.HardwareFiltering =
+    source.Table && source.Table->Settings.Format == tetralux::TexelFormat::UNorm8;
   this->Integral.Update(frame.Window, source);
 }
 

@@ -485,6 +485,25 @@ TEST(GPURayCastMapper, AbortedFramesAreNotDrawn)
   EXPECT_EQ(scene.GetStatistic("aborted"), "false");
 }
 
+TEST(GPURayCastMapper, ReportsProgress)
+{
+  GPUScene scene;
+  scene.GPUMapper->SetStepsPerPass(2);
+  std::vector<double> shares;
+  const Observer progress(scene.GPUMapper, vtkCommand::VolumeMapperRenderProgressEvent,
+    [&](const char* data)
+    {
+      double share;
+      std::copy_n(data, sizeof(share), reinterpret_cast<char*>(&share));
+      shares.push_back(share);
+    });
+  scene.Window->Render();
+  ASSERT_GT(shares.size(), 2u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_EQ(shares.back(), 1);
+}
+
 // One mapper in two windows, by turns; and in a third one where the others are no more.
 TEST(GPURayCastMapper, SeveralWindows)
 {
