@@ -41,6 +41,9 @@ public:
                           : GetOrientation(a, b, c, this->Vector);
   }
 
+  /// Of a parallel view, its largest component of 0.5 to 1.
+  const double* GetDirection() const { return this->Vector; }
+
 private:
   bool Parallel;
   double Vector[3]; ///< the eye, or the direction of the view with a largest component of 0.5 to 1

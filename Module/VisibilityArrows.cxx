@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace tetralux
@@ -215,6 +216,14 @@ void VisibilityArrows::JoinFaces()
 #pragma omp atomic
     this->Sides[cell] |= added;
   }
+}
+
+//----------------------------------------------------------------------------
+int VisibilityArrows::GetBoundarySide(const WalkEntry& entry) const
+{
+  const int face = static_cast<int>(std::count_if(std::begin(entry.Points), std::end(entry.Points),
+    [&](std::int32_t point) { return point < entry.Opposite; }));
+  return GetFaceSide(face, GetVolumeSign(this->Sides[entry.Cell]));
 }
 
 //----------------------------------------------------------------------------

@@ -37,6 +37,10 @@ public:
   /// Fills one byte for each cell: HidingFaces and EnteredCell. Parallel.
   void Point(const VisibilityView& view, Span<std::uint8_t> arrows) const;
 
+  /// On which side of a boundary face its cell lies: 1 where the face's points run counter-clockwise as
+  /// seen from there, -1 where clockwise, 0 where that is not known.
+  int GetBoundarySide(const WalkEntry& entry) const;
+
   std::size_t GetSize() const { return this->Sides.size(); } ///< bytes
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VisibilityCycles.h"
 
+#include "MeasureTriangle.h"
 #include "VisibilityArrows.h"
 
 #include <algorithm>
@@ -19,41 +20,6 @@ namespace
 /// overlap everywhere.
 constexpr std::int64_t LargestNumberOfSteps = 1 << 22;
 
-/// How large a triangle looks: its solid angle, or its area across the direction of the view.
-double MeasureTriangle(const std::array<const double*, 3>& corners, const VisibilityView& view)
-{
-  double rows[3][3];
-  double direction = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    for (int row = 0; row < 3; ++row)
-    {
-      rows[row][axis] = corners[row][axis] - (view.Parallel ? corners[2][axis] : view.Eye[axis]);
-    }
-    if (view.Parallel)
-    {
-      rows[2][axis] = view.Direction[axis];
-      direction = std::hypot(direction, view.Direction[axis]);
-    }
-  }
-  const auto dot = [&](int a, int b)
-  { return rows[a][0] * rows[b][0] + rows[a][1] * rows[b][1] + rows[a][2] * rows[b][2]; };
-  const double determinant =
-    std::abs(rows[0][0] * (rows[1][1] * rows[2][2] - rows[1][2] * rows[2][1]) +
-      rows[0][1] * (rows[1][2] * rows[2][0] - rows[1][0] * rows[2][2]) +
-      rows[0][2] * (rows[1][0] * rows[2][1] - rows[1][1] * rows[2][0]));
-  if (view.Parallel)
-  {
-    return 0.5 * determinant / direction;
-  }
-  // Van Oosterom and Strackee, The Solid Angle of a Plane Triangle, 1983.
-  const double lengths[3] = { std::sqrt(dot(0, 0)), std::sqrt(dot(1, 1)), std::sqrt(dot(2, 2)) };
-  return 2 *
-    std::atan2(determinant,
-      lengths[0] * lengths[1] * lengths[2] + dot(0, 1) * lengths[2] + dot(0, 2) * lengths[1] +
-        dot(1, 2) * lengths[0]);
-}
-
 /// An arrow between two cells of a cycle, by their places in it.
 struct CycleArrow
 {
@@ -69,7 +35,7 @@ class CycleBreaker
 public:
   /// cells: ascending.
   CycleBreaker(const VisibilityGeometry& geometry, const VisibilityView& view,
-    Span<const std::uint8_t> arrows, Span<const std::int32_t> cells)
+    Span<const std::uint8_t> arrows, const VisibilityGaps& gaps, Span<const std::int32_t> cells)
     : Cells(cells)
     , Into(cells.size())
     , From(cells.size())
@@ -80,26 +46,24 @@ public:
   {
     for (std::int32_t place = 0; place < static_cast<std::int32_t>(cells.size()); ++place)
     {
+      const std::int32_t cell = cells[place];
       for (int face = 0; face < 4; ++face)
       {
-        const std::int32_t behind =
-          geometry.Faces[4 * static_cast<std::int64_t>(cells[place]) + face].Cell;
-        const auto found = std::lower_bound(cells.begin(), cells.end(), behind);
-        if ((arrows[cells[place]] >> face & 1) == 0 || found == cells.end() || *found != behind)
+        if ((arrows[cell] >> face & 1) != 0)
         {
-          continue;
+          const auto corners = geometry.GetCorners(cell);
+          this->Add(place, geometry.Faces[4 * static_cast<std::int64_t>(cell) + face].Cell,
+            MeasureTriangle({ corners[face == 0 ? 1 : 0], corners[face <= 1 ? 2 : 1],
+                              corners[face == 3 ? 2 : 3] },
+              view));
         }
-        const auto corners = geometry.GetCorners(cells[place]);
-        const double size = MeasureTriangle(
-          { corners[face == 0 ? 1 : 0], corners[face <= 1 ? 2 : 1], corners[face == 3 ? 2 : 3] },
-          view);
-        const std::int32_t to = static_cast<std::int32_t>(found - cells.begin());
-        this->Into[to].push_back(static_cast<std::int32_t>(this->All.size()));
-        this->From[place].push_back(static_cast<std::int32_t>(this->All.size()));
-        this->All.push_back({ place, to, size, false, false });
-        this->Sizes[to] += size;
-        ++this->NumbersInto[to];
-        ++this->NumbersFrom[place];
+      }
+      if (!gaps.Cells.empty())
+      {
+        for (std::int32_t gap = gaps.Begins[cell]; gap < gaps.Begins[cell + 1]; ++gap)
+        {
+          this->Add(place, gaps.Cells[gap], gaps.Sizes[gap]);
+        }
       }
     }
   }
@@ -169,6 +133,22 @@ public:
   }
 
 private:
+  /// Adds an arrow if its target is in the cycle, too.
+  void Add(std::int32_t place, std::int32_t behind, double size)
+  {
+    const auto found = std::lower_bound(this->Cells.begin(), this->Cells.end(), behind);
+    if (found != this->Cells.end() && *found == behind)
+    {
+      const std::int32_t to = static_cast<std::int32_t>(found - this->Cells.begin());
+      this->Into[to].push_back(static_cast<std::int32_t>(this->All.size()));
+      this->From[place].push_back(static_cast<std::int32_t>(this->All.size()));
+      this->All.push_back({ place, to, size, false, false });
+      this->Sizes[to] += size;
+      ++this->NumbersInto[to];
+      ++this->NumbersFrom[place];
+    }
+  }
+
   /// Cells that nothing hides any more, or that hide nothing more, are on no cycle.
   void PlaceEnds()
   {
@@ -273,16 +253,16 @@ private:
 
 //----------------------------------------------------------------------------
 std::vector<std::int32_t> SortWithCycles(const VisibilityGeometry& geometry,
-  const VisibilityView& view, Span<const std::uint8_t> arrows, Span<const KeyedItem> roots,
-  VisibilityCycles& cycles)
+  const VisibilityView& view, Span<const std::uint8_t> arrows, const VisibilityGaps& gaps,
+  Span<const KeyedItem> roots, VisibilityCycles& cycles)
 {
   // Tarjan, Depth-First Search and Linear Graph Algorithms, 1972: the components that are strongly
   // connected, each once all that it hides was found.
   const std::int64_t numberOfCells = geometry.GetNumberOfCells();
-  constexpr std::int32_t Done = -1;                   // the component is known
-  std::vector<std::int32_t> visits(numberOfCells, 0); // ascending from 1; 0 where not visited
-  std::vector<std::int32_t> lowest(numberOfCells);    // visit that a path leads back to
-  std::vector<std::uint8_t> nextFace(numberOfCells, 0);
+  constexpr std::int32_t Done = -1;                      // the component is known
+  std::vector<std::int32_t> visits(numberOfCells, 0);    // ascending from 1; 0 where not visited
+  std::vector<std::int32_t> lowest(numberOfCells);       // visit that a path leads back to
+  std::vector<std::int32_t> nextArrow(numberOfCells, 0); // faces, then gaps
   std::vector<std::int32_t> path;
   std::vector<std::int32_t> open; // visited, and their component is not known
   std::vector<std::int32_t> order;
@@ -313,7 +293,7 @@ std::vector<std::int32_t> SortWithCycles(const VisibilityGeometry& geometry,
     {
       std::sort(begin, open.end());
       const Span<const std::int32_t> cells(&*begin, static_cast<std::size_t>(open.end() - begin));
-      CycleBreaker breaker(geometry, view, arrows, cells);
+      CycleBreaker breaker(geometry, view, arrows, gaps, cells);
       breaker.Break(cycles);
       breaker.Place(order);
       cycles.Cells.insert(cycles.Cells.end(), begin, open.end());
@@ -331,12 +311,20 @@ std::vector<std::int32_t> SortWithCycles(const VisibilityGeometry& geometry,
     while (!path.empty())
     {
       const std::int32_t cell = path.back();
-      if (nextFace[cell] < 4)
+      const std::int32_t numberOfGaps =
+        gaps.Cells.empty() ? 0 : gaps.Begins[cell + 1] - gaps.Begins[cell];
+      if (nextArrow[cell] < 4 + numberOfGaps)
       {
-        const int face = nextFace[cell]++;
-        const std::int32_t behind = (arrows[cell] >> face & 1) != 0
-          ? geometry.Faces[4 * static_cast<std::int64_t>(cell) + face].Cell
-          : -1;
+        const std::int32_t arrow = nextArrow[cell]++;
+        std::int32_t behind = -1;
+        if (arrow >= 4)
+        {
+          behind = gaps.Cells[gaps.Begins[cell] + arrow - 4];
+        }
+        else if ((arrows[cell] >> arrow & 1) != 0)
+        {
+          behind = geometry.Faces[4 * static_cast<std::int64_t>(cell) + arrow].Cell;
+        }
         if (behind >= 0 && visits[behind] == 0)
         {
           visit(behind);

@@ -4,6 +4,7 @@
 
 #include "RadixSort.h"
 #include "Span.h"
+#include "VisibilityGaps.h"
 #include "VisibilityGeometry.h"
 #include "VisibilityOrder.h"
 #include "VisibilityView.h"
@@ -21,11 +22,11 @@ namespace tetralux
 /// be had in reasonable time; this is Eades, Lin and Smyth, A Fast and Effective Heuristic for the
 /// Feedback Arc Set Problem, 1993, with weights.
 ///
-/// roots: cells to begin with, in this order, before those that are left; see VisibilityOrder.
+/// gaps: arrows across empty space, or none. roots: cells to begin with, in this order, before those that are left; see VisibilityOrder.
 /// Linear time, and n log n in the size of a cycle.
 std::vector<std::int32_t> SortWithCycles(const VisibilityGeometry& geometry,
-  const VisibilityView& view, Span<const std::uint8_t> arrows, Span<const KeyedItem> roots,
-  VisibilityCycles& cycles);
+  const VisibilityView& view, Span<const std::uint8_t> arrows, const VisibilityGaps& gaps,
+  Span<const KeyedItem> roots, VisibilityCycles& cycles);
 
 } // namespace tetralux
 

@@ -21,6 +21,8 @@ struct VisibilityGeometry
   Span<const std::int32_t> ImaginaryCells; ///< behind Cells
   Span<const WalkFace> Faces;              ///< of both
 
+  const WalkTables* Boundary = nullptr; ///< of the cells without imaginary ones
+
   /// All points in single precision, relative to Center in units of Radius.
   const WalkPoint<float>* RelativePoints = nullptr;
   std::array<double, 3> Center = { 0, 0, 0 };

@@ -5,6 +5,7 @@
 #include "RadixSort.h"
 #include "VisibilityArrows.h"
 #include "VisibilityCycles.h"
+#include "VisibilityGaps.h"
 #include "VisibilityGeometry.h"
 #include "WalkMesh.h"
 
@@ -158,6 +159,7 @@ VisibilityGeometry MakeGeometry(const WalkMesh& mesh, Span<const std::int32_t> i
   VisibilityGeometry geometry;
   geometry.Points = mesh.GetMesh().Points;
   geometry.Cells = mesh.GetMesh().Cells;
+  geometry.Boundary = &mesh.GetTables();
   geometry.RelativePoints = mesh.GetPoints<float>();
   std::copy_n(mesh.GetCenter(), 3, geometry.Center.begin());
   geometry.Radius = mesh.GetRadius();
@@ -308,6 +310,7 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
   const std::int64_t size =
     drawn.empty() ? ofMesh : ofMesh - std::count(drawn.begin(), drawn.end(), std::uint8_t{ 0 });
   this->Cycles = {};
+  this->UsedMethod = method;
   this->Order.resize(size);
 
   if (method == VisibilityMethod::CentroidDistance)
@@ -329,21 +332,31 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
   }
   tables.Arrows.Point(view, tables.States);
   Span<const KeyedItem> roots;
-  if (method == VisibilityMethod::MeshedNonConvex)
+  if (method != VisibilityMethod::Meshed)
   {
     tables.SortByDistance(
       view, [&](std::int64_t cell) { return (tables.States[cell] & EnteredCell) != 0; });
     roots = tables.KeyedCells;
   }
-  CellWriter write(this->Order, direction, ofMesh, drawn);
-  if (!tables.SortByFaces(roots, write))
+  VisibilityGaps gaps;
+  if (method == VisibilityMethod::MeshedAcrossGaps &&
+    !FindGaps(tables.Geometry, tables.Arrows, view, gaps))
   {
-    tables.Arrows.Point(view, tables.States);
-    for (const std::int32_t cell :
-      SortWithCycles(tables.Geometry, view, tables.States, roots, this->Cycles))
+    this->UsedMethod = VisibilityMethod::MeshedNonConvex;
+  }
+  CellWriter write(this->Order, direction, ofMesh, drawn);
+  if (gaps.Cells.empty())
+  {
+    if (tables.SortByFaces(roots, write))
     {
-      write(cell);
+      return this->Order;
     }
+    tables.Arrows.Point(view, tables.States);
+  }
+  for (const std::int32_t cell :
+    SortWithCycles(tables.Geometry, view, tables.States, gaps, roots, this->Cycles))
+  {
+    write(cell);
   }
   return this->Order;
 }

@@ -30,6 +30,13 @@ enum class VisibilityMethod
   /// is in front of it, or lies behind a part that is entered in several places.
   MeshedNonConvex,
 
+  /// Exact for any mesh: by common faces, and by pairs of boundary faces of which rays leave the mesh by
+  /// one and enter it by the other (VisibilityGaps.h). They are found anew for each view, which takes
+  /// several times what everything else takes; a mesh that can be made convex is ordered faster by
+  /// Meshed. As MeshedNonConvex, which GetUsedMethod tells, where there are more than 64 such pairs for
+  /// each boundary face.
+  MeshedAcrossGaps,
+
   /// By the distances of the cells' centroids: the fastest, and right for no pair of cells but by
   /// chance; equal distances in the order of the cells.
   CentroidDistance
@@ -50,8 +57,8 @@ struct VisibilityCycles
   std::vector<std::int32_t> Cells;
   std::vector<std::int64_t> Begins; ///< where each cycle begins in Cells, and the end of the last
 
-  /// Faces through which the order is wrong: rays through them meet the two cells in the other order.
-  /// Those that look smallest to the viewer are chosen, one by one.
+  /// Faces (and pairs of boundary faces, MeshedAcrossGaps) through which the order is wrong: rays through
+  /// them meet the two cells in the other order. Those that look smallest are chosen, one by one.
   std::int64_t IgnoredFaces = 0;
 
   /// How large the ignored faces look: their solid angle in a perspective view, their projected area
@@ -92,6 +99,9 @@ public:
   const std::vector<std::int32_t>& Sort(const VisibilityView& view, VisibilityMethod method,
     VisibilityDirection direction, Span<const std::uint8_t> drawn = {});
 
+  /// By which method the last Sort was made.
+  VisibilityMethod GetUsedMethod() const { return this->UsedMethod; }
+
   /// What kept the last Sort from being right. None by CentroidDistance, which does not look for them.
   const VisibilityCycles& GetCycles() const { return this->Cycles; }
 
@@ -105,6 +115,7 @@ private:
   class Internals;
   std::unique_ptr<Internals> Tables;
   VisibilityCycles Cycles;
+  VisibilityMethod UsedMethod = VisibilityMethod::Meshed;
   std::vector<std::int32_t> Order;
 };
 

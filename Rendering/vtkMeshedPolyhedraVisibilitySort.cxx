@@ -121,19 +121,34 @@ void vtkMeshedPolyhedraVisibilitySort::Sort()
     view.Direction[axis] = -eye[axis];
   }
 
-  auto method = tetralux::VisibilityMethod::CentroidDistance;
-  this->UsedOrder = this->Order;
-  if (this->Order != CENTROID_DISTANCE)
+  using Method = tetralux::VisibilityMethod;
+  Method method = Method::CentroidDistance;
+  if (this->Order == NON_CONVEX)
   {
-    const bool exact = this->Order == CONVEXIFIED && tables.Order->IsConvex();
-    this->UsedOrder = exact ? CONVEXIFIED : NON_CONVEX;
-    method =
-      exact ? tetralux::VisibilityMethod::Meshed : tetralux::VisibilityMethod::MeshedNonConvex;
+    method = Method::MeshedNonConvex;
+  }
+  else if (this->Order != CENTROID_DISTANCE)
+  {
+    method = tables.Order->IsConvex() ? Method::Meshed : Method::MeshedAcrossGaps;
   }
   const std::vector<std::int32_t>& order = tables.Order->Sort(view, method,
     this->Direction == FRONT_TO_BACK ? tetralux::VisibilityDirection::FrontToBack
                                      : tetralux::VisibilityDirection::BackToFront);
 
+  switch (tables.Order->GetUsedMethod())
+  {
+    case Method::Meshed:
+      this->UsedOrder = CONVEXIFIED;
+      break;
+    case Method::MeshedAcrossGaps:
+      this->UsedOrder = ACROSS_GAPS;
+      break;
+    case Method::MeshedNonConvex:
+      this->UsedOrder = NON_CONVEX;
+      break;
+    default:
+      this->UsedOrder = CENTROID_DISTANCE;
+  }
   tables.Sorted.resize(order.size());
   std::transform(order.begin(), order.end(), tables.Sorted.begin(),
     [&](std::int32_t cell) { return tables.GetInputCell(cell); });

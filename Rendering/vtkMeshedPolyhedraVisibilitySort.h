@@ -48,7 +48,10 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * CONVEXIFIED: exact, see above; where the mesh can't be made convex (GetRefusal), as NON_CONVEX.
+   * CONVEXIFIED: exact, see above; where the mesh can't be made convex (GetRefusal), as ACROSS_GAPS.
+   * ACROSS_GAPS: exact for any mesh, by all pairs of boundary faces of which rays leave the mesh by one
+   * and enter it by the other. They are found anew for each view, which takes several times what all
+   * else takes. Where there are more than 64 for each boundary face, as NON_CONVEX.
    * NON_CONVEX: Williams' MPVONC. Exact across the faces that cells have in common, and so for convex
    * meshes; across empty space a guess from the distances of centroids. No imaginary cells are made,
    * which takes seconds for a mesh with hundreds of thousands of boundary faces.
@@ -58,8 +61,9 @@ public:
   enum Orders
   {
     CONVEXIFIED = 0,
-    NON_CONVEX = 1,
-    CENTROID_DISTANCE = 2
+    ACROSS_GAPS = 1,
+    NON_CONVEX = 2,
+    CENTROID_DISTANCE = 3
   };
 
   ///@{
@@ -69,6 +73,7 @@ public:
   vtkSetClampMacro(Order, int, CONVEXIFIED, CENTROID_DISTANCE);
   vtkGetMacro(Order, int);
   void SetOrderToConvexified() { this->SetOrder(CONVEXIFIED); }
+  void SetOrderToAcrossGaps() { this->SetOrder(ACROSS_GAPS); }
   void SetOrderToNonConvex() { this->SetOrder(NON_CONVEX); }
   void SetOrderToCentroidDistance() { this->SetOrder(CENTROID_DISTANCE); }
   ///@}
@@ -86,7 +91,7 @@ public:
   ///@{
   /**
    * What the last InitTraversal found. Cycles: sets of cells that hide each other in a circle, over
-   * imaginary cells, too; ignored faces: those that are passed in the wrong direction to have an order
+   * imaginary cells, too; ignored faces (or pairs of them across a gap): those that are passed in the wrong direction to have an order
    * at all, and how large they look (in a perspective view their solid angle, in a parallel one their
    * projected area in units of the input). None with CENTROID_DISTANCE, which does not look for them.
    */

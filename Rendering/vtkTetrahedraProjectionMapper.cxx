@@ -70,6 +70,8 @@ const char* GetMethodName(VisibilityMethod method)
   {
     case VisibilityMethod::Meshed:
       return "meshed polyhedra";
+    case VisibilityMethod::MeshedAcrossGaps:
+      return "meshed polyhedra, across gaps";
     case VisibilityMethod::MeshedNonConvex:
       return "meshed polyhedra, not convex";
     default:
@@ -276,13 +278,18 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
   this->Sorted = !this->Scene.Commutes;
   if (this->Sorted)
   {
-    this->Method = this->ChooseMethod(frame);
+    const VisibilityMethod method = this->ChooseMethod(frame);
     const tetralux::Stopwatch stopwatch;
-    this->Order = this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
-      this->Method,
-      this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
-                              : tetralux::VisibilityDirection::BackToFront,
-      this->DrawnCells);
+    this->Order =
+      this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()), method,
+        this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
+                                : tetralux::VisibilityDirection::BackToFront,
+        this->DrawnCells);
+    this->Method = this->Sorter->GetUsedMethod();
+    this->WarnOfOrder(
+      this->Self->Order == EXACT_ORDER && this->Method == VisibilityMethod::MeshedNonConvex
+        ? mesh.GetConvexification()->Refusal
+        : "");
     frame.Seconds.emplace_back("order", stopwatch.GetSeconds());
     return;
   }
@@ -315,14 +322,12 @@ VisibilityMethod vtkTetrahedraProjectionMapper::Internals::ChooseMethod(MapperFr
     this->SorterIsConvex = exact;
     frame.Seconds.emplace_back("convexification", stopwatch.GetSeconds());
   }
-  const tetralux::Convexification* convex = mesh.GetConvexification();
-  this->WarnOfOrder(convex && this->Self->Order == EXACT_ORDER ? convex->Refusal : "");
-  if (this->Self->Order == CENTROID_ORDER)
+  if (exact)
   {
-    return VisibilityMethod::CentroidDistance;
+    return this->Sorter->IsConvex() ? VisibilityMethod::Meshed : VisibilityMethod::MeshedAcrossGaps;
   }
-  return exact && this->Sorter->IsConvex() ? VisibilityMethod::Meshed
-                                           : VisibilityMethod::MeshedNonConvex;
+  return this->Self->Order == NON_CONVEX_ORDER ? VisibilityMethod::MeshedNonConvex
+                                               : VisibilityMethod::CentroidDistance;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -334,7 +339,10 @@ void vtkTetrahedraProjectionMapper::Internals::WarnOfOrder(const std::string& re
     if (!refusal.empty())
     {
       vtkWarningWithObjectMacro(this->Self,
-        "the mesh can't be made convex, the order of its cells may be wrong: " << refusal);
+        "the mesh can't be made convex, and there are too many faces that rays may leave and enter "
+        "it "
+        "by: the order of its cells may be wrong: "
+          << refusal);
     }
   }
 }

@@ -91,8 +91,9 @@ public:
   /**
    * In which order cells are composited; see VisibilityOrder and vtkMeshedPolyhedraVisibilitySort, which
    * has the same orders for VTK's own mapper. EXACT_ORDER: by common faces, after the mesh was made
-   * convex by imaginary cells in the first frame (see vtkConvexifyTetrahedra); where it can't be, as
-   * NON_CONVEX_ORDER, and one warning says why. NON_CONVEX_ORDER: by common faces, and a guess across
+   * convex by imaginary cells in the first frame (see vtkConvexifyTetrahedra); where it can't be, by
+   * common faces, and by all pairs of boundary faces that rays leave and enter it by, which takes several
+   * times as long; where these are too many, as NON_CONVEX_ORDER, and one warning says why. NON_CONVEX_ORDER: by common faces, and a guess across
    * empty space (MPVONC of Williams 1992). CENTROID_ORDER: by distance of centroids, the fastest, and
    * wrong here and there. AUTOMATIC_ORDER (default): as EXACT_ORDER, without the warning. Cells that
    * hide each other in a cycle have no right order; GetStatistics() counts them. Optical models whose

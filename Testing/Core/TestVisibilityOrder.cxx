@@ -134,12 +134,13 @@ class VisibilityOrders : public ::testing::TestWithParam<MeshCase>
 {
 };
 
-TEST_P(VisibilityOrders, OfMeshesMadeConvexAreExact)
+TEST_P(VisibilityOrders, AreExact)
 {
   WalkMesh mesh(GenerateMesh(GetParam().Name, GetParam().Parameters).Mesh);
   mesh.MakeConvex();
   VisibilityOrder order(mesh);
   ASSERT_TRUE(order.IsConvex()) << mesh.GetConvexification()->Refusal;
+  VisibilityOrder plain(mesh, false);
   int number = 0;
   for (const VisibilityView& view : MakeViews(mesh.GetMesh()))
   {
@@ -156,6 +157,11 @@ TEST_P(VisibilityOrders, OfMeshesMadeConvexAreExact)
       std::reverse(back.begin(), back.end());
       EXPECT_EQ(front, back);
     }
+    const auto& acrossGaps = plain.Sort(view, VisibilityMethod::MeshedAcrossGaps, FrontToBack);
+    ExpectAllCells(acrossGaps, mesh.GetNumberOfCells());
+    EXPECT_EQ(plain.GetUsedMethod(), VisibilityMethod::MeshedAcrossGaps);
+    EXPECT_TRUE(FindWrongPairs(pairs, acrossGaps).empty());
+    EXPECT_EQ(plain.GetCycles().GetNumberOfCycles(), 0);
   }
 }
 
@@ -272,6 +278,33 @@ TEST(VisibilityOrder, GoesThroughFlatAndInvertedCells)
   }
 }
 
+/// Two boxes whose faces touch, and do not match.
+TEST(VisibilityOrder, IsExactAcrossContacts)
+{
+  TetrahedralMesh boxes = MakeBox(3, 3, 2, { 0, 0, 0 }, { 1, 1, 1 });
+  const TetrahedralMesh other = MakeBox(4, 4, 2, { -0.2, -0.2, 1 }, { 1.3, 1.3, 1.5 });
+  const std::int32_t first = static_cast<std::int32_t>(boxes.GetNumberOfPoints());
+  boxes.Points.insert(boxes.Points.end(), other.Points.begin(), other.Points.end());
+  for (const std::int32_t point : other.Cells)
+  {
+    boxes.Cells.push_back(first + point);
+  }
+  WalkMesh mesh(std::move(boxes));
+  mesh.MakeConvex();
+  EXPECT_FALSE(mesh.GetConvexification()->Refusal.empty());
+  VisibilityOrder order(mesh);
+  EXPECT_FALSE(order.IsConvex());
+  int number = 0;
+  for (const VisibilityView& view : MakeViews(mesh.GetMesh()))
+  {
+    SCOPED_TRACE("view " + std::to_string(++number));
+    const auto pairs = FindOccludedPairs(mesh.GetMesh(), view, 2, number);
+    const auto& front = order.Sort(view, VisibilityMethod::MeshedAcrossGaps, FrontToBack);
+    EXPECT_EQ(FindWrongPairs(pairs, front).size(), 0U);
+    EXPECT_EQ(order.GetCycles().GetNumberOfCycles(), 0);
+  }
+}
+
 TEST(VisibilityOrder, OrdersWhatIsDrawnByWhatIsNot)
 {
   WalkMesh mesh(GenerateMesh("random", { { "cells", 6 }, { "removed", 0 } }).Mesh);
@@ -282,8 +315,9 @@ TEST(VisibilityOrder, OrdersWhatIsDrawnByWhatIsNot)
     drawn[cell] = cell % 3 == 0;
   }
   const VisibilityView view = LookFrom({ 2, 3, 4 });
-  for (const VisibilityMethod method : { VisibilityMethod::Meshed,
-         VisibilityMethod::MeshedNonConvex, VisibilityMethod::CentroidDistance })
+  for (const VisibilityMethod method :
+    { VisibilityMethod::Meshed, VisibilityMethod::MeshedNonConvex,
+      VisibilityMethod::MeshedAcrossGaps, VisibilityMethod::CentroidDistance })
   {
     for (const VisibilityDirection direction : { FrontToBack, BackToFront })
     {
@@ -305,8 +339,9 @@ TEST(VisibilityOrder, DoesNotDependOnThreads)
   WalkMesh mesh(GenerateMesh("random", { { "cells", 20 } }).Mesh);
   mesh.MakeConvex();
   const VisibilityView view = LookFrom({ 2, 3, 4 });
-  for (const VisibilityMethod method : { VisibilityMethod::Meshed,
-         VisibilityMethod::MeshedNonConvex, VisibilityMethod::CentroidDistance })
+  for (const VisibilityMethod method :
+    { VisibilityMethod::Meshed, VisibilityMethod::MeshedNonConvex,
+      VisibilityMethod::MeshedAcrossGaps, VisibilityMethod::CentroidDistance })
   {
     std::vector<std::int32_t> expected;
     ForEachThreadCount(
@@ -341,7 +376,7 @@ TEST(VisibilityOrder, GuessesAcrossEmptySpace)
 TEST(VisibilityOrder, TakesAnyMesh)
 {
   const VisibilityMethod methods[] = { VisibilityMethod::Meshed, VisibilityMethod::MeshedNonConvex,
-    VisibilityMethod::CentroidDistance };
+    VisibilityMethod::MeshedAcrossGaps, VisibilityMethod::CentroidDistance };
   WalkMesh empty(TetrahedralMesh{});
   WalkMesh single(MakeCyclicTetrahedra(1));
   // All cells are flat.
@@ -420,16 +455,21 @@ TEST(VisibilityOrder, ReportsCycles)
     const VisibilityView view = parallel ? LookAlong({ 0, 0, -1 }) : LookFrom({ 0.01, 0.02, 30 });
     const auto pairs = FindOccludedPairs(mesh.GetMesh(), view, 1000, 1);
     ASSERT_EQ(pairs.size(), 3U);
-    const auto& front = order.Sort(view, VisibilityMethod::Meshed, FrontToBack);
-    ExpectAllCells(front, 3);
-    EXPECT_EQ(FindWrongPairs(pairs, front).size(), 1U);
-    const VisibilityCycles& cycles = order.GetCycles();
-    EXPECT_EQ(cycles.GetNumberOfCycles(), 1);
-    ASSERT_GE(cycles.Cells.size(), 3U);
-    EXPECT_EQ(std::vector<std::int32_t>(cycles.Cells.begin(), cycles.Cells.begin() + 3),
-      (std::vector<std::int32_t>{ 0, 1, 2 }));
-    EXPECT_GT(cycles.IgnoredFaces, 0);
-    EXPECT_GT(cycles.IgnoredArea, 0);
+    for (const VisibilityMethod method :
+      { VisibilityMethod::Meshed, VisibilityMethod::MeshedAcrossGaps })
+    {
+      VisibilityOrder order(mesh, method == VisibilityMethod::Meshed);
+      const auto& front = order.Sort(view, method, FrontToBack);
+      ExpectAllCells(front, 3);
+      EXPECT_EQ(FindWrongPairs(pairs, front).size(), 1U);
+      const VisibilityCycles& cycles = order.GetCycles();
+      EXPECT_EQ(cycles.GetNumberOfCycles(), 1);
+      ASSERT_GE(cycles.Cells.size(), 3U);
+      EXPECT_EQ(std::vector<std::int32_t>(cycles.Cells.begin(), cycles.Cells.begin() + 3),
+        (std::vector<std::int32_t>{ 0, 1, 2 }));
+      EXPECT_GT(cycles.IgnoredFaces, 0);
+      EXPECT_GT(cycles.IgnoredArea, 0);
+    }
   }
   // From the side there is an order.
   order.Sort(LookFrom({ 30, 5, 1 }), VisibilityMethod::Meshed, FrontToBack);

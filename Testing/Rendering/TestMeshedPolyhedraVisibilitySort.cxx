@@ -140,6 +140,10 @@ TEST(MeshedPolyhedraVisibilitySort, IsExactInTheWorld)
       EXPECT_EQ(sort->GetNumberOfCycles(), 0);
       EXPECT_STREQ(sort->GetRefusal(), "");
 
+      sort->SetOrderToAcrossGaps();
+      EXPECT_EQ(FindWrongPairs(pairs, GetCells(sort)).size(), 0U);
+      EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS);
+
       // The others are less exact, but not without sense.
       sort->SetOrderToNonConvex();
       const auto nonConvex = GetCells(sort);
@@ -258,7 +262,7 @@ TEST(MeshedPolyhedraVisibilitySort, ReportsWhatCanNotBeSorted)
   const auto crossingGrid = MakeGridWithoutField(crossing);
   sort->SetInput(crossingGrid);
   ExpectEachOnce(GetCells(sort), 2);
-  EXPECT_EQ(sort->GetUsedOrder(), Sort::NON_CONVEX);
+  EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS);
   EXPECT_STRNE(sort->GetRefusal(), "");
   EXPECT_EQ(errors.Count, 3);
 }
