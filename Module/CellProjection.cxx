@@ -301,12 +301,14 @@ public:
     if (this->Homogeneous)
     {
       const double height = this->Heights[i];
-      face = { normal.Z / height, normal.X / height, normal.Y / height };
+      const double inverse = 1 / height;
+      face = { normal.Z * inverse, normal.X * inverse, normal.Y * inverse };
       front = (height > 0) == (this->Volume > 0);
     }
     else
     {
-      face = { -this->Heights[i] / normal.Z, normal.X / normal.Z, normal.Y / normal.Z };
+      const double inverse = 1 / normal.Z;
+      face = { -this->Heights[i] * inverse, normal.X * inverse, normal.Y * inverse };
       front = (normal.Z > 0) == (this->Volume > 0);
     }
     return std::abs(face.Value) + std::abs(face.SlopeX) + std::abs(face.SlopeY) <= LargestSlope;
@@ -332,9 +334,10 @@ public:
   void FindField(const double values[4], const Linear& base, Linear& onBase, double& slope) const
   {
     Vector gradient = { 0, 0, 0 };
+    const double inverse = 1 / this->Volume;
     for (int i = 1; i < 4; ++i)
     {
-      const double share = (values[i] - values[0]) / this->Volume;
+      const double share = (values[i] - values[0]) * inverse;
       gradient.X += share * this->Normals[i].X;
       gradient.Y += share * this->Normals[i].Y;
       gradient.Z += share * this->Normals[i].Z;

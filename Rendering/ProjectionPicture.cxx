@@ -7,6 +7,7 @@
 #include "LargestPictureFS.h"
 #include "RayGridDec.h"
 #include "RayLimits.h"
+#include "SnapScalarDec.h"
 #include "Stopwatch.h"
 #include "VolumeScene.h"
 
@@ -275,6 +276,11 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
   const bool largest = model == OpticalModel::MaximumIntensity;
   const std::string cell = "int(cellData.x) * " + std::to_string(CellIdBase) + " + int(cellData.y)";
   shader.Segment = (pass == Pass::FirstDistances ? this->Pieces : this->Integral).GetDeclarations();
+  if (model == OpticalModel::Isosurfaces)
+  {
+    defines += "#define SURFACES\n";
+    shader.Segment += SnapScalarDec;
+  }
   switch (pass)
   {
     case Pass::Colors:

@@ -12,6 +12,7 @@
 //   LINEAR            a perspective, but without PERSPECTIVE: what limits rays has 1 / depth all the same
 //   GATHER            what two parts of a ray in the same cell add, of vec4 before and added, where CROPPED
 //   NOTHING           what adds nothing to that
+//   SURFACES          of constant scalar
 //   SHADED            lit: gradients are interpolated, too
 //   FIRST             the distance of the first contribution instead of what is contributed
 
@@ -177,6 +178,10 @@ vec4 AddPart(View view, float near, float far)
 #endif
   sNear = clamp(sNear, face0.w, face1.w);
   sFar = clamp(sFar, face0.w, face1.w);
+#ifdef SURFACES
+  sNear = SnapScalar(sNear);
+  sFar = SnapScalar(sFar);
+#endif
   float front = view.Sign > 0.0 ? sNear : sFar;
   float back = view.Sign > 0.0 ? sFar : sNear;
 #ifdef SHADED
