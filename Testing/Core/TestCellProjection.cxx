@@ -10,7 +10,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
+#include <vector>
+
+#include <omp.h>
 
 namespace tetralux
 {
@@ -299,6 +303,149 @@ TEST(CellProjection, ThinCells)
     EXPECT_GT(errors.Hits, 100);
     EXPECT_LT(errors.Length, 1e-3 * thickness + 5e-7) << thickness;
   }
+}
+
+// Cells around and behind the eye: what is in front of it is covered, and limited by the eye alone.
+TEST(CellProjection, CellsThatReachBehindTheEye)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const RayGrid grid =
+    MakePerspectiveGrid({ 0, 0, 0 }, { 0.1, 0.2, -1 }, { 0, 1, 0 }, 80, Size, Size);
+  Errors errors;
+  for (int k = 0; k < 200; ++k)
+  {
+    Tetrahedron cell;
+    for (Point& point : cell)
+    {
+      point = { uniform(random), uniform(random), uniform(random) };
+    }
+    // Covered is all that is asked for: the shader ends such rays by the near plane.
+    Compare(cell, { 0, 0, 0, 0 }, grid, errors, false);
+  }
+  EXPECT_GT(errors.Hits, 10000);
+}
+
+// A box of cells seen exactly along its edges: every ray's lengths add up to the depth of the box.
+TEST(CellProjection, RaysAlongFaces)
+{
+  const TetrahedralMesh mesh = MakeBox(4, 4, 3, { -1, -1, -1 }, { 1, 1, 1 });
+  // Pixels of 1 / 16, with centres on the faces.
+  const RayGrid grid =
+    MakeParallelGrid({ 1. / 32, 1. / 32, 3 }, { 1. / 32, 1. / 32, 0 }, { 0, 1, 0 }, 2, Size, Size);
+  const double center[3] = { 0, 0, 0 };
+  const ScreenFrame frame(grid, center, 2);
+  ProjectionSettings settings;
+  settings.Width = settings.Height = Size;
+  std::vector<ScreenPoint> points(mesh.GetNumberOfPoints());
+  frame.Project(mesh.Points, {}, 0, 1, points);
+  settings.Shift = FindShift(frame, settings, points, mesh.Cells);
+  EXPECT_GT(settings.Shift, 0);
+  EXPECT_LT(settings.Shift, 1e-4);
+  std::vector<std::int32_t> order(mesh.GetNumberOfCells());
+  std::iota(order.begin(), order.end(), 0);
+  ProjectedCells cells;
+  ProjectCells(frame, settings, points, mesh.Cells, order, CellData(), cells);
+  int covered = 0;
+  for (int j = 0; j < Size; ++j)
+  {
+    for (int i = 0; i < Size; ++i)
+    {
+      const Ray ray = MakeRay(grid, i, j);
+      const double outside = std::max(std::abs(ray.Origin[0]), std::abs(ray.Origin[1])) - 1;
+      if (std::abs(outside) < 1e-6)
+      {
+        continue; // along the hull
+      }
+      double sum = 0;
+      for (std::int64_t cell = 0; cell < cells.GetNumberOfCells(); ++cell)
+      {
+        sum += std::max(Shade(cells.Cells[cell], frame, true, grid, i, j).Length, 0.);
+      }
+      ASSERT_NEAR(sum, outside < 0 ? 2 : 0, 1e-4) << i << ", " << j;
+      covered += outside < 0;
+    }
+  }
+  EXPECT_GT(covered, 800);
+}
+
+TEST(CellProjection, BatchesDoNotDependOnThreads)
+{
+  const TetrahedralMesh mesh = MakeBox(20, 20, 20, { -1, -1, -1 }, { 1, 1, 1 }, 0.15);
+  const RayGrid grid = MakePerspective(2.5);
+  const double center[3] = { 0, 0, 0 };
+  const ScreenFrame frame(grid, center, 2);
+  ProjectionSettings settings;
+  settings.Width = settings.Height = Size;
+  std::vector<ScreenPoint> points(mesh.GetNumberOfPoints());
+  frame.Project(mesh.Points, {}, 0, 1, points);
+  std::vector<std::int32_t> order(mesh.GetNumberOfCells());
+  std::iota(order.rbegin(), order.rend(), 0);
+  CellData data;
+  data.Keys = data.Ids = true;
+  std::vector<ProjectedCells> results;
+  for (const int threads : { 1, 3 })
+  {
+    omp_set_num_threads(threads);
+    results.emplace_back();
+    ProjectCells(frame, settings, points, mesh.Cells, order, data, results.back());
+  }
+  omp_set_num_threads(omp_get_num_procs());
+  ASSERT_EQ(results[0].GetNumberOfCells(), results[1].GetNumberOfCells());
+  EXPECT_GT(results[0].GetNumberOfCells(), 30000);
+  EXPECT_EQ(results[0].Triangles, results[1].Triangles);
+  std::int32_t last = static_cast<std::int32_t>(mesh.GetNumberOfCells());
+  std::int64_t triangles = 0;
+  for (std::int64_t i = 0; i < results[0].GetNumberOfCells(); ++i)
+  {
+    const auto& own = results[0].Cells[i].Fourth.Own;
+    const auto cell =
+      static_cast<std::int32_t>(own[0]) * CellIdBase + static_cast<std::int32_t>(own[1]);
+    EXPECT_EQ(own[1], results[1].Cells[i].Fourth.Own[1]);
+    ASSERT_LT(cell, last); // in order
+    last = cell;
+  }
+  for (std::size_t t = 0; t < results[0].Triangles.size(); t += 3)
+  {
+    EXPECT_EQ(results[0].Triangles[t + 2] % 4, 0u); // the corner that has the data with it
+    triangles += 1;
+  }
+  EXPECT_LE(triangles, 2 * results[0].GetNumberOfCells());
+}
+
+TEST(ScreenFrame, LimitsThatCutNothingAreLeftOut)
+{
+  const TetrahedralMesh mesh = MakeBox(3, 3, 3, { -1, -1, -1 }, { 1, 1, 1 });
+  const RayGrid grid = MakePerspective(3);
+  const double center[3] = { 0, 0, 0 };
+  const ScreenFrame frame(grid, center, 2);
+  std::vector<ScreenPoint> points(mesh.GetNumberOfPoints());
+  frame.Project(mesh.Points, {}, 0, 1, points);
+  const std::vector<std::array<double, 4>> planes = { { 1, 0, 0, 1.5 }, { 0, 0, -1, 0.1 },
+    { 0, 1, 0, 2 } };
+  const ScreenFrame::Limits limits = frame.FindLimits(planes, points, mesh.Cells, {});
+  ASSERT_EQ(limits.Planes.size(), 1u);
+  ASSERT_EQ(limits.Cells.size(), mesh.GetNumberOfCells());
+  for (std::size_t cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
+  {
+    bool kept = false;
+    for (int k = 0; k < 4; ++k)
+    {
+      kept = kept || mesh.Points[3 * static_cast<std::size_t>(mesh.Cells[4 * cell + k]) + 2] <= 0.1;
+    }
+    EXPECT_EQ(limits.Cells[cell] != 0, kept);
+  }
+  // The side of the plane as a fragment sees it.
+  for (const double z : { -0.5, 0.5 })
+  {
+    const double place[3] = { 0.3, -0.2, z };
+    const ScreenPoint point = frame.Project(place, 0);
+    const ScreenPlane& plane = limits.Planes[0];
+    const double side = plane.X * (point.X - frame.GetMiddle()[0]) +
+      plane.Y * (point.Y - frame.GetMiddle()[1]) + plane.Constant + plane.Z / point.Depth;
+    EXPECT_EQ(side > 0, z < 0.1);
+  }
+  EXPECT_TRUE(frame.FindLimits({}, points, mesh.Cells, {}).Cells.empty());
 }
 
 } // namespace

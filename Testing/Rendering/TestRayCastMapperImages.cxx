@@ -16,6 +16,7 @@
 #include "vtkProperty.h"
 #include "vtkSphereSource.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraProjectionMapper.h"
 
 #include <cmath>
 #include <string>
@@ -93,6 +94,19 @@ void UseGPU(PipeScene& scene)
   scene.Volume->SetMapper(mapper);
 }
 
+// So does the one that projects tetrahedra.
+void UseProjection(PipeScene& scene)
+{
+  vtkNew<vtkTetrahedraProjectionMapper> mapper;
+  mapper->SetInputData(scene.Grid);
+  mapper->SetBlendMode(scene.Mapper->GetBlendMode());
+  mapper->SetClippingPlanes(scene.Mapper->GetClippingPlanes());
+  mapper->SetCropping(scene.Mapper->GetCropping());
+  mapper->SetCroppingRegionPlanes(scene.Mapper->GetCroppingRegionPlanes());
+  mapper->SetCroppingRegionFlags(scene.Mapper->GetCroppingRegionFlags());
+  scene.Volume->SetMapper(mapper);
+}
+
 TEST(RayCastMapperImages, PerspectiveWithGeometry)
 {
   PipeScene scene;
@@ -102,6 +116,8 @@ TEST(RayCastMapperImages, PerspectiveWithGeometry)
   scene.AddSphere(-0.9, 1.9, 0.6, 0.45);  // behind
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastGeometry", Tolerance));
   UseGPU(scene);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastGeometry", Tolerance));
+  UseProjection(scene);
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastGeometry", Tolerance));
 }
 
@@ -126,6 +142,8 @@ TEST(RayCastMapperImages, CameraInside)
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastInside", Tolerance));
   UseGPU(scene);
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastInside", Tolerance));
+  UseProjection(scene);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastInside", Tolerance));
 }
 
 // One mapper to each: the left one seen from above, and a background of its own.
@@ -141,6 +159,8 @@ TEST(RayCastMapperImages, TwoViewports)
   left->GetActiveCamera()->SetClippingRange(0.1, 20);
   scene.Window->AddRenderer(left);
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastViewports", Tolerance));
+  UseProjection(scene);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastViewports", Tolerance));
 }
 
 TEST(RayCastMapperImages, ClippingAndCropping)
@@ -153,6 +173,8 @@ TEST(RayCastMapperImages, ClippingAndCropping)
   scene.Mapper->CroppingOn();
   scene.Mapper->SetCroppingRegionPlanes(-0.2, 2, -2, 0.2, 0.6, 3);
   scene.Mapper->SetCroppingRegionFlags(0x7ffffff & ~0x2000); // all but the middle
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastClippingCropping", Tolerance));
+  UseProjection(scene);
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastClippingCropping", Tolerance));
 }
 
@@ -222,6 +244,8 @@ TEST(RayCastMapperImages, MaximumIntensity)
   PipeScene scene;
   scene.Mapper->SetBlendModeToMaximumIntensity();
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastMaximum", Tolerance));
+  UseProjection(scene);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastMaximum", Tolerance));
 }
 
 TEST(RayCastMapperImages, Additive)
@@ -253,6 +277,8 @@ TEST(RayCastMapperImages, ShadedIsosurfaces)
   values->SetValue(2, 0.6);
   scene.Volume->GetProperty()->ShadeOn();
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastIsosurfaces", Tolerance));
+  UseProjection(scene);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastIsosurfaces", Tolerance));
 }
 
 TEST(RayCastMapperImages, LitVolume)
@@ -260,6 +286,8 @@ TEST(RayCastMapperImages, LitVolume)
   PipeScene scene;
   scene.Volume->GetProperty()->ShadeOn();
   scene.Volume->GetProperty()->SetSpecularPower(30);
+  EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastLit", Tolerance));
+  UseProjection(scene);
   EXPECT_TRUE(tetralux::MatchesBaseline(scene.Window, "RayCastLit", Tolerance));
 }
 
