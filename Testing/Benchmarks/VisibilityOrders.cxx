@@ -103,11 +103,14 @@ void PrintSpeed(const ComparisonMesh& source, bool withVtk)
   VisibilityOrder plain(mesh, false);
   const double nonConvex = measure(plain, VisibilityMethod::MeshedNonConvex);
   const double centroids = measure(plain, VisibilityMethod::CentroidDistance);
+  const double acrossGaps = measure(plain, VisibilityMethod::MeshedAcrossGaps);
+  const bool tooMany = plain.GetUsedMethod() != VisibilityMethod::MeshedAcrossGaps;
   const double convexify = 1e3 * tetralux::MeasureBest(1, [&] { mesh.MakeConvex(); });
   VisibilityOrder order(mesh);
   const double meshed = measure(order, VisibilityMethod::Meshed);
-  std::printf("| %s | %.0f | %.1f | %.1f | %.1f | %s | %lld | %.0f | %.0f |\n", source.Name.c_str(),
-    prepare, meshed, nonConvex, centroids,
+  std::printf("| %s | %.0f | %.0f | %s | %.0f | %.0f | %s | %lld | %.0f | %.0f |\n",
+    source.Name.c_str(), prepare, meshed,
+    tooMany ? "too many" : std::to_string(std::lround(acrossGaps)).c_str(), nonConvex, centroids,
     withVtk ? std::to_string(std::lround(1e9 / cells * MeasureVtk(mesh, view))).c_str() : "",
     static_cast<long long>(mesh.GetConvexification()->GetNumberOfCells()), convexify,
     static_cast<double>(order.GetSize()) / cells);
@@ -121,7 +124,7 @@ void PrintErrors(const ComparisonMesh& source)
   VisibilityOrder exact(mesh);
   VisibilityOrder plain(mesh, false);
   std::size_t pairs = 0;
-  std::size_t wrong[4] = { 0, 0, 0, 0 };
+  std::size_t wrong[5] = {};
   std::int64_t cycles = 0;
   // From outside and from inside.
   for (const double distance : { 3.0, 1.2, 0.4 })
@@ -138,12 +141,13 @@ void PrintErrors(const ComparisonMesh& source)
     };
     count(exact, VisibilityMethod::Meshed);
     cycles += exact.GetCycles().GetNumberOfCycles();
+    count(plain, VisibilityMethod::MeshedAcrossGaps);
     count(plain, VisibilityMethod::MeshedNonConvex);
     count(plain, VisibilityMethod::Meshed);
     count(plain, VisibilityMethod::CentroidDistance);
   }
-  std::printf("| %s | %zu | %zu | %zu | %zu | %zu | %lld |\n", source.Name.c_str(), pairs, wrong[0],
-    wrong[1], wrong[2], wrong[3], static_cast<long long>(cycles));
+  std::printf("| %s | %zu | %zu | %zu | %zu | %zu | %zu | %lld |\n", source.Name.c_str(), pairs,
+    wrong[0], wrong[1], wrong[2], wrong[3], wrong[4], static_cast<long long>(cycles));
   std::fflush(stdout);
 }
 
@@ -154,9 +158,10 @@ int main(int argc, char* argv[])
   const double largest = argc > 1 ? std::atof(argv[1]) : 1.2e6;
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
-  std::printf(
-    "| mesh | prepared | faces, made convex | faces and a guess | centroids | VTK | "
-    "imaginary cells | ms to make them | bytes a cell |\n|---|---|---|---|---|---|---|---|---|\n");
+  std::printf("| mesh | prepared | faces, made convex | faces and gaps | faces and a guess | "
+              "centroids | VTK | "
+              "imaginary cells | ms to make them | bytes a cell "
+              "|\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (const ComparisonMesh& fin : tetralux::ReadBluntFin())
   {
     PrintSpeed(fin, true);
@@ -174,8 +179,8 @@ int main(int argc, char* argv[])
 
   omp_set_num_threads(threads);
   std::printf(
-    "\n| mesh | pairs | faces, made convex | faces and a guess | faces alone | centroids | "
-    "cycles |\n|---|---|---|---|---|---|---|\n");
+    "\n| mesh | pairs | faces, made convex | faces and gaps | faces and a guess | faces alone | "
+    "centroids | cycles |\n|---|---|---|---|---|---|---|---|\n");
   for (const ComparisonMesh& mesh : { MakeComparisonMesh("ball", { { "cells", 10 } }),
          MakeComparisonMesh("random", { { "cells", 7 } }),
          MakeComparisonMesh("random", { { "cells", 7 }, { "removed", 0.5 } }),

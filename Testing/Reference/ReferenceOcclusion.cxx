@@ -84,16 +84,17 @@ std::vector<OccludedPair> FindOccludedPairs(
     hi[i % 3] = std::max<Number>(hi[i % 3], mesh.Points[i]);
   }
   const Number diagonal = std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
-  const auto getCorners = [&](std::int32_t cell)
+  std::vector<std::array<Vector, 4>> cells(numberOfCells);
+  std::vector<Number> squaredRadii(numberOfCells); // about the first corners
+  for (std::int32_t cell = 0; cell < numberOfCells; ++cell)
   {
-    std::array<Vector, 4> corners;
     for (int i = 0; i < 4; ++i)
     {
-      corners[i] = GetPoint(mesh, mesh.Cells[4 * static_cast<std::size_t>(cell) + i]);
+      cells[cell][i] = GetPoint(mesh, mesh.Cells[4 * static_cast<std::size_t>(cell) + i]);
+      const Vector edge = cells[cell][i] - cells[cell][0];
+      squaredRadii[cell] = std::max(squaredRadii[cell], Dot(edge, edge));
     }
-    return corners;
-  };
-
+  }
   const Vector eye = { view.Eye[0], view.Eye[1], view.Eye[2] };
   std::vector<OccludedPair> pairs;
 #pragma omp parallel for schedule(dynamic, 8)
@@ -103,7 +104,7 @@ std::vector<OccludedPair> FindOccludedPairs(
     std::exponential_distribution<double> draw;
     std::vector<OccludedPair> found;
     std::vector<Part> parts;
-    const std::array<Vector, 4> corners = getCorners(through);
+    const std::array<Vector, 4>& corners = cells[through];
     for (int ray = 0; ray < raysPerCell; ++ray)
     {
       // Evenly distributed in the cell.
@@ -132,9 +133,16 @@ std::vector<OccludedPair> FindOccludedPairs(
         continue;
       }
       parts.clear();
+      const Vector along = { direction[0] / length, direction[1] / length, direction[2] / length };
       for (std::int32_t cell = 0; cell < numberOfCells; ++cell)
       {
-        Part part = Clip(getCorners(cell), view.Parallel ? target : eye, direction);
+        // Far away from the ray.
+        const Vector across = Cross(cells[cell][0] - target, along);
+        if (Dot(across, across) > 1.01L * squaredRadii[cell])
+        {
+          continue;
+        }
+        Part part = Clip(cells[cell], view.Parallel ? target : eye, direction);
         part.Begin = view.Parallel ? part.Begin : std::max<Number>(part.Begin, 0);
         if ((part.End - part.Begin) * length > ShortestPart * diagonal)
         {
