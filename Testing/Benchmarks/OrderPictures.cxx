@@ -2,12 +2,13 @@
 
 // What an order of cells that is not right does to the picture: vtkTetrahedraProjectionMapper, which
 // is exact but for the order, against vtkTetrahedraRayCastMapper in double precision; see
-// Module/Notes.md. The blunt fin takes part where the environment variable TETRALUX_DATA names its
-// folder.
+// Module/Notes.md. The blunt fin and the crushed can take part where the environment variable
+// TETRALUX_DATA names their folder.
 
 #include "ComparisonMeshes.h"
 #include "ImageComparison.h"
 #include "vtkHeadlessRenderWindow.h"
+#include "vtkTetrahedraIntake.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
@@ -26,9 +27,12 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+#include "vtkXMLUnstructuredGridReader.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string>
 #include <vector>
 
 namespace
@@ -62,14 +66,41 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(const ComparisonMesh& mesh)
   return grid;
 }
 
+/// The can, whose boundary goes through itself, with a field that is linear in space.
+std::vector<ComparisonMesh> ReadCan()
+{
+  const char* folder = std::getenv("TETRALUX_DATA");
+  if (!folder)
+  {
+    return {};
+  }
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((std::string(folder) + "/can.vtu").c_str());
+  reader->Update();
+  ComparisonMesh can;
+  can.Mesh = tetralux::TakeInTetrahedra(reader->GetOutput()).Mesh;
+  can.Name = "can " + std::to_string(can.Mesh.GetNumberOfCells());
+  for (std::size_t i = 0; i < can.Mesh.Points.size(); i += 3)
+  {
+    can.Scalars.push_back(can.Mesh.Points[i + 2] + 0.3 * can.Mesh.Points[i]);
+  }
+  const auto [lowest, highest] = std::minmax_element(can.Scalars.begin(), can.Scalars.end());
+  const double low = *lowest, range = *highest - *lowest;
+  for (double& scalar : can.Scalars)
+  {
+    scalar = (scalar - low) / range;
+  }
+  return { can };
+}
+
 /// One mesh in a window, drawn by one mapper after the other.
 class Scene
 {
 public:
-  explicit Scene(const ComparisonMesh& mesh)
+  Scene(const ComparisonMesh& mesh, double opticalDepth)
     : Grid(MakeGrid(mesh))
   {
-    // Red, green and blue in turns, up to an optical depth of ten across the mesh.
+    // Red, green and blue in turns.
     vtkNew<vtkColorTransferFunction> color;
     vtkNew<vtkPiecewiseFunction> opacity;
     for (int node = 0; node <= 12; ++node)
@@ -79,7 +110,8 @@ public:
     }
     this->Volume->GetProperty()->SetColor(color);
     this->Volume->GetProperty()->SetScalarOpacity(opacity);
-    this->Volume->GetProperty()->SetScalarOpacityUnitDistance(this->Grid->GetLength() / 10);
+    this->Volume->GetProperty()->SetScalarOpacityUnitDistance(
+      this->Grid->GetLength() / opticalDepth);
     this->Volume->GetProperty()->SetInterpolationTypeToLinear();
     this->Renderer->AddVolume(this->Volume);
     this->Window->SetMultiSamples(0);
@@ -114,9 +146,10 @@ private:
   vtkNew<vtkVolume> Volume;
 };
 
-void PrintRow(const ComparisonMesh& mesh)
+/// opticalDepth: across the whole mesh, where it is densest.
+void PrintRow(const ComparisonMesh& mesh, double opticalDepth = 10)
 {
-  Scene scene(mesh);
+  Scene scene(mesh, opticalDepth);
   vtkNew<vtkTetrahedraRayCastMapper> rays;
   rays->SetMaximumError(1e-6);
   rays->SetPrecisionToDouble();
@@ -143,7 +176,7 @@ void PrintRow(const ComparisonMesh& mesh)
 
 int main()
 {
-  std::printf("| mesh | faces, made convex | faces and a guess | centroids |\n|---|---|---|---|\n");
+  std::printf("| mesh | exact | faces and a guess | centroids |\n|---|---|---|---|\n");
   for (const ComparisonMesh& fin : tetralux::ReadBluntFin())
   {
     PrintRow(fin);
@@ -156,5 +189,10 @@ int main()
   PrintRow(MakeComparisonMesh("random", { { "cells", 16 }, { "removed", 0.5 } }));
   PrintRow(MakeComparisonMesh("schoenhardt", { { "cells", 2 } }));
   PrintRow(MakeComparisonMesh("cycle", { { "cells", 1 } }));
+  for (const ComparisonMesh& can : ReadCan())
+  {
+    PrintRow(can);
+    PrintRow(can, 100);
+  }
   return 0;
 }
