@@ -35,7 +35,6 @@ void main()
       TestEntry(frame, last, lastDistance);
     }
     float nearest = LargestFloat;
-    float alongLength = length(frame.Along);
     for (int node = 0; node < numberOfBoundaryNodes;)
     {
       vec4 box0 = texelFetch(boundaryBoxes, 2 * node);
@@ -43,8 +42,10 @@ void main()
       ivec2 link = texelFetch(boundaryLinks, node).xy;
       vec3 halfEdges = vec3(box0.w, box1);
       // The box projected to the bounds of its shadow, and its extent along the ray.
-      vec2 across = vec2(dot(frame.Across[0], vec4(box0.xyz, 1.0)), dot(frame.Across[1], vec4(box0.xyz, 1.0)));
-      vec2 reach = vec2(dot(abs(frame.Across[0].xyz), halfEdges), dot(abs(frame.Across[1].xyz), halfEdges));
+      vec4 middle = vec4(box0.xyz, 1.0);
+      vec2 across = vec2(dot(frame.Across[0], middle), dot(frame.Across[1], middle));
+      vec2 reach = vec2(
+        dot(abs(frame.Across[0].xyz), halfEdges), dot(abs(frame.Across[1].xyz), halfEdges));
       float along = dot(frame.Along, box0.xyz);
       float alongReach = dot(abs(frame.Along), halfEdges + AlongMargin);
       bool near = all(lessThanEqual(abs(across), reach)) && along - alongReach <= nearest &&
