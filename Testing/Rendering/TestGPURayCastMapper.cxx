@@ -370,6 +370,39 @@ TEST_P(GPURayCastMapperReentry, RaysAlongTheLattice)
   scene.ExpectReference();
 }
 
+// The middle of each picture is seen through two points of the mesh, one behind the other.
+TEST(GPURayCastMapper, RaysThroughPoints)
+{
+  GPUScene scene(33, 33);
+  tetralux::TetrahedralMesh mesh = tetralux::MakeBox(5, 4, 3, { 0, 0, 0 }, { 1, 1, 1 }, 0.3, 5);
+  for (double& x : mesh.Points)
+  {
+    x = std::round(64 * x) / 64; // exact in single precision, and many points in line with others
+  }
+  const std::vector<double> points = mesh.Points;
+  scene.SetMesh(std::move(mesh));
+  scene.ViewAngle = 12;
+  const std::size_t numberOfPoints = points.size() / 3;
+  for (std::size_t k = 0; k < 12; ++k)
+  {
+    SCOPED_TRACE(k);
+    const std::size_t a = 7 * k % numberOfPoints;
+    const std::size_t b = (31 * k + 40) % numberOfPoints;
+    Vector eye;
+    Vector focus;
+    for (int c = 0; c < 3; ++c)
+    {
+      focus[c] = points[3 * a + c];
+      eye[c] = focus[c] + 4 * (points[3 * b + c] - focus[c]);
+    }
+    ASSERT_NE(eye, focus);
+    scene.SetCamera(eye, focus, { 0.1, 0.3, 1 }, 0.01, 50);
+    scene.GPUMapper->SetReentry(k % 2 == 0 ? vtkTetrahedraGPURayCastMapper::BOUNDARY_HIERARCHY
+                                           : vtkTetrahedraGPURayCastMapper::BOUNDARY_LAYERS);
+    scene.ExpectProcessorsPicture(4); // that graze the hull
+  }
+}
+
 // Thin and thick cells together, the thin ones a millionth as thick; and attenuation so high that rays
 // end in a few of them.
 TEST(GPURayCastMapper, BoundaryLayers)
