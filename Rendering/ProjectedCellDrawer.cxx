@@ -3,6 +3,7 @@
 
 #include "ProjectedCellFS.h"
 #include "ProjectedCellVS.h"
+#include "ScreenProgram.h"
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -71,11 +72,22 @@ vtkShaderProgram* ProjectedCellDrawer::Use(vtkOpenGLRenderWindow* window, const 
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Dec", shader.Segment);
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Impl", shader.Output);
   vtkShaderProgram::Substitute(fragment, "//VTK::Dither::Impl", shader.Dither);
+  for (std::string* source : { &vertex, &fragment })
+  {
+    vtkShaderProgram::Substitute(*source, "//VTK::System::Dec", "#version 150\n");
+  }
+  if (fragment != this->Source)
+  {
+    CheckShader("ProjectedCellVS", vertex, true);
+    CheckShader("ProjectedCellFS", fragment, false);
+    this->Source = fragment;
+  }
   vtkShaderProgram* program =
     window->GetShaderCache()->ReadyShaderProgram(vertex.c_str(), fragment.c_str(), "");
   if (!program)
   {
-    throw std::runtime_error("the shader program that draws projected cells did not compile");
+    this->Source.clear();
+    throw std::runtime_error("the shader program that draws projected cells could not be linked");
   }
   if (program != this->Program)
   {
@@ -140,6 +152,7 @@ void ProjectedCellDrawer::ReleaseGraphicsResources(vtkWindow* window)
   this->Gradients->ReleaseGraphicsResources();
   this->Triangles->ReleaseGraphicsResources();
   this->Program = nullptr;
+  this->Source.clear();
   this->Window = nullptr;
   this->LargestBatch = 0;
 }

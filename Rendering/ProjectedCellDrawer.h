@@ -58,6 +58,7 @@ private:
   vtkNew<vtkOpenGLBufferObject> Gradients;
   vtkNew<vtkOpenGLBufferObject> Triangles;
   vtkShaderProgram* Program = nullptr; ///< the cache's
+  std::string Source;                  ///< of the fragment shader that was found to compile
   std::size_t LargestBatch = 0;
 };
 

@@ -11,9 +11,7 @@
 #include "Stopwatch.h"
 #include "VolumeScene.h"
 
-#include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
@@ -134,7 +132,7 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
   {
     this->Scalars.Prepare(window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));
     this->Last = this->DrawCells(Pass::LargestScalars, this->Scalars, scene, progress);
-    this->ClassifyLargest(scene);
+    this->ClassifyLargest();
   }
   else
   {
@@ -386,7 +384,7 @@ void ProjectionPicture::SetUniforms(vtkShaderProgram* program, const ProjectionS
   program->SetUniformi("croppingFlags", static_cast<int>(scene.CroppingFlags));
 }
 
-void ProjectionPicture::ClassifyLargest(const ProjectionScene& scene)
+void ProjectionPicture::ClassifyLargest()
 {
   vtkOpenGLState* state = this->Window->GetState();
   const DrawingState drawing(state);
@@ -394,19 +392,12 @@ void ProjectionPicture::ClassifyLargest(const ProjectionScene& scene)
   state->vtkglDisable(GL_BLEND);
   std::string fragment = LargestPictureFS;
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Dec", this->Integral.GetDeclarations());
-  static_cast<void>(scene);
-  this->Classifier =
-    std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, fragment.c_str(), "");
-  vtkShaderProgram* program = this->Classifier->Program;
-  if (!program || !this->Window->GetShaderCache()->ReadyShaderProgram(program))
-  {
-    this->Classifier.reset();
-    throw std::runtime_error("the shader program that classifies scalars did not compile");
-  }
+  vtkShaderProgram::Substitute(fragment, "//VTK::System::Dec", "#version 150\n");
+  vtkShaderProgram* program = this->Classifier.Use(this->Window, "LargestPictureFS", fragment);
   this->Integral.Activate(program);
   this->Scalars.GetTexture(0)->Activate();
   program->SetUniformi("largestScalars", this->Scalars.GetTexture(0)->GetTextureUnit());
-  this->Classifier->Render();
+  this->Classifier.Draw();
   this->Scalars.GetTexture(0)->Deactivate();
   this->Integral.Deactivate();
 }
@@ -450,7 +441,7 @@ void ProjectionPicture::ReleaseGraphicsResources(vtkWindow* window)
   this->Drawer.ReleaseGraphicsResources(window);
   this->Integral.ReleaseGraphicsResources(window);
   this->Pieces.ReleaseGraphicsResources(window);
-  this->Classifier.reset();
+  this->Classifier.ReleaseGraphicsResources(window);
   this->Window = nullptr;
 }
 

@@ -10,6 +10,7 @@
 #include "RayGrid.h"
 #include "RayGridUniforms.h"
 #include "ScreenFrame.h"
+#include "ScreenProgram.h"
 #include "Span.h"
 
 #include "vtkWeakPointer.h"
@@ -21,7 +22,6 @@
 #include <string>
 #include <vector>
 
-class vtkOpenGLQuadHelper;
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 class vtkTextureObject;
@@ -117,7 +117,7 @@ private:
     const std::function<bool(double)>& progress);
   ProjectedCellDrawer::Shader MakeShader(Pass pass, const ProjectionScene& scene) const;
   void SetUniforms(vtkShaderProgram* program, const ProjectionScene& scene) const;
-  void ClassifyLargest(const ProjectionScene& scene);
+  void ClassifyLargest();
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   FloatTarget Colors;
@@ -128,7 +128,7 @@ private:
   GpuSegmentIntegral Pieces; ///< in closed form, for the distances
   GpuLighting Lighting;
   std::optional<RayGridUniforms> Rays; ///< where there is light
-  std::unique_ptr<vtkOpenGLQuadHelper> Classifier;
+  ScreenProgram Classifier;
   ProjectedCells Cells;
   Result Last;
 };

@@ -15,15 +15,11 @@
 
 namespace tetralux
 {
-namespace
-{
 
-/// Compiles a source by itself, since VTK's cache prints a program that does not compile line by line
-/// and keeps the compiler's words to itself.
-void CheckSource(const std::string& name, const std::string& source, vtkShader::Type type)
+void CheckShader(const std::string& name, const std::string& source, bool ofVertices)
 {
   vtkNew<vtkShader> shader;
-  shader->SetType(type);
+  shader->SetType(ofVertices ? vtkShader::Vertex : vtkShader::Fragment);
   shader->SetSource(source);
   const bool compiled = shader->Compile();
   const std::string log = shader->GetError();
@@ -33,8 +29,6 @@ void CheckSource(const std::string& name, const std::string& source, vtkShader::
     throw std::runtime_error("the shader " + name + " does not compile: " + log);
   }
 }
-
-} // namespace
 
 ScreenProgram::ScreenProgram() = default;
 
@@ -46,10 +40,10 @@ vtkShaderProgram* ScreenProgram::Use(vtkOpenGLRenderWindow* window, const std::s
   if (this->Window != window || source != this->Source)
   {
     this->ReleaseGraphicsResources(this->Window);
-    CheckSource(name, source, vtkShader::Fragment);
+    CheckShader(name, source, false);
     if (!vertexSource.empty())
     {
-      CheckSource(name, vertexSource, vtkShader::Vertex);
+      CheckShader(name, vertexSource, true);
     }
     this->Window = window;
     this->Source = source;

@@ -17,6 +17,11 @@ class vtkWindow;
 namespace tetralux
 {
 
+/// Compiles a shader by itself, since VTK's cache prints a program that does not compile line by line and
+/// keeps the compiler's words to itself. Throws std::runtime_error with what the compiler says.
+TETRALUXRENDERING_EXPORT void CheckShader(
+  const std::string& name, const std::string& source, bool ofVertices);
+
 /// A fragment shader that is run for each pixel of the viewport, which it tells by gl_FragCoord, or for
 /// the triangles that a vertex shader makes of the numbers of their vertices. Belongs to one window's context, the
 /// last one.

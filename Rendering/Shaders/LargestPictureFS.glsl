@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colours for the largest scalars along rays.
 
-//VTK::Output::Dec
-
 //VTK::Segment::Dec
 
 uniform sampler2D largestScalars;
-in vec2 texCoord;
+
+out vec4 fragOutput0; // gl_FragData[0]
 
 void main()
 {
-  gl_FragData[0] = ClassifyLargest(texture(largestScalars, texCoord).x);
+  fragOutput0 = ClassifyLargest(texelFetch(largestScalars, ivec2(gl_FragCoord.xy), 0).x);
 }

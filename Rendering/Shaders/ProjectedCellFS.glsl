@@ -16,9 +16,9 @@
 //   SHADED            lit: gradients are interpolated, too
 //   FIRST             the distance of the first contribution instead of what is contributed
 
-//VTK::Output::Dec
-
 //VTK::Projection::Dec
+
+out vec4 fragOutput0; // gl_FragData[0]
 
 flat in vec4 base;   // on the least steep face, and the slope of the scalar behind it
 flat in vec4 face0;  // the three others, and the smallest and largest scalar
@@ -271,5 +271,5 @@ void main()
   vec4 color = AddPart(view, near, far);
 #endif
   //VTK::Dither::Impl
-  gl_FragData[0] = color;
+  fragOutput0 = color;
 }
