@@ -122,7 +122,7 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
   }
   else if (this->ByTable)
   {
-    this->Table.Update(window, *source.Table, source.TableVersion, source.HardwareFiltering);
+    this->Table.Update(window, *source.Table, source.TableVersion, source.FilterInShader);
   }
   else
   {

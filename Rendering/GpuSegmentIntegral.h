@@ -47,8 +47,9 @@ struct SegmentSource
   const PreIntegrationTable* Table = nullptr;
   std::uint64_t TableVersion = 0;
 
-  /// Let the graphics card interpolate in the table, see GpuSegmentTable.
-  bool HardwareFiltering = false;
+  /// Interpolate in the table by the shader even where the graphics card is right enough: for tests and
+  /// measurements of it.
+  bool FilterInShader = false;
 
   /// No segment is longer, world units. Where all of them are thin, the shader is without what thick
   /// ones need.

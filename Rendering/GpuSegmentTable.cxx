@@ -4,6 +4,8 @@
 #include "IntegrateTableDec.h"
 #include "ScalarBuckets.h"
 #include "ScalarBucketsDec.h"
+#include "TexelTextureFormat.h"
+#include "TextureFilterError.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -19,22 +21,6 @@ namespace tetralux
 {
 namespace
 {
-
-GLenum GetInternalFormat(TexelFormat format)
-{
-  switch (format)
-  {
-    case TexelFormat::UNorm8:
-      return GL_RGBA8;
-    case TexelFormat::UNorm16:
-      return GL_RGBA16;
-    case TexelFormat::Half:
-      return GL_RGBA16F;
-    case TexelFormat::Float:
-      break;
-  }
-  return GL_RGBA32F;
-}
 
 GLenum GetType(TexelFormat format)
 {
@@ -52,22 +38,49 @@ GLenum GetType(TexelFormat format)
   return GL_FLOAT;
 }
 
+/// The last place of a texel of 1: weights that are off by no more leave lookups as right as texels.
+double GetLastPlace(TexelFormat format)
+{
+  switch (format)
+  {
+    case TexelFormat::UNorm8:
+      return 1. / 255;
+    case TexelFormat::UNorm16:
+      return 1. / 65535;
+    case TexelFormat::Half:
+      return 1. / 2048;
+    case TexelFormat::Float:
+      break;
+  }
+  return 1. / (1 << 20); // of what coordinates are rounded to in a table of hundreds of texels
+}
+
 } // namespace
 
 GpuSegmentTable::GpuSegmentTable() = default;
 
 GpuSegmentTable::~GpuSegmentTable() = default;
 
+bool GpuSegmentTable::IsFilterExact(vtkOpenGLRenderWindow* window, TexelFormat format)
+{
+  double& error = this->FilterErrors[static_cast<int>(format)];
+  if (error < 0)
+  {
+    error = MeasureTextureFilterError(window, format);
+  }
+  return error <= GetLastPlace(format);
+}
+
 void GpuSegmentTable::Update(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table,
-  std::uint64_t version, bool hardwareFiltering)
+  std::uint64_t version, bool inShader)
 {
   if (this->Texture->GetContext() && this->Texture->GetContext() != window)
   {
     this->ReleaseGraphicsResources(this->Texture->GetContext());
     window->MakeCurrent();
   }
-  const int filter = hardwareFiltering ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
-  this->HardwareFiltering = hardwareFiltering;
+  this->HardwareFiltering = !inShader && this->IsFilterExact(window, table.Settings.Format);
+  const int filter = this->HardwareFiltering ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
   this->Texture->SetMinificationFilter(filter);
   this->Texture->SetMagnificationFilter(filter);
   if (this->Bytes > 0 && version == this->Version)
@@ -197,6 +210,7 @@ void GpuSegmentTable::ReleaseGraphicsResources(vtkWindow* window)
   if (this->Texture->GetContext() == window)
   {
     this->Texture->ReleaseGraphicsResources(window);
+    std::fill_n(this->FilterErrors, 4, -1.);
     this->Axis.ReleaseGraphicsResources(window);
     this->Buckets.ReleaseGraphicsResources(window);
     this->Bytes = 0;

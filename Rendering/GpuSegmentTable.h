@@ -27,12 +27,12 @@ public:
   GpuSegmentTable();
   ~GpuSegmentTable();
 
-  /// Sends the table to the graphics card, unless it has this version of it. hardwareFiltering: let the
-  /// graphics card interpolate, with weights of eight bits: each axis adds an error of 1 / 512 of the
-  /// change from a texel to the next. Throws std::runtime_error, with one line, where there is no room
-  /// for the table.
+  /// Sends the table to the graphics card, unless it has this version of it. Texels are interpolated by
+  /// the graphics card where that is as right as the texels themselves, see MeasureTextureFilterError;
+  /// else, or where inShader is true, in the shader. Throws std::runtime_error, with one line, where
+  /// there is no room for the table.
   void Update(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table,
-    std::uint64_t version, bool hardwareFiltering);
+    std::uint64_t version, bool inShader);
 
   std::string GetDeclarations() const;
 
@@ -47,6 +47,7 @@ public:
   void ReleaseGraphicsResources(vtkWindow* window);
 
 private:
+  bool IsFilterExact(vtkOpenGLRenderWindow* window, TexelFormat format);
   void UploadTexels(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table);
 
   vtkNew<vtkTextureObject> Texture;
@@ -58,6 +59,7 @@ private:
   bool UniformAxis = false;
   bool Logarithmic = false;
   bool HardwareFiltering = false;
+  double FilterErrors[4] = { -1, -1, -1, -1 }; ///< of each format; negative: not measured yet
   float FirstInterval[4] = { 0, 0, 0, 0 };
   float Size[3] = { 0, 0, 0 };
   float InverseDelta = 1;

@@ -113,8 +113,6 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
     this->Window = window;
   }
   SegmentSource source = MakeSegmentSource(*scene.Volume);
-  // As the paper has it, graphics cards interpolate in all but floating point tables.
-  source.HardwareFiltering = source.Table && source.Table->Settings.Format != TexelFormat::Float;
   source.LongestSegment = scene.Volume->GetLongestSegment(scene.Grid);
   source.Shaded = scene.Shaded;
   source.ConstantColor = source.ConstantColor && !scene.Shaded;

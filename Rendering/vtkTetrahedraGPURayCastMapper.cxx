@@ -354,9 +354,6 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   tetralux::SegmentSource source = tetralux::MakeSegmentSource(scene);
   source.LongestSegment = scene.GetLongestSegment(grid);
   source.Shaded = frame.Shaded;
-  // Weights of eight bits, where texels have no more.
-  source.HardwareFiltering =
-    source.Table && source.Table->Settings.Format == tetralux::TexelFormat::UNorm8;
   this->Integral.Update(frame.Window, source);
 }
 

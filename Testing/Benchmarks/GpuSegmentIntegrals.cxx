@@ -159,7 +159,7 @@ int main()
           source.TableVersion = ++version;
           for (const bool filtering : { false, true })
           {
-            source.HardwareFiltering = filtering;
+            source.FilterInShader = !filtering;
             Measure(window,
               std::string("table ") + (format == TexelFormat::Float ? "float" : "8 bit") +
                 (axis == ScalarAxis::Nodes ? " nodes" : " uniform") +

@@ -4,11 +4,13 @@
 #include "GlslEvaluator.h"
 #include "GpuSegmentIntegral.h"
 #include "IntervalTable.h"
+#include "OpenGLSnapshot.h"
 #include "PreIntegrationBuilder.h"
 #include "RayIntegral.h"
 #include "ScalarBuckets.h"
 #include "SegmentIntegral.h"
 #include "StabilityCases.h"
+#include "TextureFilterError.h"
 
 #include <gtest/gtest.h>
 
@@ -500,6 +502,7 @@ TEST_F(GpuSegmentIntegralTest, TablesAreInterpolatedAsTheirLookupDefines)
         source.Intervals = &intervals;
         source.Table = &table;
         source.TableVersion = ++version;
+        source.FilterInShader = true;
         const std::vector<Result> results = this->Integrate(source, segments);
         EXPECT_EQ(this->Integral.GetName(), "table");
         EXPECT_GE(this->Integral.GetNumberOfBytes(), table.GetNumberOfBytes());
@@ -519,9 +522,8 @@ TEST_F(GpuSegmentIntegralTest, TablesAreInterpolatedAsTheirLookupDefines)
         // Coordinates up to the sizes are numbers of single precision.
         EXPECT_LE(worst, 4e-6) << static_cast<int>(format) << logarithmic << uniform;
 
-        // Weights of eight bits are off by 1 / 512 along each axis, from texels in 0..1; and once
-        // more where a renderer rounds what it interpolates to the format.
-        source.HardwareFiltering = true;
+        // By the graphics card where that is off by a last place of the texels along each axis.
+        source.FilterInShader = false;
         const std::vector<Result> filtered = this->Integrate(source, segments);
         double difference = 0;
         for (std::size_t i = 0; i < segments.size(); ++i)
@@ -532,11 +534,28 @@ TEST_F(GpuSegmentIntegralTest, TablesAreInterpolatedAsTheirLookupDefines)
           }
         }
         std::cout << "format " << static_cast<int>(format) << ": error " << worst
-                  << ", with hardware filtering " << difference << " more\n";
-        EXPECT_LE(difference, 4. / 512);
+                  << ", filtered by the card " << difference << " more\n";
+        const double lastPlace[] = { 1. / 255, 1. / 65535, 1. / 2048, 1. / (1 << 20) };
+        EXPECT_LE(difference, 3 * lastPlace[static_cast<int>(format)]);
       }
     }
   }
+}
+
+TEST_F(GpuSegmentIntegralTest, InterpolationOfTheCardIsMeasured)
+{
+  const OpenGLSnapshot before = TakeOpenGLSnapshot(this->Evaluator.Window);
+  for (const tetralux::TexelFormat format :
+    { tetralux::TexelFormat::UNorm8, tetralux::TexelFormat::UNorm16, tetralux::TexelFormat::Half,
+      tetralux::TexelFormat::Float })
+  {
+    const double error = tetralux::MeasureTextureFilterError(this->Evaluator.Window, format);
+    std::cout << "format " << static_cast<int>(format) << ": " << error << "\n";
+    // Eight bits are what any card has.
+    EXPECT_LE(error, 1.01 / 256 + 1.01 / 512);
+    EXPECT_GE(error, 0);
+  }
+  EXPECT_EQ(FindDifferences(before, TakeOpenGLSnapshot(this->Evaluator.Window)), "");
 }
 
 TEST(ScalarBuckets, GiveTheIntervalAtTheirBegin)

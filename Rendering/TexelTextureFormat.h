@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_TexelTextureFormat_h
+#define tetralux_TexelTextureFormat_h
+
+#include "PreIntegrationTable.h"
+
+#include "vtk_glew.h"
+
+namespace tetralux
+{
+
+/// OpenGL's internal format of a texture with such texels.
+inline GLenum GetInternalFormat(TexelFormat format)
+{
+  switch (format)
+  {
+    case TexelFormat::UNorm8:
+      return GL_RGBA8;
+    case TexelFormat::UNorm16:
+      return GL_RGBA16;
+    case TexelFormat::Half:
+      return GL_RGBA16F;
+    case TexelFormat::Float:
+      break;
+  }
+  return GL_RGBA32F;
+}
+
+} // namespace tetralux
+
+#endif
