@@ -84,9 +84,10 @@ Piece TakePiece(inout SegmentWalk walk)
   piece.FrontColor = slopeColor.yzw + colorSlope * x0;
   piece.BackColor = slopeColor.yzw + colorSlope * x1;
 
-  walk.More = !last;
   walk.Length = tooLow ? walk.Length : walk.Length * ((back - end) * inverse);
   walk.FrontScalar = end;
   walk.Interval += tooLow || lo <= back ? 1 : -1;
+  // There is always an end: also where a compiler holds that nothing can be no number.
+  walk.More = !last && walk.Interval >= 0;
   return piece;
 }
