@@ -340,6 +340,15 @@ private:
 } // namespace
 
 //----------------------------------------------------------------------------
+bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors)
+{
+  Obstacle obstacle;
+  const BoundarySurface surface = FindBoundarySurface(mesh, neighbors, obstacle);
+  return obstacle.Reason.empty() &&
+    IsConvexSurface(ExactPoints(surface.Coordinates.data()), surface.Triangles);
+}
+
+//----------------------------------------------------------------------------
 Convexification Convexify(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors,
   const std::function<bool(double)>& progress)
 {

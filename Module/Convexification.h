@@ -83,6 +83,10 @@ struct Convexification
   }
 };
 
+/// Whether the boundary of a mesh is the whole of its convex hull: Convexification::Convex, alone. False
+/// for meshes that Convexify refuses. Exact; takes as long as finding the boundary.
+TETRALUXCORE_EXPORT bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors);
+
 /// Fills the space between the boundary of a mesh and its convex hull with imaginary cells.
 ///
 /// mesh: as RemoveUnusableCells leaves it; neighbors: what FindFaceNeighbors says of it. Cells may

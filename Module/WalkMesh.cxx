@@ -103,6 +103,18 @@ WalkMesh::WalkMesh(TetrahedralMesh mesh)
     MakeWalkTables(MakeFaces(this->Mesh.Cells, neighbors), this->Mesh.Cells, this->FloatPoints);
 }
 
+bool WalkMesh::IsConvex()
+{
+  if (!this->Convexity)
+  {
+    this->Convexity = this->Convex
+      ? this->Convex->Convex
+      : tetralux::IsConvex(
+          this->Mesh, FindFaceNeighbors(this->Mesh.Cells, this->Mesh.GetNumberOfPoints()));
+  }
+  return *this->Convexity;
+}
+
 void WalkMesh::MakeConvex(const std::function<bool(double)>& progress)
 {
   if (this->Convex)

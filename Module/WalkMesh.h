@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace tetralux
@@ -62,6 +63,9 @@ public:
   /// there; after an abort it may be tried again.
   void MakeConvex(const std::function<bool(double)>& progress = {});
 
+  /// Whether a ray that left the mesh never enters it again: tetralux::IsConvex, kept.
+  bool IsConvex();
+
   /// What MakeConvex did; nullptr before it. Ids are those of GetMesh().
   const Convexification* GetConvexification() const { return this->Convex.get(); }
 
@@ -100,6 +104,7 @@ private:
   std::vector<double> SteinerPoints; ///< behind the points of the mesh in the tables
   std::unique_ptr<Convexification> Convex;
   WalkTables ConvexTables;
+  std::optional<bool> Convexity;
 };
 
 } // namespace tetralux

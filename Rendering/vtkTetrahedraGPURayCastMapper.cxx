@@ -290,6 +290,10 @@ const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTabl
   }
   const tetralux::WalkTables* visible =
     reentry == GpuReentry::None ? nullptr : scene.GetVisibleTables();
+  if (!visible && this->Self->Reentry == AUTOMATIC_REENTRY && mesh->IsConvex())
+  {
+    reentry = GpuReentry::None;
+  }
   return visible ? visible : &mesh->GetTables();
 }
 

@@ -48,9 +48,9 @@ public:
    * eye. Through imaginary cells between the mesh and its convex hull (Weiler et al. 2003, section 3.4,
    * see vtkConvexifyTetrahedra), which are made in the first frame that needs them, and which
    * transparent cells are not left out with. Or not again at all, which is right for convex meshes only.
-   * Each of them decides by the same exact signs as the walk. Automatic (default) is
-   * BOUNDARY_HIERARCHY. A mesh that can't be made convex is entered by its boundary, and one warning
-   * says why.
+   * Each of them decides by the same exact signs as the walk. Automatic (default): not again where the
+   * mesh is convex and all of it is walked through, else by the hierarchy. A mesh that can't be made
+   * convex is entered by its boundary, and one warning says why.
    */
   vtkSetClampMacro(Reentry, int, AUTOMATIC_REENTRY, NO_REENTRY);
   vtkGetMacro(Reentry, int);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WalkMesh.h"
 
+#include "GeneratedMeshes.h"
 #include "ReferenceScenes.h"
 
 #include <gtest/gtest.h>
@@ -238,6 +239,17 @@ TEST(WalkMesh, TableSizeIsBounded)
   const std::size_t before = mesh.GetTableSize();
   mesh.SetPointScalars<double>(std::vector<double>(points, 0.), 0, 1);
   EXPECT_EQ(mesh.GetTableSize(), before + 32 * points);
+}
+
+TEST(WalkMesh, Convexity)
+{
+  EXPECT_TRUE(WalkMesh(tetralux::MakeBox(4, 3, 2, { 0, 0, 0 }, { 1, 1, 1 }, 0.15)).IsConvex());
+  WalkMesh pipe(tetralux::GenerateMesh(
+    "cylinder-with-hole", { { "across", 1 }, { "around", 8 }, { "along", 2 } })
+                  .Mesh);
+  EXPECT_FALSE(pipe.IsConvex());
+  pipe.MakeConvex();
+  EXPECT_FALSE(pipe.IsConvex());
 }
 
 } // namespace

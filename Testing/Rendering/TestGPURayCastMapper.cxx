@@ -216,7 +216,8 @@ TEST(GPURayCastMapper, ReentryGivesTheSamePicture)
   // A box is convex.
   GPUScene box;
   for (const int reentry :
-    { vtkTetrahedraGPURayCastMapper::NO_REENTRY, vtkTetrahedraGPURayCastMapper::IMAGINARY_CELLS })
+    { vtkTetrahedraGPURayCastMapper::NO_REENTRY, vtkTetrahedraGPURayCastMapper::IMAGINARY_CELLS,
+      vtkTetrahedraGPURayCastMapper::AUTOMATIC_REENTRY })
   {
     box.GPUMapper->SetReentry(reentry);
     box.ExpectProcessorsPicture();
