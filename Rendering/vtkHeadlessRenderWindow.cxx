@@ -296,7 +296,7 @@ void vtkHeadlessRenderWindow::MakeCurrent()
   this->Initialize();
   if (this->Context && !this->Context->MakeCurrent())
   {
-    vtkErrorMacro("eglMakeCurrent failed with error 0x" << std::hex << eglGetError());
+    vtkErrorMacro("eglMakeCurrent failed with error " << eglGetError());
   }
 }
 

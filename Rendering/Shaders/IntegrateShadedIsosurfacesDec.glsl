@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lit surfaces that a segment crosses, composited front to back: each by the light where it is crossed.
-// Needs LightingDec.glsl and IsosurfacesDec.glsl.
+// Lit surfaces that a segment crosses, composited front to back: each by the light where it is
+// crossed. Needs LightingDec.glsl and IsosurfacesDec.glsl.
 
 vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradient,
   vec3 backGradient, vec3 frontPoint, vec3 backPoint, vec3 direction)

@@ -45,8 +45,8 @@ float GetLengthCoordinate(float len)
 {
   float y = len * tableInverseDelta;
 #ifdef LOGARITHMIC_LENGTHS
-  // The exponent counts doublings, the mantissa is the way through one. Logarithm and power may be off
-  // by their last bits.
+  // The exponent counts doublings, the mantissa is the way through one. Logarithm and power may be
+  // off by their last bits.
   float above = max(y, 1.0);
   float exponent = floor(log2(above));
   float mantissa = above * exp2(-exponent);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What lights make of a colour, as FindLight of SurfaceShading.h: ambient and diffuse light times the
-// colour, and Blinn's specular light, in the world. Points and directions are those of rays, in radii
-// of the mesh from its centre; gradients are in coordinates of the mesh, of any length.
+// What lights make of a colour, as FindLight of SurfaceShading.h: ambient and diffuse light times
+// the colour, and Blinn's specular light, in the world. Points and directions are those of rays, in
+// radii of the mesh from its centre; gradients are in coordinates of the mesh, of any length.
 // NUMBER_OF_LIGHTS is how many lights there are.
 
 uniform mat3 worldFromRay;  // world lengths from the centre of the mesh
 uniform mat3 normalFromMesh; // of the world, times any factor
 uniform float specularPower;
 #if NUMBER_OF_LIGHTS > 0
-uniform vec4 lightPositions[NUMBER_OF_LIGHTS]; // from the centre of the mesh and 1; of a distant light
-                                               // the direction towards it and 0
+uniform vec4 lightPositions[NUMBER_OF_LIGHTS]; // from the centre of the mesh and 1; of a distant
+                                               // light the direction towards it and 0
 uniform vec4 lightCones[NUMBER_OF_LIGHTS];     // axis of a spot, cosine of half its cone
 uniform vec4 lightFalloffs[NUMBER_OF_LIGHTS];  // coefficients of the distance, exponent of a spot
 uniform vec3 lightAmbient[NUMBER_OF_LIGHTS];   // all times the material's
@@ -51,7 +51,8 @@ LightFactors FindLight(vec3 point, vec3 gradient, vec3 direction)
     toLight = distance > 0.0 ? toLight / distance : vec3(0.0);
     vec4 falloff = lightFalloffs[light];
     vec4 cone = lightCones[light];
-    float share = distance > 0.0 ? 1.0 / (falloff.x + distance * (falloff.y + distance * falloff.z)) : 0.0;
+    float share = 1.0 / (falloff.x + distance * (falloff.y + distance * falloff.z));
+    share = distance > 0.0 ? share : 0.0;
     float spot = -dot(toLight, cone.xyz);
     share *= cone.w <= -1.0 ? 1.0 : spot >= cone.w ? pow(max(spot, 1e-30), falloff.w) : 0.0;
     share = positional ? share : 1.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which parts of a ray count: between planes, in front of opaque geometry, in the regions that
-// cropping keeps. Needs RayGridDec.glsl. Specialised by OPAQUE_GEOMETRY and CROPPING, and NUMBER_OF_PARTS
-// is how many parts a ray may have.
+// cropping keeps. Needs RayGridDec.glsl. Specialised by OPAQUE_GEOMETRY and CROPPING, and
+// NUMBER_OF_PARTS is how many parts a ray may have.
 
 // No distance is larger.
 const float Farthest = 3.402823e38;
@@ -19,7 +19,8 @@ float GetOpaqueDistance(Ray ray, vec2 pixel)
   float depth = texelFetch(opaqueDepth, ivec2(pixel * opaquePixels), 0).x;
   vec2 p = pixel - rayMiddle;
   // By the distance from depth 1, near which most depths are: there it is exact.
-  vec4 place = opaqueFar[0] + p.x * opaqueFar[1] + p.y * opaqueFar[2] + (1.0 - depth) * opaqueNearer;
+  vec4 farthest = opaqueFar[0] + p.x * opaqueFar[1] + p.y * opaqueFar[2];
+  vec4 place = farthest + (1.0 - depth) * opaqueNearer;
   float along = dot(place.xyz / place.w - ray.Point, ray.Direction);
   return depth < 1.0 ? along / dot(ray.Direction, ray.Direction) : Farthest;
 }
@@ -81,8 +82,8 @@ vec2 CropRay(Ray ray, vec2 limits, int part)
 }
 #endif
 
-// World distances from the ray's point between which a part of it is, 0..NUMBER_OF_PARTS - 1, front to
-// back; the first is larger than the second where there is none.
+// World distances from the ray's point between which a part of it is, 0..NUMBER_OF_PARTS - 1, front
+// to back; the first is larger than the second where there is none.
 vec2 GetRayPart(Ray ray, vec2 pixel, int part)
 {
   vec2 limits = LimitRay(ray, pixel);

@@ -3,9 +3,10 @@
 // SegmentIntegral.h, whose derivation and whose thin form this has.
 //
 // An optical depth beyond the thin form is cut into parts that are ThinDepth thick, instead of
-// taking Dawson's function and erfcx: sums and products alone, besides the places of the cuts, whose
-// rounding does not matter. So the error is the same on every graphics card, and a software renderer,
-// which runs both sides of every branch, does not pay for functions that few segments need.
+// taking Dawson's function and erfcx: sums and products alone, besides the places of the cuts,
+// whose rounding does not matter. So the error is the same on every graphics card, and a software
+// renderer, which runs both sides of every branch, does not pay for functions that few segments
+// need.
 
 // Optical depth over length at most; squares of it must be finite. The colour is all from the front
 // end long before.
@@ -42,8 +43,9 @@ float GetOpacity(float depth)
   return depth <= ThinDepth ? thin : 1.0 - exp2(-1.44269504 * depth); // 1 / ln 2
 }
 
-// What the colours at the front and the back end of a segment add up with; their sum is the opacity.
-// d0, d1: attenuation at its ends times its length, 0..LargestDepth, for (d0 + d1) / 2 <= ThinDepth.
+// What the colours at the front and the back end of a segment add up with; their sum is the
+// opacity. d0, d1: attenuation at its ends times its length, 0..LargestDepth, for (d0 + d1) / 2 <=
+// ThinDepth.
 vec2 WeighThinSegment(float d0, float d1)
 {
   float depth = 0.5 * (d0 + d1);

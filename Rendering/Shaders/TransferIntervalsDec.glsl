@@ -9,10 +9,12 @@
 //     ...
 //   } while (walk.More);
 //
-// with the test at the end: a software renderer runs a loop's body once more where it is at the begin.
+// with the test at the end: a software renderer runs a loop's body once more where it is at the
+// begin.
 
 // Three texels for each interval, as IntervalTable has them: Lo, Hi, Reference, Attenuation;
-// AttenuationSlope, Color; ColorSlope. The first one begins and the last one ends beyond all scalars.
+// AttenuationSlope, Color; ColorSlope. The first one begins and the last one ends beyond all
+// scalars.
 uniform samplerBuffer transferIntervals;
 uniform isamplerBuffer transferBuckets;
 
@@ -70,8 +72,8 @@ Piece TakePiece(inout SegmentWalk walk)
   bool tooLow = hi < front || (hi == front && front <= back);
   bool last = !tooLow && lo <= back && back <= hi;
   float end = tooLow ? front : clamp(back, lo, hi);
-  // By the scalar that is left, not by that from the start of the segment: however narrow an interval
-  // is, its length keeps its relative accuracy.
+  // By the scalar that is left, not by that from the start of the segment: however narrow an
+  // interval is, its length keeps its relative accuracy.
   float inverse = 1.0 / (front == back ? 1.0 : back - front);
   float len = last ? walk.Length : walk.Length * ((end - front) * inverse);
 
