@@ -272,6 +272,7 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
   const bool largest = model == OpticalModel::MaximumIntensity;
   const std::string cell = "int(cellData.x) * " + std::to_string(CellIdBase) + " + int(cellData.y)";
   shader.Segment = (pass == Pass::FirstDistances ? this->Pieces : this->Integral).GetDeclarations();
+  defines += scene.Dither ? "#define KEYS\n" : "";
   if (model == OpticalModel::Isosurfaces)
   {
     defines += "#define SURFACES\n";

@@ -12,6 +12,7 @@
 //   LINEAR            a perspective, but without PERSPECTIVE: what limits rays has 1 / depth all the same
 //   GATHER            what two parts of a ray in the same cell add, of vec4 before and added, where CROPPED
 //   NOTHING           what adds nothing to that
+//   KEYS              each cell's code has a key with it
 //   SURFACES          of constant scalar
 //   SHADED            lit: gradients are interpolated, too
 //   FIRST             the distance of the first contribution instead of what is contributed
@@ -215,7 +216,11 @@ vec4 Gather(vec4 before, vec4 added)
 void main()
 {
   vec2 d = gl_FragCoord.xy - place.xy;
+#ifdef KEYS
   float code = mod(place.z, 8.0);
+#else
+  float code = place.z;
+#endif
   float entries = code >= 4.0 ? code - 4.0 : code;
   float rayLength =
     length(rayDirection + (gl_FragCoord.x - 0.5) * rayStepX + (gl_FragCoord.y - 0.5) * rayStepY);
