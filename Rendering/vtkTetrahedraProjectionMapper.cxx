@@ -37,6 +37,9 @@ using tetralux::VolumeScene;
 namespace
 {
 
+/// Share of MaximumError that compositing in 16-bit floats may take.
+constexpr double BufferErrorShare = 0.25;
+
 /// Rounding of each sum of colours in a format.
 double GetRounding(ChannelFormat format)
 {
@@ -49,6 +52,14 @@ double GetRounding(ChannelFormat format)
     default:
       return 0.5 * std::numeric_limits<float>::epsilon();
   }
+}
+
+/// Error of a channel by adding up what the cells along a ray contribute.
+double EstimateSummationError(const VolumeScene& volume, ChannelFormat format)
+{
+  // A ray goes through at most some four cells for each that lie side by side along the mesh.
+  const double layers = 4 * std::cbrt(static_cast<double>(volume.GetMesh()->GetNumberOfCells()));
+  return layers * GetRounding(format);
 }
 
 const char* GetFormatName(ChannelFormat format)
@@ -134,6 +145,7 @@ private:
   void PrepareOrder(MapperFrame& frame);
   VisibilityMethod ChooseMethod(MapperFrame& frame);
 
+  ChannelFormat ChooseFormat(const VolumeScene& volume) const;
   void Describe(MapperFrame& frame);
   void WarnOfOrder(const std::string& refusal);
 
@@ -207,9 +219,7 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   scene.Grid = frame.MakeGrid(rays);
   scene.Interpolate = this->Self->PerspectiveInterpolation != 0;
   scene.Dither = this->Self->AlphaDithering && this->Self->ColorBuffer == UNORM8_BUFFER;
-  scene.Format = this->Self->ColorBuffer == UNORM8_BUFFER ? ChannelFormat::UNorm8
-    : this->Self->ColorBuffer == HALF_BUFFER              ? ChannelFormat::Half
-                                                          : ChannelFormat::Float;
+  scene.Format = this->ChooseFormat(volume);
   scene.FrontToBack = scene.Format == ChannelFormat::Float;
 
   scene.Shaded = frame.Shaded;
@@ -267,6 +277,26 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
       scene.OpaquePlaces[k][1] = static_cast<float>(depth[1]);
     }
     frame.Seconds.emplace_back("depth_buffer", depthStopwatch.GetSeconds());
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(
+  const VolumeScene& volume) const
+{
+  switch (this->Self->ColorBuffer)
+  {
+    case FLOAT_BUFFER:
+      return ChannelFormat::Float;
+    case HALF_BUFFER:
+      return ChannelFormat::Half;
+    case UNORM8_BUFFER:
+      return ChannelFormat::UNorm8;
+    default:
+      return EstimateSummationError(volume, ChannelFormat::Half) <=
+          BufferErrorShare * this->Self->MaximumError
+        ? ChannelFormat::Half
+        : ChannelFormat::Float;
   }
 }
 
@@ -353,7 +383,6 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   VolumeScene& volume = *frame.Scene;
   const tetralux::ProjectionScene& scene = this->Scene;
   const tetralux::ProjectionPicture::Result& drawn = this->Picture.GetLastResult();
-  const auto cells = static_cast<double>(volume.GetMesh()->GetNumberOfCells());
 
   JsonObject section;
   section.Set("width", scene.Grid.Width);
@@ -377,11 +406,10 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   }
   frame.Sections.emplace_back("projection", section);
 
-  // A ray goes through at most some four cells for each that lie side by side along the mesh.
-  const double layers = 4 * std::cbrt(cells);
   constexpr double SegmentError = 5e-7; // SegmentWeightError
   frame.Errors = { { "integrals", SegmentError },
-    { "summation", layers * GetRounding(scene.Format) }, { "table", volume.GetTableError() },
+    { "summation", EstimateSummationError(volume, scene.Format) },
+    { "table", volume.GetTableError() },
     { "geometry", volume.EstimateGeometryError(volume.GetWorldRadius(scene.Grid)) } };
 
   frame.LeaveOut(!this->Sorted, "order", "what cells add commutes");

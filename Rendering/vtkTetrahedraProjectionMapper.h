@@ -53,16 +53,20 @@ public:
   {
     FLOAT_BUFFER,
     HALF_BUFFER,
-    UNORM8_BUFFER
+    UNORM8_BUFFER,
+    AUTOMATIC_BUFFER
   };
 
   ///@{
   /**
    * What colours are composited in, by the hardware's blending (section 4.1 of the paper): 32-bit
-   * floats (default), 16-bit floats, or 8 bits a channel.
+   * floats, 16-bit floats, or 8 bits a channel. Automatic (default): 16-bit floats where their rounding
+   * stays within a quarter of MaximumError, else 32-bit floats. 32-bit floats are composited front to
+   * back, which keeps the smallest opacities; the others back to front, where rounding does less harm.
    */
-  vtkSetClampMacro(ColorBuffer, int, FLOAT_BUFFER, UNORM8_BUFFER);
+  vtkSetClampMacro(ColorBuffer, int, FLOAT_BUFFER, AUTOMATIC_BUFFER);
   vtkGetMacro(ColorBuffer, int);
+  void SetColorBufferToAutomatic() { this->SetColorBuffer(AUTOMATIC_BUFFER); }
   void SetColorBufferToFloat() { this->SetColorBuffer(FLOAT_BUFFER); }
   void SetColorBufferToHalf() { this->SetColorBuffer(HALF_BUFFER); }
   void SetColorBufferToUNorm8() { this->SetColorBuffer(UNORM8_BUFFER); }
@@ -119,7 +123,7 @@ protected:
   void DrawFrame(tetralux::MapperFrame& frame) override;
 
   vtkTypeBool PerspectiveInterpolation = 1;
-  int ColorBuffer = FLOAT_BUFFER;
+  int ColorBuffer = AUTOMATIC_BUFFER;
   vtkTypeBool AlphaDithering = 1;
   int Order = AUTOMATIC_ORDER;
 

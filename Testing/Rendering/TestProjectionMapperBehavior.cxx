@@ -224,6 +224,12 @@ TEST(ProjectionMapper, CorrectionsOff)
   EXPECT_LT(linear, 0.1);
   scene.Projection->PerspectiveInterpolationOn();
 
+  EXPECT_TRUE(scene.Says("\"color_buffer\": \"float\""));
+  scene.Projection->SetMaximumError(0.5);
+  scene.Render();
+  EXPECT_TRUE(scene.Says("\"color_buffer\": \"half\""));
+  scene.Projection->SetMaximumError(1e-4);
+
   scene.Projection->SetColorBufferToHalf();
   const double half = FindLargestDifference(scene.Render(), best);
   EXPECT_GT(half, 1e-5);
