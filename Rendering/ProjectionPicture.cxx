@@ -51,6 +51,8 @@ public:
   {
     glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->ColorEquation);
     glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &this->AlphaEquation);
+    glGetIntegerv(GL_PROVOKING_VERTEX, &this->ProvokingVertex);
+    glProvokingVertex(GL_LAST_VERTEX_CONVENTION); // as ProjectedCells::Triangles has it
     state->vtkglEnable(GL_BLEND);
     state->vtkglDisable(GL_DEPTH_TEST);
     state->vtkglDisable(GL_CULL_FACE);
@@ -61,6 +63,7 @@ public:
   ~DrawingState()
   {
     this->State->vtkglBlendEquationSeparate(this->ColorEquation, this->AlphaEquation);
+    glProvokingVertex(this->ProvokingVertex);
   }
   DrawingState(const DrawingState&) = delete;
   DrawingState& operator=(const DrawingState&) = delete;
@@ -78,6 +81,7 @@ private:
   const vtkOpenGLState::ScopedglActiveTexture Unit;
   GLint ColorEquation = GL_FUNC_ADD;
   GLint AlphaEquation = GL_FUNC_ADD;
+  GLint ProvokingVertex = GL_LAST_VERTEX_CONVENTION;
 };
 
 FloatTarget::Settings MakeSettings(const RayGrid& grid, int components, ChannelFormat format)
