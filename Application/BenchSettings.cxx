@@ -26,6 +26,9 @@ constexpr const char* UniformScalars = "TableScalarAxis=1";
 constexpr const char* ScalarsAtNodes = "TableScalarAxis=2";
 constexpr const char* SinglePrecision = "Precision=1";
 constexpr const char* DoublePrecision = "Precision=2";
+constexpr const char* HalfBuffer = "ColorBuffer=2";
+constexpr const char* EightBitBuffer = "ColorBuffer=3";
+constexpr const char* FloatBuffer = "ColorBuffer=1";
 constexpr const char* ToTheEnd = "MaximumError=0";
 
 /// A table of given sizes, with further assignments.
@@ -132,6 +135,8 @@ void AddGpuRayCast(std::vector<BenchSetting>& settings)
     { "gpu-no-termination", group, "early ray termination switched off", method, { ToTheEnd } });
   settings.push_back({ "gpu-imaginary", group, "through imaginary cells of a convexified mesh",
     method, { "Reentry=2" } });
+  settings.push_back(
+    { "gpu-layers", group, "by layers of the boundary, depth-peeled", method, { "Reentry=3" } });
   settings.push_back({ "gpu-weiler", group,
     "table 128 x 128 x 256, linear lengths, 8 bit, uniform in the scalar, as in the paper", method,
     MakeTable(128, 256, { LinearLengths, Format8Bit, UniformScalars }) });
@@ -151,10 +156,10 @@ void AddProjection(std::vector<BenchSetting>& settings)
     assignments.insert(assignments.end(), others.begin(), others.end());
     return assignments;
   };
-  settings.push_back({ method, group, "nothing set: all corrections, 32-bit buffer", method, {} });
+  settings.push_back({ method, group, "nothing set: all corrections", method, {} });
   settings.push_back({ "projection-kraus", group,
     "as in the paper: table 256 x 256 x 16, logarithmic, 16 bit; 8-bit buffer with dithering",
-    method, with(kraus, { "ColorBuffer=2" }) });
+    method, with(kraus, { EightBitBuffer }) });
   settings.push_back({ "projection-no-perspective", group, "perspective interpolation switched off",
     method, { "PerspectiveInterpolation=0" } });
   settings.push_back({ "projection-linear-table", group, "table with linear lengths, 16 bit",
@@ -162,11 +167,13 @@ void AddProjection(std::vector<BenchSetting>& settings)
   settings.push_back({ "projection-8-bit-table", group, "table with 8 bit", method,
     MakeTable(256, 16, { LogarithmicLengths, Format8Bit, UniformScalars }) });
   settings.push_back(
-    { "projection-half-buffer", group, "16-bit float buffer", method, { "ColorBuffer=1" } });
-  settings.push_back({ "projection-8-bit-buffer", group, "8-bit buffer, no dithering", method,
-    { "ColorBuffer=2", "AlphaDithering=0" } });
+    { "projection-float-buffer", group, "32-bit float buffer", method, { FloatBuffer } });
   settings.push_back(
-    { "projection-dithered", group, "8-bit buffer, dithering", method, { "ColorBuffer=2" } });
+    { "projection-half-buffer", group, "16-bit float buffer", method, { HalfBuffer } });
+  settings.push_back({ "projection-8-bit-buffer", group, "8-bit buffer, no dithering", method,
+    { EightBitBuffer, "AlphaDithering=0" } });
+  settings.push_back(
+    { "projection-dithered", group, "8-bit buffer, dithering", method, { EightBitBuffer } });
   settings.push_back(
     { "projection-mpvonc", group, "order across gaps guessed (MPVONC)", method, { "Order=2" } });
   settings.push_back(
@@ -174,7 +181,7 @@ void AddProjection(std::vector<BenchSetting>& settings)
   settings.push_back({ "projection-plain", group,
     "all corrections off: linear interpolation, 8-bit table and buffer, order by centroids", method,
     with(MakeTable(256, 16, { LinearLengths, Format8Bit, UniformScalars }),
-      { "PerspectiveInterpolation=0", "ColorBuffer=2", "AlphaDithering=0", "Order=3" }) });
+      { "PerspectiveInterpolation=0", EightBitBuffer, "AlphaDithering=0", "Order=3" }) });
 }
 
 void AddPeers(std::vector<BenchSetting>& settings)

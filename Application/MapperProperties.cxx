@@ -147,7 +147,7 @@ Properties MakeProjectionProperties()
   return {
     MakeSwitch("AlphaDithering", &Mapper::SetAlphaDithering),
     MakeInteger(
-      "ColorBuffer", &Mapper::SetColorBuffer, Mapper::FLOAT_BUFFER, Mapper::AUTOMATIC_BUFFER),
+      "ColorBuffer", &Mapper::SetColorBuffer, Mapper::AUTOMATIC_BUFFER, Mapper::UNORM8_BUFFER),
     MakeInteger("Order", &Mapper::SetOrder, Mapper::AUTOMATIC_ORDER, Mapper::CENTROID_ORDER),
     MakeSwitch("PerspectiveInterpolation", &Mapper::SetPerspectiveInterpolation),
   };

@@ -51,10 +51,10 @@ public:
 
   enum ColorBufferType
   {
+    AUTOMATIC_BUFFER,
     FLOAT_BUFFER,
     HALF_BUFFER,
-    UNORM8_BUFFER,
-    AUTOMATIC_BUFFER
+    UNORM8_BUFFER
   };
 
   ///@{
@@ -64,7 +64,7 @@ public:
    * stays within a quarter of MaximumError, else 32-bit floats. 32-bit floats are composited front to
    * back, which keeps the smallest opacities; the others back to front, where rounding does less harm.
    */
-  vtkSetClampMacro(ColorBuffer, int, FLOAT_BUFFER, AUTOMATIC_BUFFER);
+  vtkSetClampMacro(ColorBuffer, int, AUTOMATIC_BUFFER, UNORM8_BUFFER);
   vtkGetMacro(ColorBuffer, int);
   void SetColorBufferToAutomatic() { this->SetColorBuffer(AUTOMATIC_BUFFER); }
   void SetColorBufferToFloat() { this->SetColorBuffer(FLOAT_BUFFER); }

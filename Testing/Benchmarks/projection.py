@@ -293,11 +293,11 @@ def add_figure(page, name, title, scene, variants, size=(256, 192)):
         seen = picture[:, :, :3] + (1 - picture[:, :, 3:]) * background
         difference = numpy.abs(picture - reference)[:, :, :3] * magnification
         letter = chr(ord("a") + index)
-        page.write_picture(f"{name}{letter}.png", seen)
-        page.write_picture(f"{name}{letter}-difference.png", difference)
+        page.write_picture(f"{name}-{letter}.png", seen)
+        page.write_picture(f"{name}-{letter}-difference.png", difference)
         caption = html.escape(f"({letter}) {variant}")
         page.add(
-            f'<figure><img src="{name}{letter}.png" alt=""><img src="{name}{letter}-difference.png" '
+            f'<figure><img src="{name}-{letter}.png" alt=""><img src="{name}-{letter}-difference.png" '
             f'alt=""><figcaption>{caption}; difference x {magnification}</figcaption></figure>'
         )
         rows.append((f"({letter}) {variant}", *describe_errors(picture, reference)))
