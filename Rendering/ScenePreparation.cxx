@@ -372,14 +372,7 @@ void ScenePreparation::WarnOfMesh()
     warning += (warning.empty() ? "" : "; ") + std::string("cells that can't be rendered: ") +
       this->Intake.DescribeSkippedCells();
   }
-  if (warning != this->MeshWarning)
-  {
-    this->MeshWarning = warning;
-    if (!warning.empty())
-    {
-      vtkWarningWithObjectMacro(this->Mapper, << warning);
-    }
-  }
+  this->MeshWarning.Update(this->Mapper, warning);
 }
 
 void ScenePreparation::WarnOfShade(vtkVolumeProperty* property)
@@ -396,14 +389,7 @@ void ScenePreparation::WarnOfShade(vtkVolumeProperty* property)
   {
     warning += (warning.empty() ? "" : "; ") + std::string("gradient opacity is not used");
   }
-  if (warning != this->ShadeWarning)
-  {
-    this->ShadeWarning = warning;
-    if (!warning.empty())
-    {
-      vtkWarningWithObjectMacro(this->Mapper, << warning);
-    }
-  }
+  this->ShadeWarning.Update(this->Mapper, warning);
 }
 
 bool ScenePreparation::IsShaded(vtkVolumeProperty* property) const

@@ -4,6 +4,7 @@
 
 #include "InputSignature.h"
 #include "JsonObject.h"
+#include "OnceWarning.h"
 #include "SegmentTable.h"
 #include "VolumeScene.h"
 #include "vtkTetrahedraIntake.h"
@@ -74,9 +75,9 @@ private:
   double FunctionError = 0;
   double LongestEdge = 0; ///< of the mesh, in its units; 0: not found yet
   SegmentTable Table;
-  bool TableSet = false;    ///< the scene has Table
-  std::string ShadeWarning; ///< the last one
-  std::string MeshWarning;  ///< the last one: the next time step may have the same
+  bool TableSet = false; ///< the scene has Table
+  OnceWarning ShadeWarning;
+  OnceWarning MeshWarning;
 
   // The last Update.
   std::vector<std::string> Rebuilt;

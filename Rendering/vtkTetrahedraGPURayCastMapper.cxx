@@ -11,6 +11,7 @@
 #include "ImageCompositor.h"
 #include "JsonObject.h"
 #include "MapperFrame.h"
+#include "OnceWarning.h"
 #include "PixelProjection.h"
 #include "Stopwatch.h"
 #include "VolumeScene.h"
@@ -84,7 +85,7 @@ private:
 
   std::vector<std::uint8_t> Positive; ///< orientation of the cells of the scene's mesh
   std::uint64_t PositiveVersion = 0;  ///< the mesh's
-  std::string ReentryWarning;         ///< the last one
+  tetralux::OnceWarning ReentryWarning;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -382,17 +383,10 @@ void vtkTetrahedraGPURayCastMapper::Internals::Read(vtkImageData* image)
 void vtkTetrahedraGPURayCastMapper::Internals::WarnOfReentry(const tetralux::WalkMesh& mesh)
 {
   const tetralux::Convexification* convex = mesh.GetConvexification();
-  const std::string warning =
-    convex && this->Self->Reentry == IMAGINARY_CELLS ? convex->Refusal : "";
-  if (warning != this->ReentryWarning)
-  {
-    this->ReentryWarning = warning;
-    if (!warning.empty())
-    {
-      vtkWarningWithObjectMacro(
-        this->Self, "the mesh can't be made convex, rays enter it by its boundary: " << warning);
-    }
-  }
+  const bool refused = this->Self->Reentry == IMAGINARY_CELLS && convex && !convex->Refusal.empty();
+  this->ReentryWarning.Update(this->Self,
+    refused ? "the mesh can't be made convex, rays enter it by its boundary: " + convex->Refusal
+            : "");
 }
 
 //------------------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 #include "ImageCompositor.h"
 #include "JsonObject.h"
 #include "MapperFrame.h"
+#include "OnceWarning.h"
 #include "OpaqueDepth.h"
 #include "ProjectionPicture.h"
 #include "ScreenFrame.h"
@@ -159,7 +160,7 @@ private:
   bool SorterIsConvex = false;     ///< its imaginary cells take part, where it has some
   bool Sorted = false;             ///< in the last frame
   VisibilityMethod Method = VisibilityMethod::Meshed;
-  std::string OrderWarning; ///< the last one
+  tetralux::OnceWarning OrderWarning;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -363,18 +364,12 @@ VisibilityMethod vtkTetrahedraProjectionMapper::Internals::ChooseMethod(MapperFr
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraProjectionMapper::Internals::WarnOfOrder(const std::string& refusal)
 {
-  if (refusal != this->OrderWarning)
-  {
-    this->OrderWarning = refusal;
-    if (!refusal.empty())
-    {
-      vtkWarningWithObjectMacro(this->Self,
-        "the mesh can't be made convex, and there are too many faces that rays may leave and enter "
-        "it "
-        "by: the order of its cells may be wrong: "
-          << refusal);
-    }
-  }
+  this->OrderWarning.Update(this->Self,
+    refusal.empty()
+      ? ""
+      : "the mesh can't be made convex, and there are too many faces that rays may leave "
+        "and enter it by: the order of its cells may be wrong: " +
+        refusal);
 }
 
 //------------------------------------------------------------------------------------------------

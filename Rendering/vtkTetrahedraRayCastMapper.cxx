@@ -5,6 +5,7 @@
 #include "ImageCompositor.h"
 #include "JsonObject.h"
 #include "MapperFrame.h"
+#include "OnceWarning.h"
 #include "OpaqueDistances.h"
 #include "RayCaster.h"
 #include "Stopwatch.h"
@@ -88,8 +89,8 @@ private:
   void WarnOfReentry(const tetralux::WalkMesh& mesh);
 
   vtkTetrahedraRayCastMapper* Self;
-  double SecondsPerRay = 0;   ///< of the last frame that was cast; 0: none yet
-  std::string ReentryWarning; ///< the last one
+  double SecondsPerRay = 0; ///< of the last frame that was cast; 0: none yet
+  tetralux::OnceWarning ReentryWarning;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -180,17 +181,10 @@ tetralux::RayCastOptions vtkTetrahedraRayCastMapper::Internals::MakeOptions(
 void vtkTetrahedraRayCastMapper::Internals::WarnOfReentry(const tetralux::WalkMesh& mesh)
 {
   const tetralux::Convexification* convex = mesh.GetConvexification();
-  const std::string warning =
-    convex && this->Self->Reentry == IMAGINARY_CELLS ? convex->Refusal : "";
-  if (warning != this->ReentryWarning)
-  {
-    this->ReentryWarning = warning;
-    if (!warning.empty())
-    {
-      vtkWarningWithObjectMacro(
-        this->Self, "the mesh can't be made convex, rays enter it by its boundary: " << warning);
-    }
-  }
+  const bool refused = this->Self->Reentry == IMAGINARY_CELLS && convex && !convex->Refusal.empty();
+  this->ReentryWarning.Update(this->Self,
+    refused ? "the mesh can't be made convex, rays enter it by its boundary: " + convex->Refusal
+            : "");
 }
 
 //------------------------------------------------------------------------------------------------
