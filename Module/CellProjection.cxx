@@ -68,6 +68,16 @@ struct Place
   double X, Y;
 };
 
+/// Between lo and hi, also what is not a number.
+double Bound(double x, double lo, double hi) { return x >= lo ? (x <= hi ? x : hi) : lo; }
+
+/// std::floor of what an int holds, without the call that it takes on old processors.
+double Floor(double x)
+{
+  const int truncated = static_cast<int>(x);
+  return truncated - (x < truncated ? 1 : 0);
+}
+
 /// The smallest rectangle of pixels, not rounded, around some places.
 struct Box
 {
@@ -89,9 +99,9 @@ struct Box
       static_cast<double>(settings.Height) };
     for (int a = 0; a < 2; ++a)
     {
-      this->Lo[a] = std::max(this->Lo[a], -1.);
-      this->Hi[a] = std::min(this->Hi[a], size[a]);
-      if (!(std::ceil(this->Lo[a] - settings.Margin) <= std::floor(this->Hi[a] + settings.Margin)))
+      this->Lo[a] = Bound(this->Lo[a], -1, size[a] + 1);
+      this->Hi[a] = Bound(this->Hi[a], -2, size[a]);
+      if (!(-Floor(settings.Margin - this->Lo[a]) <= Floor(this->Hi[a] + settings.Margin)))
       {
         return false;
       }
@@ -277,8 +287,8 @@ public:
     this->Normals[2] = Cross(c, a);
     this->Normals[3] = Cross(a, b);
     this->Volume = Dot(this->Normals[1], a);
-    this->HasVolume = std::abs(this->Volume) >
-      SmallestRelativeVolume * std::sqrt(Dot(a, a) * Dot(b, b) * Dot(c, c));
+    this->HasVolume = this->Volume * this->Volume >
+      SmallestRelativeVolume * SmallestRelativeVolume * (Dot(a, a) * Dot(b, b) * Dot(c, c));
     Vector& rest = this->Normals[0];
     rest = { 0, 0, 0 };
     this->Heights[0] = -this->Volume;
@@ -409,8 +419,8 @@ int Project(const ScreenFrame& frame, const ProjectionSettings& settings,
   {
     return 0;
   }
-  const double referenceX = std::floor(0.5 * (box.Lo[0] + box.Hi[0]));
-  const double referenceY = std::floor(0.5 * (box.Lo[1] + box.Hi[1]));
+  const double referenceX = Floor(0.5 * (box.Lo[0] + box.Hi[0]));
+  const double referenceY = Floor(0.5 * (box.Lo[1] + box.Hi[1]));
   const LocalCell cell(frame, points, frame.IsPerspective() && settings.Interpolate,
     referenceX + settings.Shift, referenceY + ShiftSlope * settings.Shift);
   double scalarLo = a.Scalar;
