@@ -2,6 +2,7 @@
 // What the mapper on the graphics card does by itself: passes, uploads, windows, errors; and its
 // pictures beside those of the mapper on the processor, whose right rays and integrals are tested by
 // themselves.
+#include "Observer.h"
 #include "OpenGLSnapshot.h"
 #include "RayCastScene.h"
 
@@ -9,7 +10,6 @@
 #include "ReferenceScenes.h"
 
 #include "vtkActor.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkContourValues.h"
@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace
 {
@@ -34,24 +33,6 @@ namespace
 // between both mappers: each has its own roundings.
 constexpr double ColorTolerance = 5e-5;
 constexpr double DepthTolerance = 1e-5;
-
-// Calls a function on an event.
-class Observer
-{
-public:
-  Observer(vtkObject* object, unsigned long event, std::function<void(const char*)> function)
-    : Function(std::move(function))
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* data)
-      { static_cast<Observer*>(self)->Function(static_cast<const char*>(data)); });
-    object->AddObserver(event, this->Command);
-  }
-
-private:
-  std::function<void(const char*)> Function;
-  vtkNew<vtkCallbackCommand> Command;
-};
 
 // A scene with both mappers; that on the graphics card draws.
 class GPUScene : public RayCastScene

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the mapper rebuilds, how it composites, adjusts, aborts and refuses.
+#include "Observer.h"
 #include "RayCastScene.h"
 
 #include "vtkActor.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkCommand.h"
@@ -28,30 +28,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <sstream>
 
 namespace
 {
-
-// Calls a function on an event.
-class Observer
-{
-public:
-  Observer(vtkObject* object, unsigned long event, std::function<void(const char*)> function)
-    : Function(std::move(function))
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* data)
-      { static_cast<Observer*>(self)->Function(static_cast<const char*>(data)); });
-    object->AddObserver(event, this->Command);
-  }
-
-private:
-  std::function<void(const char*)> Function;
-  vtkNew<vtkCallbackCommand> Command;
-};
 
 // Errors or warnings of a mapper, which are then not printed.
 class Messages
