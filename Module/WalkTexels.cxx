@@ -13,30 +13,6 @@ namespace
 /// Share of the free memory of a graphics card that buffers may take: frames need room, too.
 constexpr double MemoryShare = 0.9;
 
-/// The node behind each node's subtree, depth first.
-void LinkSubtrees(const BoundaryBvh& bvh, std::vector<std::int32_t>& links)
-{
-  // Where a subtree ends: of the first child where the second one begins, of the second child where
-  // its parent's ends. Parents come before their children.
-  const auto numberOfNodes = static_cast<std::int32_t>(bvh.Nodes.size());
-  links.assign(2 * bvh.Nodes.size(), 0);
-  if (numberOfNodes > 0)
-  {
-    links[0] = numberOfNodes;
-  }
-  for (std::int32_t nodeId = 0; nodeId < numberOfNodes; ++nodeId)
-  {
-    const BoundaryBvh::Node& node = bvh.Nodes[nodeId];
-    if (node.Count > 0)
-    {
-      links[2 * static_cast<std::size_t>(nodeId) + 1] = 8 * node.First + node.Count;
-      continue;
-    }
-    links[2 * static_cast<std::size_t>(nodeId + 1)] = node.First;
-    links[2 * static_cast<std::size_t>(node.First)] = links[2 * static_cast<std::size_t>(nodeId)];
-  }
-}
-
 } // namespace
 
 WalkTexels MakeWalkTexels(const WalkTables& tables, Span<const std::uint8_t> positive)
@@ -70,7 +46,13 @@ WalkTexels MakeWalkTexels(const WalkTables& tables, Span<const std::uint8_t> pos
       { node.Center[0], node.Center[1], node.Center[2], node.Half[0], node.Half[1], node.Half[2],
         0.f, 0.f });
   }
-  LinkSubtrees(tables.Bvh, texels.Links);
+  texels.Links.reserve(2 * tables.Bvh.Nodes.size());
+  for (const BoundaryBvh::Node& node : tables.Bvh.Nodes)
+  {
+    const bool leaf = node.Count > 0;
+    texels.Links.push_back(leaf ? 0 : node.First);
+    texels.Links.push_back(leaf ? 8 * node.First + node.Count : 0);
+  }
   return texels;
 }
 

@@ -27,9 +27,8 @@ struct WalkTexels
   /// its box, and two that are 0.
   std::vector<float> Boxes;
 
-  /// Two for each node: the one to go on with where a ray passes by its box, or after a leaf (the
-  /// number of nodes: none is left); and of a leaf 8 x its first entry + their number, else 0. Where a
-  /// ray meets the box of an inner node, the next node follows.
+  /// Two for each node: of an inner one its second child, the first one being the next node, and 0; of a
+  /// leaf 0, and 8 x its first entry + their number.
   std::vector<std::int32_t> Links;
 };
 

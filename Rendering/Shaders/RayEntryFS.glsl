@@ -1,7 +1,7 @@
 //VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
-// Where rays that are outside of the mesh come in next: the boundary face whose crossing is the
-// nearest one behind that of the last entry, by the hierarchy over the boundary, without a stack.
+// Where rays that are outside of the mesh come in next: the boundary face whose crossing is the nearest
+// one behind that of the last entry, by the hierarchy over the boundary, the nearer box first.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
@@ -21,11 +21,32 @@ out ivec4 fragOutput0; // gl_FragData[0]
 // those across: radii.
 const float AlongMargin = 1.9073486328125e-06; // 2^-19
 
+// BoundaryBvh::MaximumDepth + 1: one box waits for each level.
+const int StackSize = 73;
+
+// Whether a ray meets the box of a node, and from which distance on.
+bool TestBox(RayFrame frame, int node, out float begin, out float end)
+{
+  vec4 box0 = texelFetch(boundaryBoxes, 2 * node);
+  vec2 box1 = texelFetch(boundaryBoxes, 2 * node + 1).xy;
+  vec3 halfEdges = vec3(box0.w, box1);
+  // The box projected to the bounds of its shadow, and its extent along the ray.
+  vec4 middle = vec4(box0.xyz, 1.0);
+  vec2 across = vec2(dot(frame.Across[0], middle), dot(frame.Across[1], middle));
+  vec2 reach = vec2(
+    dot(abs(frame.Across[0].xyz), halfEdges), dot(abs(frame.Across[1].xyz), halfEdges));
+  float along = dot(frame.Along, box0.xyz);
+  float alongReach = dot(abs(frame.Along), halfEdges + AlongMargin);
+  begin = along - alongReach;
+  end = along + alongReach;
+  return all(lessThanEqual(abs(across), reach));
+}
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   int next = -1;
-  if (texelFetch(rayStates, pixel, 0).w == RayNeedsEntry)
+  if (numberOfBoundaryNodes > 0 && texelFetch(rayStates, pixel, 0).w == RayNeedsEntry)
   {
     RayFrame frame = MakeRayFrame(GetRay(gl_FragCoord.xy));
     int last = texelFetch(rayEntries, pixel, 0).x;
@@ -35,22 +56,53 @@ void main()
       TestEntry(frame, last, lastDistance);
     }
     float nearest = LargestFloat;
-    for (int node = 0; node < numberOfBoundaryNodes;)
+    int nodes[StackSize];
+    float begins[StackSize];
+    int size = 0;
+    float begin;
+    float end;
+    if (TestBox(frame, 0, begin, end))
     {
-      vec4 box0 = texelFetch(boundaryBoxes, 2 * node);
-      vec2 box1 = texelFetch(boundaryBoxes, 2 * node + 1).xy;
+      nodes[0] = 0;
+      begins[0] = begin;
+      size = 1;
+    }
+    while (size > 0)
+    {
+      --size;
+      int node = nodes[size];
+      if (begins[size] > nearest)
+      {
+        continue;
+      }
       ivec2 link = texelFetch(boundaryLinks, node).xy;
-      vec3 halfEdges = vec3(box0.w, box1);
-      // The box projected to the bounds of its shadow, and its extent along the ray.
-      vec4 middle = vec4(box0.xyz, 1.0);
-      vec2 across = vec2(dot(frame.Across[0], middle), dot(frame.Across[1], middle));
-      vec2 reach = vec2(
-        dot(abs(frame.Across[0].xyz), halfEdges), dot(abs(frame.Across[1].xyz), halfEdges));
-      float along = dot(frame.Along, box0.xyz);
-      float alongReach = dot(abs(frame.Along), halfEdges + AlongMargin);
-      bool near = all(lessThanEqual(abs(across), reach)) && along - alongReach <= nearest &&
-        along + alongReach >= lastDistance;
-      if (near && link.y > 0)
+      if (link.y == 0)
+      {
+        int first = node + 1;
+        int second = link.x;
+        float begin0, end0, begin1, end1;
+        bool meets0 =
+          TestBox(frame, first, begin0, end0) && end0 >= lastDistance && begin0 <= nearest;
+        bool meets1 =
+          TestBox(frame, second, begin1, end1) && end1 >= lastDistance && begin1 <= nearest;
+        bool swapped = begin1 < begin0;
+        // The farther one first, so that the nearer one is looked at before it.
+        bool farMeets = swapped ? meets0 : meets1;
+        bool nearMeets = swapped ? meets1 : meets0;
+        if (farMeets)
+        {
+          nodes[size] = swapped ? first : second;
+          begins[size] = swapped ? begin0 : begin1;
+          ++size;
+        }
+        if (nearMeets)
+        {
+          nodes[size] = swapped ? second : first;
+          begins[size] = swapped ? begin1 : begin0;
+          ++size;
+        }
+      }
+      else
       {
         for (int entry = link.y >> 3; entry < (link.y >> 3) + (link.y & 7); ++entry)
         {
@@ -58,14 +110,13 @@ void main()
           // In the order of distances, and of entries where they are the same.
           if (TestEntry(frame, entry, distance) && entry != last &&
             (distance > lastDistance || (distance == lastDistance && entry > last)) &&
-            distance < nearest)
+            (distance < nearest || (distance == nearest && entry < next)))
           {
             nearest = distance;
             next = entry;
           }
         }
       }
-      node = near && link.y == 0 ? node + 1 : link.x;
     }
   }
   fragOutput0 = ivec4(next);

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 namespace
 {
@@ -73,52 +73,51 @@ TEST(WalkTexels, Entries)
   }
 }
 
-// What a traversal by links finds that never misses a box is every leaf once; by one that misses all,
-// nothing.
+// By the links from the root every node is found once, and every entry in its leaf; each box contains
+// the points of the leaves below.
 TEST(WalkTexels, Links)
 {
   const WalkMesh mesh = MakeRing();
   const WalkTexels texels = MakeTexels(mesh);
   const auto numberOfNodes = static_cast<std::int32_t>(texels.Links.size() / 2);
   ASSERT_EQ(texels.Boxes.size(), 8 * static_cast<std::size_t>(numberOfNodes));
-  std::int32_t entries = 0;
-  std::int32_t steps = 0;
-  for (std::int32_t node = 0; node < numberOfNodes; ++steps)
+  std::vector<std::vector<std::int32_t>> paths{ { 0 } };
+  std::int32_t visited = 0;
+  std::set<std::int32_t> entries;
+  while (!paths.empty())
   {
+    const std::vector<std::int32_t> path = paths.back();
+    paths.pop_back();
+    ASSERT_LT(++visited, numberOfNodes + 1);
+    const std::int32_t node = path.back();
+    ASSERT_LT(node, numberOfNodes);
+    const std::int32_t second = texels.Links[2 * node];
     const std::int32_t leaf = texels.Links[2 * node + 1];
-    if (leaf > 0)
+    if (leaf == 0)
     {
-      EXPECT_EQ(leaf / 8, entries);
-      entries += leaf % 8;
-    }
-    node = leaf == 0 ? node + 1 : texels.Links[2 * node];
-  }
-  EXPECT_EQ(steps, numberOfNodes);
-  EXPECT_EQ(entries, mesh.GetNumberOfBoundaryFaces());
-  EXPECT_EQ(texels.Links[0], numberOfNodes);
-  // Past a subtree comes what is not within it.
-  for (std::int32_t node = 0; node < numberOfNodes; ++node)
-  {
-    EXPECT_GT(texels.Links[2 * node], node);
-    EXPECT_LE(texels.Links[2 * node], numberOfNodes);
-  }
-  // The boxes contain their leaves' points.
-  for (std::int32_t node = 0; node < numberOfNodes; ++node)
-  {
-    for (std::int32_t below = node; below < texels.Links[2 * node]; ++below)
-    {
-      const std::int32_t leaf = texels.Links[2 * below + 1];
-      for (std::int32_t entry = leaf / 8; entry < leaf / 8 + leaf % 8; ++entry)
+      for (const std::int32_t child : { node + 1, second })
       {
-        const tetralux::WalkPoint<float>& point =
-          mesh.GetPoints<float>()[texels.Entries[4 * static_cast<std::size_t>(entry)]];
-        const float* box = &texels.Boxes[8 * static_cast<std::size_t>(node)];
+        paths.push_back(path);
+        paths.back().push_back(child);
+      }
+      continue;
+    }
+    for (std::int32_t entry = leaf / 8; entry < leaf / 8 + leaf % 8; ++entry)
+    {
+      EXPECT_TRUE(entries.insert(entry).second);
+      const tetralux::WalkPoint<float>& point =
+        mesh.GetPoints<float>()[texels.Entries[4 * static_cast<std::size_t>(entry)]];
+      for (const std::int32_t above : path)
+      {
+        const float* box = &texels.Boxes[8 * static_cast<std::size_t>(above)];
         EXPECT_LE(std::abs(point.X - box[0]), box[3]);
         EXPECT_LE(std::abs(point.Y - box[1]), box[4]);
         EXPECT_LE(std::abs(point.Z - box[2]), box[5]);
       }
     }
   }
+  EXPECT_EQ(visited, numberOfNodes);
+  EXPECT_EQ(entries.size(), static_cast<std::size_t>(mesh.GetNumberOfBoundaryFaces()));
 }
 
 TEST(WalkTexels, EmptyMesh)
