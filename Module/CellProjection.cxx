@@ -21,8 +21,8 @@ constexpr double LargestSlope = 1e30;
 /// What a face has in place of its function where it never limits a ray.
 constexpr float Never = 1e37f;
 
-/// How far rays pass beside the centres of pixels above them, of how far they do beside them: no line
-/// that meshes are aligned with has this slope.
+/// How far rays pass beside the centres of pixels above them, of how far they do beside them: no
+/// line that meshes are aligned with has this slope.
 constexpr double ShiftSlope = 0.38;
 
 /// A widened corner may move by this many margins; sharper ones get a rectangle around all.
@@ -207,8 +207,8 @@ void FindRectangle(const ScreenPoint* const points[4], double margin, Place corn
   }
 }
 
-/// The silhouette by the classes of the paper's figure 1. front: of each face, opposite to the point
-/// of that number. Returns its number of corners, 0 where it is of no class.
+/// The silhouette by the classes of the paper's figure 1. front: of each face, opposite to the
+/// point of that number. Returns its number of corners, 0 where it is of no class.
 int FindSilhouette(const ScreenPoint* const points[4], const bool front[4], Place corners[4])
 {
   const int fronts = front[0] + front[1] + front[2] + front[3];
@@ -496,7 +496,8 @@ int Project(const ScreenFrame& frame, const ProjectionSettings& settings,
   place(2, result.Third.X, result.Third.Y);
   place(n == 4 ? 3 : 0, result.Fourth.X, result.Fourth.Y);
 
-  // The faces, those of the side of the base first, and with them those that are seen from the side.
+  // The faces, those of the side of the base first, and with them those that are seen from the
+  // side.
   const double sign = front[base] ? 1 : -1;
   float* slots[3] = { result.First.Face0, result.Second.Face1, result.Second.Face2 };
   int entries = 0;

@@ -2,9 +2,9 @@
 #ifndef tetralux_CellProjection_h
 #define tetralux_CellProjection_h
 
-// Projected tetrahedra (Shirley and Tuchman 1990; Kraus et al. 2004, section 2): what a cell covers of
-// the picture, and what a fragment needs to tell where its ray enters and leaves the cell, and with
-// which scalars.
+// Projected tetrahedra (Shirley and Tuchman 1990; Kraus et al. 2004, section 2): what a cell covers
+// of the picture, and what a fragment needs to tell where its ray enters and leaves the cell, and
+// with which scalars.
 //
 // The paper's perspective interpolation rests on this: on the screen, 1 / depth on a plane and
 // scalar / depth of a linear field are linear functions of the pixel. With z = 1 / depth (in a
@@ -12,12 +12,12 @@
 // (x, y, z), and its faces are linear functions z_i(x, y). A ray enters by the front face with the
 // smallest z and leaves by the back face with the largest one.
 //
-// The paper decomposes the silhouette into three or four triangles, on each of which those two faces
-// are the same, and has the rasteriser interpolate from their corners. Here the silhouette itself is
-// drawn, one triangle (classes 1a and 1b) or two (class 2), and each fragment finds the two faces by
-// comparisons: half as many triangles, and what a fragment gets depends on its pixel alone, not on
-// how a graphics card rounds corners and interpolates. Silhouettes are widened by what cards may
-// round corners by; where a ray misses the cell, it leaves before it enters.
+// The paper decomposes the silhouette into three or four triangles, on each of which those two
+// faces are the same, and has the rasteriser interpolate from their corners. Here the silhouette
+// itself is drawn, one triangle (classes 1a and 1b) or two (class 2), and each fragment finds the
+// two faces by comparisons: half as many triangles, and what a fragment gets depends on its pixel
+// alone, not on how a graphics card rounds corners and interpolates. Silhouettes are widened by
+// what cards may round corners by; where a ray misses the cell, it leaves before it enters.
 //
 // Accuracy: all is prepared in double precision and relative to the cell, so that single precision
 // in the shader is relative to the cell, too. Cells thinner by a factor of a million than they are
@@ -121,10 +121,10 @@ TETRALUXCORE_EXPORT int ProjectCell(const ScreenFrame& frame, const ProjectionSe
   const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d,
   ProjectedCell& result, const double gradients[4][3], ProjectedGradient& gradient);
 
-/// The smallest ProjectionSettings::Shift by which no ray that is meant to run exactly along faces seen
-/// from the side meets the cells on both sides, or none, by rounding of single precision: in proportion
-/// to the largest extent of a cell on the picture; 2e-5 pixels for 40. cells: four point ids each.
-/// Parallel.
+/// The smallest ProjectionSettings::Shift by which no ray that is meant to run exactly along faces
+/// seen from the side meets the cells on both sides, or none, by rounding of single precision: in
+/// proportion to the largest extent of a cell on the picture; 2e-5 pixels for 40. cells: four point
+/// ids each. Parallel.
 TETRALUXCORE_EXPORT double FindShift(const ScreenFrame& frame, const ProjectionSettings& settings,
   Span<const ScreenPoint> points, Span<const std::int32_t> cells);
 
@@ -170,9 +170,9 @@ struct CellData
 constexpr int LargestCellKey = (1 << 12) - 1;
 constexpr std::int32_t CellIdBase = 1 << 12;
 
-/// Projects cells in an order. points: of the whole mesh. cells: four point ids each. order: the cells
-/// to be projected; those that are not seen are missing from the result. Parallel; the same result for
-/// any number of threads.
+/// Projects cells in an order. points: of the whole mesh. cells: four point ids each. order: the
+/// cells to be projected; those that are not seen are missing from the result. Parallel; the same
+/// result for any number of threads.
 TETRALUXCORE_EXPORT void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   Span<const ScreenPoint> points, Span<const std::int32_t> cells, Span<const std::int32_t> order,
   const CellData& data, ProjectedCells& result);

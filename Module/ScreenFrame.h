@@ -23,8 +23,9 @@ struct ScreenPoint
   double Scalar; ///< as mapped
 };
 
-/// A plane as a fragment sees it: at dx, dy pixels from ScreenFrame::GetMiddle, a ray is on the positive
-/// side where Constant + X dx + Y dy + Z z >= 0, with z = 1 / depth, or -depth in a parallel projection.
+/// A plane as a fragment sees it: at dx, dy pixels from ScreenFrame::GetMiddle, a ray is on the
+/// positive side where Constant + X dx + Y dy + Z z >= 0, with z = 1 / depth, or -depth in a
+/// parallel projection.
 struct ScreenPlane
 {
   float X, Y, Constant, Z;
@@ -48,8 +49,8 @@ public:
   /// Direction.
   double GetDepthUnit() const { return this->DepthUnit; }
 
-  /// In a perspective, points in front of it count as if they were behind the eye: closer to it than
-  /// any near plane that makes sense.
+  /// In a perspective, points in front of it count as if they were behind the eye: closer to it
+  /// than any near plane that makes sense.
   static constexpr double SmallestDepth = 1. / (1 << 30);
 
   bool IsInFront(const ScreenPoint& point) const
@@ -71,8 +72,8 @@ public:
   /// A world half-space, (a, b, c, d) as in RayLimits.
   ScreenPlane ProjectPlane(const std::array<double, 4>& plane) const;
 
-  /// Depth of a point in homogeneous world coordinates relative to a position: the first over the second
-  /// of the result, which are linear in the point.
+  /// Depth of a point in homogeneous world coordinates relative to a position: the first over the
+  /// second of the result, which are linear in the point.
   std::array<double, 2> ProjectDepth(const double position[3], const double point[4]) const;
 
   /// Which of some planes cut the mesh, so that rays have to be limited by them.

@@ -19,8 +19,8 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// Draws projected cells in their order, into whatever is bound: the shader program and the buffers.
-/// Holds graphics resources of one window at a time, the last one.
+/// Draws projected cells in their order, into whatever is bound: the shader program and the
+/// buffers. Holds graphics resources of one window at a time, the last one.
 class ProjectedCellDrawer
 {
 public:
@@ -38,8 +38,8 @@ public:
     std::string Dither;     ///< VTK::Dither::Impl: changes color
   };
 
-  /// Makes the program ready, in use. Throws std::runtime_error, with one line and the compiler's log,
-  /// where there is none.
+  /// Makes the program ready, in use. Throws std::runtime_error, with one line and the compiler's
+  /// log, where there is none.
   vtkShaderProgram* Use(vtkOpenGLRenderWindow* window, const Shader& shader);
 
   /// Sends and draws; the program that Use returned is in use.

@@ -26,8 +26,8 @@ namespace tetralux
 namespace
 {
 
-/// Cells that are projected and sent at once: enough for all threads, little memory, and whoever wants
-/// to abort is heard soon.
+/// Cells that are projected and sent at once: enough for all threads, little memory, and whoever
+/// wants to abort is heard soon.
 constexpr std::size_t BatchSize = 32768;
 
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.

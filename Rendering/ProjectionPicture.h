@@ -41,8 +41,8 @@ struct ProjectionScene
   Span<const ScreenPoint> Points;     ///< of the mesh
   Span<const std::int32_t> Order;     ///< the cells that are drawn
 
-  /// Front to back, opacities add up: also those that are too small for 1 - opacity to differ from 1.
-  /// Back to front, rounding to few bits does less harm: what is in front is not rounded again.
+  /// Front to back, opacities add up: also those that are too small for 1 - opacity to differ from
+  /// 1. Back to front, rounding to few bits does less harm: what is in front is not rounded again.
   bool FrontToBack = true;
   bool Commutes = false; ///< what cells add, so that their order does not matter
 
@@ -62,8 +62,9 @@ struct ProjectionScene
   bool Dither = false; ///< opacities, for 8 bits
 };
 
-/// Draws pictures of projected cells into textures of its own: colours as they come, and distances to
-/// the first contribution where they are asked for. Belongs to one window's context, the last one.
+/// Draws pictures of projected cells into textures of its own: colours as they come, and distances
+/// to the first contribution where they are asked for. Belongs to one window's context, the last
+/// one.
 class ProjectionPicture
 {
 public:
@@ -80,9 +81,9 @@ public:
     double ProjectSeconds = 0; ///< projecting cells, on the processor
   };
 
-  /// Draws the colours, the cells in batches. progress: told the share that is done, 0..1; the drawing
-  /// ends where it returns false. Leaves OpenGL's state as it was. Throws std::runtime_error, with one
-  /// line, where the graphics card or its driver can't.
+  /// Draws the colours, the cells in batches. progress: told the share that is done, 0..1; the
+  /// drawing ends where it returns false. Leaves OpenGL's state as it was. Throws
+  /// std::runtime_error, with one line, where the graphics card or its driver can't.
   Result Draw(vtkOpenGLRenderWindow* window, const ProjectionScene& scene,
     const std::function<bool(double)>& progress);
 
@@ -97,8 +98,8 @@ public:
   /// Whether the last picture was drawn in that window, whose resources are still there.
   bool IsOf(vtkOpenGLRenderWindow* window) const { return this->Window && this->Window == window; }
 
-  /// The picture's colours, and the distances along the rays to the first contribution, -1 where there
-  /// is none: those are drawn for that. scene: that of the last Draw.
+  /// The picture's colours, and the distances along the rays to the first contribution, -1 where
+  /// there is none: those are drawn for that. scene: that of the last Draw.
   void Read(const ProjectionScene& scene, Span<float> colors, Span<float> depths);
 
   std::size_t GetNumberOfBytes() const; ///< on the graphics card

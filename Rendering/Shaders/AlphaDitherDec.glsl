@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opacities rounded to 8 bits up or down at random, as often up as the rest asks for (Kraus et al. 2004,
-// section 4.2): so that what is too thin for 8 bits still counts, on the average.
+// Opacities rounded to 8 bits up or down at random, as often up as the rest asks for (Kraus et al.
+// 2004, section 4.2): so that what is too thin for 8 bits still counts, on the average.
 
 // Random in 0..1: evenly spread over neighbouring pixels (interleaved gradient noise, Jimenez, Next
 // Generation Post Processing in Call of Duty: Advanced Warfare, 2014), and over the keys of cells by

@@ -1,7 +1,7 @@
 //VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
-// What one cell adds to one ray: where the ray enters and leaves the cell, with which scalars, and the
-// integral between them. See CellProjection.h, which this follows word by word.
+// What one cell adds to one ray: where the ray enters and leaves the cell, with which scalars, and
+// the integral between them. See CellProjection.h, which this follows word by word.
 //
 // Defines:
 //   PERSPECTIVE       z is 1 / depth and what is interpolated is divided by it; else z is -depth
@@ -9,8 +9,9 @@
 //   NUMBER_OF_LIMITS    kept on the positive side of so many planes
 //   OPAQUE              not behind opaque geometry
 //   CROPPED             in some of 27 regions only
-//   LINEAR            a perspective, but without PERSPECTIVE: what limits rays has 1 / depth all the same
-//   GATHER            what two parts of a ray in the same cell add, of vec4 before and added, where CROPPED
+//   LINEAR            a perspective, but without PERSPECTIVE: what limits rays has 1 / depth
+//   GATHER            of vec4 before and added, two parts of a ray in the same cell: what both add;
+//                     where CROPPED
 //   NOTHING           what adds nothing to that
 //   KEYS              each cell's code has a key with it
 //   SURFACES          of constant scalar

@@ -1,7 +1,7 @@
 //VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
-// A corner of a projected cell's silhouette. What is the same for the whole cell comes with its first
-// corner, the last one of each of its triangles: see ProjectedCell in CellProjection.h.
+// A corner of a projected cell's silhouette. What is the same for the whole cell comes with its
+// first corner, the last one of each of its triangles: see ProjectedCell in CellProjection.h.
 
 //VTK::Projection::Dec
 
