@@ -20,7 +20,7 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// A mesh on the graphics card: 32 bytes a tetrahedron, 16 a point, and about 50 a boundary face for
+/// A mesh on the graphics card: 32 bytes a tetrahedron, 16 a point, and about 40 a boundary face for
 /// what rays come in by. Belongs to one window's context, the last one.
 class TETRALUXRENDERING_EXPORT WalkTextures
 {

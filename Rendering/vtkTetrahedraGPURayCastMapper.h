@@ -9,7 +9,14 @@
  * see vtkTetrahedraVolumeMapper. OpenGL 3.2 with GLSL 1.50 is enough.
  *
  * Each ray finds its way by exact signs in whole numbers: none is lost or counted twice at faces, edges
- * and vertices, on any graphics card. Geometry is in single precision.
+ * and vertices, on any graphics card. Geometry is in single precision, which GetErrorEstimate() tells
+ * the error of; a mesh whose size in the world is beyond its range is refused.
+ *
+ * A mesh has at most a quarter as many tetrahedra as the driver's texture buffers have texels (2^27 on
+ * most), and fits into free memory where the driver tells how much there is; both are looked at before
+ * anything is sent, and missed ones are one error. Only what changed is sent: topology, or points with
+ * their scalars. The picture is read back when GetOutputImage() asks for it; its Depth is, where
+ * segments are looked up in a table, that of the first cell that contributes.
  *
  * @sa vtkTetrahedraRayCastMapper
  */
