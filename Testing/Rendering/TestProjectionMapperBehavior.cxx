@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The projection mapper's settings, orders, buffers and optical models; what it leaves behind.
+#include "Observer.h"
 #include "OpenGLSnapshot.h"
 #include "RayCastScene.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkContourValues.h"
@@ -14,36 +14,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace
 {
-
-/// Calls a function on an event.
-class Observer
-{
-public:
-  Observer(vtkObject* object, unsigned long event, std::function<void()> function)
-    : Object(object)
-    , Function(std::move(function))
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void*)
-      { static_cast<Observer*>(self)->Function(); });
-    this->Tag = object->AddObserver(event, this->Command);
-  }
-  ~Observer() { this->Object->RemoveObserver(this->Tag); }
-  Observer(const Observer&) = delete;
-  Observer& operator=(const Observer&) = delete;
-
-private:
-  vtkObject* Object;
-  std::function<void()> Function;
-  vtkNew<vtkCallbackCommand> Command;
-  unsigned long Tag;
-};
 
 class ProjectionMapperScene : public RayCastScene
 {
@@ -294,9 +269,9 @@ TEST(ProjectionMapper, LeavesOpenGLAsItWas)
   OpenGLSnapshot before;
   OpenGLSnapshot after;
   const Observer start(scene.Projection, vtkCommand::VolumeMapperRenderStartEvent,
-    [&]() { before = TakeOpenGLSnapshot(scene.Window); });
+    [&](const char*) { before = TakeOpenGLSnapshot(scene.Window); });
   const Observer end(scene.Projection, vtkCommand::VolumeMapperRenderEndEvent,
-    [&]() { after = TakeOpenGLSnapshot(scene.Window); });
+    [&](const char*) { after = TakeOpenGLSnapshot(scene.Window); });
   scene.Renderer->PreserveDepthBufferOn(); // so that depths are read
   scene.Projection->CroppingOn();
   scene.Projection->SetCroppingRegionPlanes(0.2, 0.7, 0.35, 0.8, 0.3, 0.6);
@@ -314,7 +289,7 @@ TEST(ProjectionMapper, LeavesOpenGLAsItWas)
   }
   {
     const Observer progress(scene.Projection, vtkCommand::VolumeMapperRenderProgressEvent,
-      [&]() { scene.Window->SetAbortRender(1); });
+      [&](const char*) { scene.Window->SetAbortRender(1); });
     scene.Window->Render();
   }
   EXPECT_TRUE(scene.Says("\"aborted\": true"));
