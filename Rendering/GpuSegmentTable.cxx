@@ -44,7 +44,7 @@ double GetLastPlace(TexelFormat format)
   switch (format)
   {
     case TexelFormat::UNorm8:
-      return 1. / 255;
+      return 2. / 255; // texels of 8 bits are interpolated in 8 bits, and rounded twice
     case TexelFormat::UNorm16:
       return 1. / 65535;
     case TexelFormat::Half:
