@@ -42,9 +42,9 @@ constexpr float MarkerSize = 16;
 constexpr double SmallestError = 1e-8;
 
 /// Colours, most of which those who see colours differently tell apart too (Okabe and Ito).
-constexpr std::array<std::array<unsigned char, 3>, 10> Colors = { { { 0, 0, 0 }, { 0, 114, 178 },
+constexpr std::array<std::array<unsigned char, 3>, 12> Colors = { { { 0, 0, 0 }, { 0, 114, 178 },
   { 213, 94, 0 }, { 0, 158, 115 }, { 204, 121, 167 }, { 86, 180, 233 }, { 230, 159, 0 },
-  { 128, 128, 128 }, { 140, 40, 40 }, { 110, 80, 180 } } };
+  { 128, 128, 128 }, { 140, 40, 40 }, { 110, 80, 180 }, { 120, 120, 0 }, { 0, 90, 90 } } };
 
 constexpr std::array<int, 4> Markers = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE,
   vtkPlotPoints::DIAMOND, vtkPlotPoints::CROSS };

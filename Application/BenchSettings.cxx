@@ -128,7 +128,7 @@ void AddReentry(std::vector<BenchSetting>& settings)
 
 void AddGpuRayCast(std::vector<BenchSetting>& settings)
 {
-  const std::string group = "ray casting by OpenGL (Weiler 2003)";
+  const std::string group = "by OpenGL (Weiler 2003)";
   const std::string method = "gpu-ray-cast";
   settings.push_back({ method, group, "nothing set", method, {} });
   settings.push_back(
@@ -148,7 +148,7 @@ void AddGpuRayCast(std::vector<BenchSetting>& settings)
 /// With everything that the paper corrects switched off alone, and all of it at once.
 void AddProjection(std::vector<BenchSetting>& settings)
 {
-  const std::string group = "projected tetrahedra (Kraus 2004)";
+  const std::string group = "projection (Kraus 2004)";
   const std::string method = "projection";
   const Assignments kraus = MakeTable(256, 16, { LogarithmicLengths, Format16Bit, UniformScalars });
   const auto with = [](Assignments assignments, const Assignments& others)
