@@ -2,6 +2,9 @@
 #ifndef tetralux_OpticalModel_h
 #define tetralux_OpticalModel_h
 
+#include <algorithm>
+#include <vector>
+
 namespace tetralux
 {
 
@@ -63,6 +66,24 @@ struct Material
   float Specular = 0.2f;
   float SpecularPower = 10.f; ///< of 1 or more
 };
+
+/// How much brighter than what is lit, at 1 or less, lights may make it; at least 1. What is behind a
+/// ray's end counts by that.
+inline double FindLargestBrightness(const std::vector<Light>& lights, const Material& surface)
+{
+  double largest = 1;
+  for (int c = 0; c < 3; ++c)
+  {
+    double sum = 0;
+    for (const Light& light : lights)
+    {
+      sum += surface.Ambient * light.Ambient[c] + surface.Diffuse * light.Diffuse[c] +
+        surface.Specular * light.Specular[c];
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
 
 } // namespace tetralux
 

@@ -112,23 +112,6 @@ struct SurfaceTables
   }
 };
 
-/// How much brighter than what is lit, at 1 or less, lights may make it; at least 1.
-double GetLargestBrightness(const RayCastOptions& options)
-{
-  double largest = 1;
-  for (int c = 0; c < 3; ++c)
-  {
-    double sum = 0;
-    for (const Light& light : options.Lights)
-    {
-      sum += options.Surface.Ambient * light.Ambient[c] +
-        options.Surface.Diffuse * light.Diffuse[c] + options.Surface.Specular * light.Specular[c];
-    }
-    largest = std::max(largest, sum);
-  }
-  return largest;
-}
-
 /// A CrossingBuffer that owns its memory.
 struct OwningCrossingBuffer : CrossingBuffer
 {
@@ -269,7 +252,8 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   in.CroppingPlanes = limits.Cropping ? limits.CroppingPlanes : nullptr;
   in.CroppingFlags = limits.CroppingFlags;
   in.MaximumDistances = limits.MaximumDistances;
-  const double behind = statistics.TerminationError / (lit ? GetLargestBrightness(options) : 1);
+  const double behind = statistics.TerminationError /
+    (lit ? FindLargestBrightness(options.Lights, options.Surface) : 1);
   in.MaximumOpacity = static_cast<float>(1 - behind);
   in.MaximumDepth = static_cast<float>(-std::log(statistics.TerminationError));
   if (model == OpticalModel::EmissionAbsorption && scene.GetPlan().ConstantColor)

@@ -396,12 +396,17 @@ const WalkTables* VolumeScene::GetVisibleTables()
   return this->VisibleTables.Faces.empty() ? nullptr : &this->VisibleTables;
 }
 
-double VolumeScene::GetLongestSegment(const RayGrid& grid)
+double VolumeScene::GetLongestEdge()
 {
   if (this->LongestEdge < 0)
   {
     this->LongestEdge = MeasureCells(this->Mesh->GetMesh()).LongestEdge;
   }
+  return this->LongestEdge;
+}
+
+double VolumeScene::GetLongestSegment(const RayGrid& grid)
+{
   // The root of the sum of squares of the inverse matrix, its cofactors over its determinant, bounds
   // what it stretches by.
   const double(*m)[4] = grid.MeshFromWorld;
@@ -420,7 +425,7 @@ double VolumeScene::GetLongestSegment(const RayGrid& grid)
       determinant += row == 0 ? m[0][column] * cofactor : 0;
     }
   }
-  return this->LongestEdge * std::sqrt(squares) / std::abs(determinant);
+  return this->GetLongestEdge() * std::sqrt(squares) / std::abs(determinant);
 }
 
 double VolumeScene::GetWorldRadius(const RayGrid& grid) const

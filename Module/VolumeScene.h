@@ -133,6 +133,9 @@ public:
   /// Counts the changes of what GetVisibleTables() returns; 0 before the first. For copies of it.
   std::uint64_t GetVisibleTablesVersion() const { return this->VisibleTablesVersion; }
 
+  /// Of the mesh, in its units; measured once.
+  double GetLongestEdge();
+
   /// No segment of a ray is longer, world units: the longest edge, where it is stretched most.
   double GetLongestSegment(const RayGrid& grid);
 

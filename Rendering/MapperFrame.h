@@ -25,13 +25,6 @@ namespace tetralux
 
 class VolumeScene;
 
-/// What a mapper's way of drawing makes of a scene.
-struct MapperNeeds
-{
-  /// Time of a lookup in a table in units of that of the closed form on one piece, see TableGoal.
-  double LookupCost = 3;
-};
-
 /// One frame of a mapper: what it is drawn from, and what it tells about itself.
 /// vtkTetrahedraVolumeMapper::Render fills the first part, DrawFrame of its subclasses the second.
 struct MapperFrame

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScenePreparation.h"
 
-#include "CellVolumes.h"
-#include "MapperFrame.h"
 #include "Stopwatch.h"
 #include "TransferFunctionFromProperty.h"
 #include "vtkTetrahedraScalars.h"
@@ -164,8 +162,7 @@ ScenePreparation::ScenePreparation(vtkTetrahedraVolumeMapper* mapper)
 {
 }
 
-bool ScenePreparation::Update(
-  vtkVolume* volume, const MapperNeeds& needs, const std::function<bool(double)>& progress)
+bool ScenePreparation::Update(vtkVolume* volume, const std::function<bool(double)>& progress)
 {
   this->Rebuilt.clear();
   this->IntakeSeconds = this->MeshSeconds = this->ScalarsSeconds = this->FunctionSeconds =
@@ -182,7 +179,7 @@ bool ScenePreparation::Update(
   this->PrepareScalars(input);
   this->WarnOfShade(volume->GetProperty());
   this->PrepareFunction(volume);
-  this->PrepareTable(volume, needs.LookupCost);
+  this->PrepareTable(volume);
   return true;
 }
 
@@ -211,7 +208,6 @@ bool ScenePreparation::PrepareMesh(
   this->Intake = std::move(intake.Report);
   this->MeshSignature = std::move(signature);
   this->ScalarsSignature.clear();
-  this->LongestEdge = 0;
   this->MeshSeconds = meshStopwatch.GetSeconds();
   this->Rebuilt.push_back("mesh");
   this->WarnOfMesh();
@@ -300,7 +296,7 @@ void ScenePreparation::PrepareFunction(vtkVolume* volume)
   this->Rebuilt.push_back("transfer function");
 }
 
-void ScenePreparation::PrepareTable(vtkVolume* volume, double lookupCost)
+void ScenePreparation::PrepareTable(vtkVolume* volume)
 {
   const WalkMesh& mesh = *this->Scene.GetMesh();
   if (this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::CLOSED_FORM ||
@@ -316,10 +312,6 @@ void ScenePreparation::PrepareTable(vtkVolume* volume, double lookupCost)
     return;
   }
   const Stopwatch stopwatch;
-  if (this->LongestEdge == 0)
-  {
-    this->LongestEdge = MeasureCells(mesh.GetMesh()).LongestEdge; // no segment is longer
-  }
   const double scale = GetLargestScale(volume);
   SegmentTable::Request request;
   request.Interactive = volume->GetAllocatedRenderTime() < InteractiveSeconds;
@@ -328,9 +320,8 @@ void ScenePreparation::PrepareTable(vtkVolume* volume, double lookupCost)
     std::max(TableErrorShare * this->Mapper->GetMaximumError(), SmallestFunctionError);
   goal.MaximumBytes = static_cast<std::size_t>(this->Mapper->GetTableMaximumBytes());
   goal.Rays.PathLength = 2 * mesh.GetRadius() * scale;
-  goal.Rays.LongestSegment = this->LongestEdge * scale;
+  goal.Rays.LongestSegment = this->Scene.GetLongestEdge() * scale; // no segment is longer
   std::copy_n(this->Scene.GetScalarRange(), 2, goal.Rays.ScalarRange);
-  goal.LookupCost = lookupCost;
   goal.AlwaysTable = this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::TABLE;
   goal.ScalarSize = this->Mapper->GetTableScalarSize();
   goal.LengthSize = this->Mapper->GetTableLengthSize();

@@ -21,8 +21,6 @@ class vtkVolumeProperty;
 namespace tetralux
 {
 
-struct MapperNeeds;
-
 /// Makes a VolumeScene of a mapper's input, its properties and those of the volume, and keeps it:
 /// each stage is done again only where what it depends on has changed. Reports what was done.
 class ScenePreparation
@@ -33,8 +31,7 @@ public:
   /// Brings the scene up to date. progress: told the share that is done, 0..1, while the mesh is built;
   /// where it returns false, so does Update. Throws std::invalid_argument, with one line, where the
   /// input or the property can't be rendered.
-  bool Update(
-    vtkVolume* volume, const MapperNeeds& needs, const std::function<bool(double)>& progress);
+  bool Update(vtkVolume* volume, const std::function<bool(double)>& progress);
 
   VolumeScene Scene;
   TetrahedraIntakeReport Intake;
@@ -58,7 +55,7 @@ private:
   bool PrepareMesh(vtkDataObject* input, const std::function<bool(double)>& progress);
   void PrepareScalars(vtkDataObject* input);
   void PrepareFunction(vtkVolume* volume);
-  void PrepareTable(vtkVolume* volume, double lookupCost);
+  void PrepareTable(vtkVolume* volume);
   void WarnOfMesh();
   void WarnOfShade(vtkVolumeProperty* property);
   std::string GetIntegrationReason();
@@ -73,7 +70,6 @@ private:
   double FunctionLongestPath = 0;
   std::string ArrayName;
   double FunctionError = 0;
-  double LongestEdge = 0; ///< of the mesh, in its units; 0: not found yet
   SegmentTable Table;
   bool TableSet = false; ///< the scene has Table
   OnceWarning ShadeWarning;

@@ -147,7 +147,10 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   options.NumberOfCells = scene.GetMesh()->GetNumberOfCells();
   options.CellData = scene.HasCellScalars();
   options.LargestScalar = model == tetralux::OpticalModel::MaximumIntensity;
-  options.MaximumOpacity = endsEarly ? static_cast<float>(1 - terminationError) : 2.f;
+  const double brightness = frame.Shaded && model == tetralux::OpticalModel::EmissionAbsorption
+    ? tetralux::FindLargestBrightness(frame.Lights, frame.Surface)
+    : 1;
+  options.MaximumOpacity = endsEarly ? static_cast<float>(1 - terminationError / brightness) : 2.f;
   if (frame.Shaded)
   {
     this->Lighting.Update(frame.Lights, frame.Surface, grid, scene.GetMesh()->GetCenter(),

@@ -142,9 +142,13 @@ private:
   /// Projects the points of the mesh, and finds what limits rays and which cells are drawn.
   void PrepareView(MapperFrame& frame, const CameraRays& rays);
 
-  /// The order of the cells that are drawn.
-  void PrepareOrder(MapperFrame& frame);
-  VisibilityMethod ChooseMethod(MapperFrame& frame);
+  /// The order of the cells that are drawn. False after an abort.
+  bool PrepareOrder(MapperFrame& frame);
+
+  /// Makes the sorter anew where the mesh or the kind of order is another one. False after an abort.
+  bool PrepareSorter(MapperFrame& frame);
+  VisibilityMethod ChooseMethod() const;
+  bool IsOrderExact() const;
 
   ChannelFormat ChooseFormat(const VolumeScene& volume) const;
   void Describe(MapperFrame& frame);
@@ -175,7 +179,12 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   frame.Scene->CheckComplete();
   this->PrepareView(frame, rays);
-  this->PrepareOrder(frame);
+  if (!this->PrepareOrder(frame))
+  {
+    frame.Aborted = true;
+    frame.Image->Initialize();
+    return;
+  }
 
   const tetralux::Stopwatch drawStopwatch;
   this->Scene.Order = this->Order;
@@ -302,27 +311,30 @@ ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
+bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
 {
   const tetralux::WalkMesh& mesh = *frame.Scene->GetMesh();
   this->Scene.Commutes = Commutes(*frame.Scene, frame.Shaded);
   this->Sorted = !this->Scene.Commutes;
   if (this->Sorted)
   {
-    const VisibilityMethod method = this->ChooseMethod(frame);
+    if (!this->PrepareSorter(frame))
+    {
+      return false;
+    }
     const tetralux::Stopwatch stopwatch;
-    this->Order =
-      this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()), method,
-        this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
-                                : tetralux::VisibilityDirection::BackToFront,
-        this->DrawnCells);
+    this->Order = this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
+      this->ChooseMethod(),
+      this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
+                              : tetralux::VisibilityDirection::BackToFront,
+      this->DrawnCells);
     this->Method = this->Sorter->GetUsedMethod();
     this->WarnOfOrder(
       this->Self->Order == EXACT_ORDER && this->Method == VisibilityMethod::MeshedNonConvex
         ? mesh.GetConvexification()->Refusal
         : "");
     frame.Seconds.emplace_back("order", stopwatch.GetSeconds());
-    return;
+    return true;
   }
   this->Order.resize(mesh.GetNumberOfCells());
   std::iota(this->Order.begin(), this->Order.end(), 0);
@@ -332,28 +344,45 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
                         [this](std::int32_t cell) { return !this->DrawnCells[cell]; }),
       this->Order.end());
   }
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------
-VisibilityMethod vtkTetrahedraProjectionMapper::Internals::ChooseMethod(MapperFrame& frame)
+bool vtkTetrahedraProjectionMapper::Internals::IsOrderExact() const
+{
+  return this->Self->Order == AUTOMATIC_ORDER || this->Self->Order == EXACT_ORDER;
+}
+
+//------------------------------------------------------------------------------------------------
+bool vtkTetrahedraProjectionMapper::Internals::PrepareSorter(MapperFrame& frame)
 {
   tetralux::WalkMesh& mesh = *frame.Scene->GetMesh();
   const std::uint64_t version = frame.Scene->GetMeshVersion();
-  const bool exact = this->Self->Order == AUTOMATIC_ORDER || this->Self->Order == EXACT_ORDER;
+  const bool exact = this->IsOrderExact();
   if (!this->Sorter || this->SorterVersion != version || exact != this->SorterIsConvex)
   {
     const tetralux::Stopwatch stopwatch;
     this->Sorter.reset();
     if (exact)
     {
-      mesh.MakeConvex();
+      mesh.MakeConvex([&frame](double fraction) { return frame.Continue(fraction); });
+      if (!mesh.GetConvexification())
+      {
+        return false;
+      }
     }
     this->Sorter = std::make_unique<tetralux::VisibilityOrder>(mesh, exact);
     this->SorterVersion = version;
     this->SorterIsConvex = exact;
     frame.Seconds.emplace_back("convexification", stopwatch.GetSeconds());
   }
-  if (exact)
+  return true;
+}
+
+//------------------------------------------------------------------------------------------------
+VisibilityMethod vtkTetrahedraProjectionMapper::Internals::ChooseMethod() const
+{
+  if (this->IsOrderExact())
   {
     return this->Sorter->IsConvex() ? VisibilityMethod::Meshed : VisibilityMethod::MeshedAcrossGaps;
   }

@@ -75,8 +75,7 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
   {
     throw std::invalid_argument("the renderer has no OpenGL render window");
   }
-  const tetralux::MapperNeeds needs = this->Self->GetNeeds();
-  const bool ready = this->Preparation.Update(volume, needs,
+  const bool ready = this->Preparation.Update(volume,
     [&](double fraction)
     {
       this->Self->InvokeEvent(vtkCommand::ProgressEvent, &fraction);
@@ -196,9 +195,6 @@ vtkTetrahedraVolumeMapper::vtkTetrahedraVolumeMapper()
 
 //------------------------------------------------------------------------------------------------
 vtkTetrahedraVolumeMapper::~vtkTetrahedraVolumeMapper() = default;
-
-//------------------------------------------------------------------------------------------------
-tetralux::MapperNeeds vtkTetrahedraVolumeMapper::GetNeeds() const { return {}; }
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)

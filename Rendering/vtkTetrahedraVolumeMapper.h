@@ -29,7 +29,7 @@
  * Mappers are created by name, there is no object factory behind them. Errors are reported once for
  * each cause; the volume is then not drawn.
  *
- * @sa vtkTetrahedraRayCastMapper
+ * @sa vtkTetrahedraRayCastMapper, vtkTetrahedraGPURayCastMapper, vtkTetrahedraProjectionMapper
  */
 #ifndef vtkTetrahedraVolumeMapper_h
 #define vtkTetrahedraVolumeMapper_h
@@ -46,7 +46,6 @@ class vtkImageData;
 namespace tetralux
 {
 struct MapperFrame;
-struct MapperNeeds;
 } // namespace tetralux
 
 class TETRALUXRENDERING_EXPORT vtkTetrahedraVolumeMapper : public vtkUnstructuredGridVolumeMapper
@@ -181,8 +180,9 @@ public:
 
   ///@{
   /**
-   * What texels are rounded to; automatic by default. The formats of textures, whose error can so be
-   * studied: rays read texels in single precision in any case, and only that needs no copy of them.
+   * What texels are rounded to; automatic by default. The formats of textures: on the graphics
+   * card texels have them; on the processor, where their error can so be studied, rays read texels in
+   * single precision in any case, and only that needs no copy of them.
    */
   vtkSetClampMacro(TableFormat, int, AUTOMATIC_FORMAT, FLOAT_FORMAT);
   vtkGetMacro(TableFormat, int);
@@ -313,11 +313,6 @@ protected:
   ~vtkTetrahedraVolumeMapper() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-
-  /**
-   * What the mapper's way of drawing makes of a scene, asked in each frame.
-   */
-  virtual tetralux::MapperNeeds GetNeeds() const;
 
   /**
    * Draws a frame whose scene is prepared, into the window and, unless it is read later, into the

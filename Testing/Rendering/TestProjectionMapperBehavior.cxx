@@ -262,6 +262,32 @@ TEST(ProjectionMapper, Orders)
 }
 
 // After a frame with all that frames may have, and after an aborted one.
+TEST(ProjectionMapper, AbortedFramesAreNotDrawn)
+{
+  // Aborted at the first, second, ... question: while the mesh is made convex, or in the drawing.
+  for (int question = 1; question <= 3; ++question)
+  {
+    ProjectionMapperScene scene;
+    int events = 0;
+    bool abort = true;
+    const Observer progress(scene.Projection, vtkCommand::VolumeMapperRenderProgressEvent,
+      [&](const char*) { scene.Window->SetAbortRender(abort && ++events == question); });
+    scene.Window->Render();
+    if (events < question)
+    {
+      EXPECT_GT(question, 1) << "nobody was asked";
+      break;
+    }
+    EXPECT_TRUE(scene.Says("\"aborted\": true")) << question;
+
+    // The next frame is complete.
+    abort = false;
+    const std::vector<float> picture = scene.Render();
+    EXPECT_TRUE(scene.Says("\"aborted\": false")) << question;
+    EXPECT_LT(FindLargestDifference(picture, scene.RenderByRays()), 1e-4) << question;
+  }
+}
+
 TEST(ProjectionMapper, LeavesOpenGLAsItWas)
 {
   ProjectionMapperScene scene;
