@@ -178,6 +178,8 @@ void GpuSegmentTable::Activate(vtkShaderProgram* program)
   this->Texture->Activate();
   program->SetUniformi("segmentTable", this->Texture->GetTextureUnit());
   program->SetUniform3f("tableSize", this->Size);
+  const float inverse[3] = { 1 / this->Size[0], 1 / this->Size[1], 1 / this->Size[2] };
+  program->SetUniform3f("tableInverseSize", inverse);
   program->SetUniformf("tableInverseDelta", this->InverseDelta);
   if (this->Logarithmic)
   {

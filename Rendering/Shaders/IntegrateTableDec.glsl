@@ -5,6 +5,7 @@
 
 uniform sampler3D segmentTable; // over front scalar, back scalar, length
 uniform vec3 tableSize;         // texels
+uniform vec3 tableInverseSize;
 uniform float tableInverseDelta;
 
 #ifdef LOGARITHMIC_LENGTHS
@@ -38,7 +39,7 @@ float GetScalarCoordinate(float scalar)
   }
 #endif
   float inside = clamp(scalar, interval.x, interval.y);
-  return min(interval.z + interval.w * (inside - interval.x), tableSize.x - 1.0);
+  return interval.z + interval.w * (inside - interval.x);
 }
 
 float GetLengthCoordinate(float len)
@@ -52,17 +53,19 @@ float GetLengthCoordinate(float len)
   float mantissa = above * exp2(-exponent);
   y = tableStepsPerDoubling * (min(y, 1.0) + exponent + (mantissa - 1.0));
 #endif
-  return clamp(y, 0.0, tableSize.z - 1.0);
+  return min(y, tableSize.z);
 }
 
+// Coordinates beyond the last texel are that texel's.
 vec4 LookUpTable(vec3 coordinate)
 {
 #ifdef HARDWARE_FILTERING
-  return texture(segmentTable, (coordinate + 0.5) / tableSize);
+  return texture(segmentTable, (coordinate + 0.5) * tableInverseSize);
 #else
   // Weights of graphics cards have eight bits.
-  vec3 corner = min(floor(coordinate), tableSize - 2.0);
-  vec3 share = coordinate - corner;
+  vec3 inside = min(coordinate, tableSize - 1.0);
+  vec3 corner = min(floor(inside), tableSize - 2.0);
+  vec3 share = inside - corner;
   ivec3 i = ivec3(corner);
   vec4 slices[2];
   for (int k = 0; k < 2; ++k)
@@ -81,10 +84,10 @@ vec4 LookUpTable(vec3 coordinate)
 
 vec4 IntegrateSegment(float front, float back, float len)
 {
-  if (isnan(front) || isnan(back) || !(len > 0.0))
-  {
-    return vec4(0.0);
-  }
-  return LookUpTable(
-    vec3(GetScalarCoordinate(front), GetScalarCoordinate(back), GetLengthCoordinate(len)));
+  // No early return: branches cost more than lookups that are not needed.
+  bool counts = len > 0.0 && !isnan(front - back);
+  vec3 segment = counts ? vec3(front, back, len) : vec3(0.0);
+  vec4 found = LookUpTable(vec3(GetScalarCoordinate(segment.x), GetScalarCoordinate(segment.y),
+    GetLengthCoordinate(segment.z)));
+  return counts ? found : vec4(0.0);
 }
