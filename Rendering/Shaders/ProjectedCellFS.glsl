@@ -36,10 +36,16 @@ flat in vec3 gradient2;
 flat in vec3 gradient3;
 #endif
 
+#ifdef LINEAR
+noperspective in float rayLength; // world length of a unit of depth
+#else
+uniform float depthUnit; // world length of rayDirection where it has length 1
+#ifdef PERSPECTIVE
 uniform vec3 rayDirection; // of the pixel in the lower left, and its change from pixel to pixel
 uniform vec3 rayStepX;
 uniform vec3 rayStepY;
-uniform float depthUnit;   // world length of rayDirection where it has length 1
+#endif
+#endif
 
 //VTK::Segment::Dec
 
@@ -223,14 +229,18 @@ void main()
   float code = place.z;
 #endif
   float entries = code >= 4.0 ? code - 4.0 : code;
-  float rayLength =
+#if defined(PERSPECTIVE)
+  float rayLength = depthUnit *
     length(rayDirection + (gl_FragCoord.x - 0.5) * rayStepX + (gl_FragCoord.y - 0.5) * rayStepY);
+#elif !defined(LINEAR)
+  float rayLength = depthUnit;
+#endif
 
   View view;
   view.Sign = code >= 4.0 ? -1.0 : 1.0;
   view.Z = At(base.xyz, d);
   view.Scalar = At(scalar, d);
-  view.RayLength = depthUnit * rayLength;
+  view.RayLength = rayLength;
 #ifdef SHADED
   view.Gradient = gradient0 + d.x * gradient1 + d.y * gradient2;
 #endif

@@ -28,6 +28,14 @@ flat out vec3 gradient3;
 
 uniform vec2 pictureSize; // pixels
 
+#ifdef LINEAR
+uniform vec3 rayDirection; // of the pixel in the lower left, and its change from pixel to pixel
+uniform vec3 rayStepX;
+uniform vec3 rayStepY;
+uniform float depthUnit; // world length of rayDirection where it has length 1
+noperspective out float rayLength;
+#endif
+
 flat out vec4 base;   // on the least steep face, and the slope of the scalar behind it
 flat out vec4 face0;  // the three others, and the smallest and largest scalar
 flat out vec4 face1;
@@ -50,6 +58,10 @@ void main()
   gradient1 = cellGradient1;
   gradient2 = cellGradient2;
   gradient3 = cellGradient3;
+#endif
+#ifdef LINEAR
+  rayLength =
+    depthUnit * length(rayDirection + (corner.x - 0.5) * rayStepX + (corner.y - 0.5) * rayStepY);
 #endif
   gl_Position = vec4(2.0 * corner / pictureSize - 1.0, 0.0, 1.0);
 }
