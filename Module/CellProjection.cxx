@@ -633,16 +633,12 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   Span<const ScreenPoint> points, Span<const std::int32_t> cells, Span<const std::int32_t> order,
   const CellData& data, ProjectedCells& result)
 {
-  // Blocks of cells are projected side by side, and pushed together behind that.
+  // Blocks of cells are projected side by side, and pushed together behind that, on one thread: threads
+  // that run out of work wait busily, at the cost of a rasteriser that runs beside them.
   constexpr std::int64_t BlockSize = 512;
   const auto n = static_cast<std::int64_t>(order.size());
   const std::int64_t blocks = (n + BlockSize - 1) / BlockSize;
-  struct Counts
-  {
-    std::int64_t Cells = 0;
-    std::int64_t Triangles = 0;
-  };
-  std::vector<Counts> counts(blocks + 1);
+  std::vector<std::int64_t> counts(blocks); // of the cells that are seen
   std::vector<std::uint8_t> corners(n);
   result.Cells.resize(n);
   const bool withGradients = data.Gradients != CellData::Gradient::None;
@@ -681,48 +677,36 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
         projected.Fourth.Own[1] = static_cast<float>(cell % CellIdBase);
       }
       corners[last++] = static_cast<std::uint8_t>(count);
-      counts[block].Triangles += count - 2;
     }
-    counts[block].Cells = last - begin;
+    counts[block] = last - begin;
   }
-  Counts sum;
-  for (Counts& count : counts)
-  {
-    const Counts own = count;
-    count = sum;
-    sum.Cells += own.Cells;
-    sum.Triangles += own.Triangles;
-  }
-  result.Triangles.resize(3 * sum.Triangles);
-#pragma omp parallel for schedule(static)
+  result.Triangles.clear();
+  std::int64_t seen = 0;
   for (std::int64_t block = 0; block < blocks; ++block)
   {
-    std::uint32_t* triangle = result.Triangles.data() + 3 * counts[block].Triangles;
-    for (std::int64_t i = counts[block].Cells; i < counts[block + 1].Cells; ++i)
+    const std::int64_t begin = block * BlockSize;
+    const std::int64_t end = begin + counts[block];
+    if (begin > seen)
     {
-      const auto corner = static_cast<std::uint32_t>(4 * i);
-      const int count = corners[block * BlockSize + i - counts[block].Cells];
-      for (int k = 1; k < count - 1; ++k, triangle += 3)
+      std::copy(
+        result.Cells.begin() + begin, result.Cells.begin() + end, result.Cells.begin() + seen);
+      if (withGradients)
       {
-        triangle[0] = corner + k;
-        triangle[1] = corner + k + 1;
-        triangle[2] = corner;
+        std::copy(result.Gradients.begin() + begin, result.Gradients.begin() + end,
+          result.Gradients.begin() + seen);
+      }
+    }
+    for (std::int64_t i = begin; i < end; ++i, ++seen)
+    {
+      const auto corner = static_cast<std::uint32_t>(4 * seen);
+      for (std::uint32_t k = 1; k + 1 < corners[i]; ++k)
+      {
+        result.Triangles.insert(result.Triangles.end(), { corner + k, corner + k + 1, corner });
       }
     }
   }
-  for (std::int64_t block = 0; block < blocks; ++block)
-  {
-    const std::int64_t size = counts[block + 1].Cells - counts[block].Cells;
-    const auto begin = result.Cells.begin() + block * BlockSize;
-    std::copy(begin, begin + size, result.Cells.begin() + counts[block].Cells);
-    if (withGradients)
-    {
-      const auto first = result.Gradients.begin() + block * BlockSize;
-      std::copy(first, first + size, result.Gradients.begin() + counts[block].Cells);
-    }
-  }
-  result.Cells.resize(sum.Cells + 1);
-  result.Gradients.resize(withGradients ? sum.Cells + 1 : 0);
+  result.Cells.resize(seen + 1);
+  result.Gradients.resize(withGradients ? seen + 1 : 0);
 }
 
 } // namespace tetralux

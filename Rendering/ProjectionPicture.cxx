@@ -26,9 +26,9 @@ namespace tetralux
 namespace
 {
 
-/// Cells that are projected and sent at once: enough for all threads, little memory, and whoever
-/// wants to abort is heard soon.
-constexpr std::size_t BatchSize = 32768;
+/// Cells that are projected and sent at once, 16 MB: enough for all threads, which wait busily for each
+/// other, and few enough that whoever wants to abort is heard soon.
+constexpr std::size_t BatchSize = 131072;
 
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.
 constexpr float Beyond = 1e38f;
