@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellProjection.h"
 
+#include "LocalScreen.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,29 +23,11 @@ constexpr double LargestSlope = 1e30;
 /// What a face has in place of its function where it never limits a ray.
 constexpr float Never = 1e37f;
 
-/// How far rays pass beside the centres of pixels above them, of how far they do beside them: no
-/// line that meshes are aligned with has this slope.
-constexpr double ShiftSlope = 0.38;
-
 /// A widened corner may move by this many margins; sharper ones get a rectangle around all.
 constexpr double LongestMiter = 64;
 
 /// Corners farther from the picture than this, in pixels, would cost a rasteriser its accuracy.
 constexpr double LargestPosition = 16384;
-
-struct Vector
-{
-  double X, Y, Z;
-};
-
-Vector operator-(const Vector& a, const Vector& b) { return { a.X - b.X, a.Y - b.Y, a.Z - b.Z }; }
-
-double Dot(const Vector& a, const Vector& b) { return a.X * b.X + a.Y * b.Y + a.Z * b.Z; }
-
-Vector Cross(const Vector& a, const Vector& b)
-{
-  return { a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X };
-}
 
 /// A linear function of the pixel, relative to a cell's reference.
 struct Linear
@@ -68,74 +52,21 @@ struct Place
   double X, Y;
 };
 
-/// Between lo and hi, also what is not a number.
-double Bound(double x, double lo, double hi) { return x >= lo ? (x <= hi ? x : hi) : lo; }
-
-/// std::floor of what an int holds, without the call that it takes on old processors.
-double Floor(double x)
+/// Cuts off what is beyond the picture; false where no pixel's centre is left.
+bool Clamp(ScreenBox& box, const ProjectionSettings& settings)
 {
-  const int truncated = static_cast<int>(x);
-  return truncated - (x < truncated ? 1 : 0);
-}
-
-/// The smallest rectangle of pixels, not rounded, around some places.
-struct Box
-{
-  double Lo[2] = { std::numeric_limits<double>::max(), std::numeric_limits<double>::max() };
-  double Hi[2] = { std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest() };
-
-  void Add(double x, double y)
+  const double size[2] = { static_cast<double>(settings.Width),
+    static_cast<double>(settings.Height) };
+  for (int a = 0; a < 2; ++a)
   {
-    this->Lo[0] = std::min(this->Lo[0], x);
-    this->Lo[1] = std::min(this->Lo[1], y);
-    this->Hi[0] = std::max(this->Hi[0], x);
-    this->Hi[1] = std::max(this->Hi[1], y);
-  }
-
-  /// Cuts off what is beyond the picture; false where no pixel's centre is left.
-  bool Clamp(const ProjectionSettings& settings)
-  {
-    const double size[2] = { static_cast<double>(settings.Width),
-      static_cast<double>(settings.Height) };
-    for (int a = 0; a < 2; ++a)
+    box.Lo[a] = Bound(box.Lo[a], -1, size[a] + 1);
+    box.Hi[a] = Bound(box.Hi[a], -2, size[a]);
+    if (!(-Floor(settings.Margin - box.Lo[a]) <= Floor(box.Hi[a] + settings.Margin)))
     {
-      this->Lo[a] = Bound(this->Lo[a], -1, size[a] + 1);
-      this->Hi[a] = Bound(this->Hi[a], -2, size[a]);
-      if (!(-Floor(settings.Margin - this->Lo[a]) <= Floor(this->Hi[a] + settings.Margin)))
-      {
-        return false;
-      }
-    }
-    return this->Lo[0] < size[0] && this->Lo[1] < size[1] && this->Hi[0] > -1 && this->Hi[1] > -1;
-  }
-};
-
-/// Places of the part of a cell that is in front of the eye: its corners, and where its edges come
-/// from behind.
-Box FindBox(const ScreenFrame& frame, const ScreenPoint* const points[4])
-{
-  Box box;
-  for (int i = 0; i < 4; ++i)
-  {
-    const ScreenPoint& a = *points[i];
-    if (frame.IsInFront(a))
-    {
-      box.Add(a.X, a.Y);
-      continue;
-    }
-    for (int k = 0; k < 4; ++k)
-    {
-      const ScreenPoint& b = *points[k];
-      if (frame.IsInFront(b))
-      {
-        const double t = (ScreenFrame::SmallestDepth - a.Depth) / (b.Depth - a.Depth);
-        const double x = a.X + t * (b.X * b.Depth - a.X);
-        const double y = a.Y + t * (b.Y * b.Depth - a.Y);
-        box.Add(x / ScreenFrame::SmallestDepth, y / ScreenFrame::SmallestDepth);
-      }
+      return false;
     }
   }
-  return box;
+  return box.Lo[0] < size[0] && box.Lo[1] < size[1] && box.Hi[0] > -1 && box.Hi[1] > -1;
 }
 
 /// A convex polygon, each edge moved outwards; false where a corner is too sharp for that.
@@ -191,7 +122,7 @@ void FindRectangle(const ScreenPoint* const points[4], double margin, Place corn
       }
     }
   }
-  Box box; // along and across
+  ScreenBox box; // along and across
   for (int i = 0; i < 4; ++i)
   {
     const double dx = points[i]->X - points[0]->X;
@@ -265,20 +196,8 @@ public:
     for (int i = 0; i < 4; ++i)
     {
       const ScreenPoint& p = *points[i];
-      const double x = p.X - referenceX;
-      const double y = p.Y - referenceY;
-      if (!homogeneous)
-      {
-        this->Points[i] = { x, y, p.Depth };
-      }
-      else if (frame.IsInFront(p))
-      {
-        this->Points[i] = { x * p.Depth, y * p.Depth, p.Depth };
-      }
-      else
-      {
-        this->Points[i] = { p.X - referenceX * p.Depth, p.Y - referenceY * p.Depth, p.Depth };
-      }
+      this->Points[i] = homogeneous ? GetHomogeneous(frame, p, referenceX, referenceY)
+                                    : Vector{ p.X - referenceX, p.Y - referenceY, p.Depth };
     }
     const Vector a = this->Points[1] - this->Points[0];
     const Vector b = this->Points[2] - this->Points[0];
@@ -384,8 +303,8 @@ double FindExtent(const ScreenFrame& frame, const ProjectionSettings& settings,
 {
   const ScreenPoint* const corners[4] = { &points[cell[0]], &points[cell[1]], &points[cell[2]],
     &points[cell[3]] };
-  Box box = FindBox(frame, corners);
-  return box.Clamp(settings) ? std::max(box.Hi[0] - box.Lo[0], box.Hi[1] - box.Lo[1]) : 0;
+  ScreenBox box = FindBox(frame, corners);
+  return Clamp(box, settings) ? std::max(box.Hi[0] - box.Lo[0], box.Hi[1] - box.Lo[1]) : 0;
 }
 
 /// A number that looks random, 0..LargestCellKey (Wang's hash of integers).
@@ -400,10 +319,11 @@ std::uint32_t MakeKey(std::int32_t cell)
   return key & LargestCellKey;
 }
 
-/// ProjectCell, with gradients where gradient is not nullptr.
+/// ProjectCell, with gradients where gradient is not nullptr. faceOrder: the face that is the base,
+/// and those of Faces, each by the point opposite to it.
 int Project(const ScreenFrame& frame, const ProjectionSettings& settings,
   const std::array<const ScreenPoint*, 4>& cellPoints, ProjectedCell& result,
-  const double (*gradients)[3], ProjectedGradient* gradient)
+  const double (*gradients)[3], ProjectedGradient* gradient, int (&faceOrder)[4])
 {
   const ScreenPoint* const points[4] = { cellPoints[0], cellPoints[1], cellPoints[2],
     cellPoints[3] };
@@ -413,9 +333,9 @@ int Project(const ScreenFrame& frame, const ProjectionSettings& settings,
   const ScreenPoint& d = *points[3];
   const bool allInFront =
     frame.IsInFront(a) && frame.IsInFront(b) && frame.IsInFront(c) && frame.IsInFront(d);
-  Box box = FindBox(frame, points);
-  const Box whole = box;
-  if (!box.Clamp(settings) || (!allInFront && !settings.Interpolate))
+  ScreenBox box = FindBox(frame, points);
+  const ScreenBox whole = box;
+  if (!Clamp(box, settings) || (!allInFront && !settings.Interpolate))
   {
     return 0;
   }
@@ -502,16 +422,22 @@ int Project(const ScreenFrame& frame, const ProjectionSettings& settings,
   float* slots[3] = { result.First.Face0, result.Second.Face1, result.Second.Face2 };
   int entries = 0;
   int exits = 0;
+  faceOrder[0] = base;
   for (int i = 0; i < 4; ++i)
   {
-    if (i != base && !seen[i])
+    if (i != base)
     {
-      Store(cell.FindSide(i), 1, slots[entries++]);
-    }
-    else if (i != base)
-    {
-      const bool entry = front[i] == front[base];
-      Store(faces[i] - faces[base], sign, entry ? slots[entries++] : slots[2 - exits++]);
+      const bool entry = !seen[i] || front[i] == front[base];
+      const int slot = entry ? entries++ : 2 - exits++;
+      faceOrder[slot + 1] = i;
+      if (seen[i])
+      {
+        Store(faces[i] - faces[base], sign, slots[slot]);
+      }
+      else
+      {
+        Store(cell.FindSide(i), 1, slots[slot]);
+      }
     }
   }
   if (exits == 0 && allInFront)
@@ -599,19 +525,36 @@ void FindGradients(const CellData& data, Span<const ScreenPoint> points, const s
   }
 }
 
+/// The functions of a cell's four faces, each one's points in ascending order. faces: see Project.
+void FindFaceScalars(const ScreenFrame& frame, const ProjectionSettings& settings,
+  Span<const ScreenPoint> points, const std::int32_t* cell, const int (&faces)[4],
+  FaceScalar result[4])
+{
+  for (int slot = 0; slot < 4; ++slot)
+  {
+    const int opposite = faces[slot];
+    std::int32_t ids[3] = { cell[(opposite + 1) % 4], cell[(opposite + 2) % 4],
+      cell[(opposite + 3) % 4] };
+    std::sort(ids, ids + 3);
+    result[slot] = FindFaceScalar(frame, settings, points[ids[0]], points[ids[1]], points[ids[2]]);
+  }
+}
+
 } // namespace
 
 int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, const ScreenPoint& a,
   const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d, ProjectedCell& result)
 {
-  return Project(frame, settings, { &a, &b, &c, &d }, result, nullptr, nullptr);
+  int faces[4];
+  return Project(frame, settings, { &a, &b, &c, &d }, result, nullptr, nullptr, faces);
 }
 
 int ProjectCell(const ScreenFrame& frame, const ProjectionSettings& settings, const ScreenPoint& a,
   const ScreenPoint& b, const ScreenPoint& c, const ScreenPoint& d, ProjectedCell& result,
   const double gradients[4][3], ProjectedGradient& gradient)
 {
-  return Project(frame, settings, { &a, &b, &c, &d }, result, gradients, &gradient);
+  int faces[4];
+  return Project(frame, settings, { &a, &b, &c, &d }, result, gradients, &gradient, faces);
 }
 
 double FindShift(const ScreenFrame& frame, const ProjectionSettings& settings,
@@ -643,6 +586,7 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   result.Cells.resize(n);
   const bool withGradients = data.Gradients != CellData::Gradient::None;
   result.Gradients.resize(withGradients ? n : 0);
+  result.FaceScalars.resize(data.FaceScalars ? 4 * n : 0);
 #pragma omp parallel for schedule(dynamic)
   for (std::int64_t block = 0; block < blocks; ++block)
   {
@@ -659,12 +603,17 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
       {
         FindGradients(data, points, p, gradients);
       }
+      int faces[4];
       const int count =
         Project(frame, settings, { &points[p[0]], &points[p[1]], &points[p[2]], &points[p[3]] },
-          projected, gradients, withGradients ? &result.Gradients[last] : nullptr);
+          projected, gradients, withGradients ? &result.Gradients[last] : nullptr, faces);
       if (count == 0)
       {
         continue;
+      }
+      if (data.FaceScalars)
+      {
+        FindFaceScalars(frame, settings, points, p, faces, &result.FaceScalars[4 * last]);
       }
       if (data.Keys)
       {
@@ -695,6 +644,11 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
         std::copy(result.Gradients.begin() + begin, result.Gradients.begin() + end,
           result.Gradients.begin() + seen);
       }
+      if (data.FaceScalars)
+      {
+        std::copy(result.FaceScalars.begin() + 4 * begin, result.FaceScalars.begin() + 4 * end,
+          result.FaceScalars.begin() + 4 * seen);
+      }
     }
     for (std::int64_t i = begin; i < end; ++i, ++seen)
     {
@@ -707,6 +661,7 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   }
   result.Cells.resize(seen + 1);
   result.Gradients.resize(withGradients ? seen + 1 : 0);
+  result.FaceScalars.resize(data.FaceScalars ? 4 * seen : 0);
 }
 
 } // namespace tetralux

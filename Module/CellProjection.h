@@ -24,6 +24,7 @@
 // wide keep that: of the faces' functions only differences to the least steep of them count for the
 // thickness.
 
+#include "FaceScalar.h"
 #include "PointGradients.h"
 #include "ScreenFrame.h"
 #include "Span.h"
@@ -64,7 +65,8 @@ struct ProjectionSettings
 ///   z        base + Sign near where the ray goes through the one face, base + Sign far at the other:
 ///            enters by the former where Sign is 1, leaves by it where it is -1
 ///   scalar   (Scalar(dx, dy) + ScalarSlope near) / z at the former, likewise with far at the latter;
-///            without perspective not divided by z
+///            without perspective not divided by z. Rounded otherwise than by the cell on the other
+///            side of the face: where that matters, see FaceScalar
 ///
 /// The ray misses the cell where near <= far.
 struct ProjectedCell
@@ -141,6 +143,10 @@ struct ProjectedCells
   /// Those of Cells where they are asked for, else empty.
   std::vector<ProjectedGradient> Gradients;
 
+  /// Four for each cell that is drawn, where they are asked for, else empty: of the base, Face0, Face1
+  /// and Face2.
+  std::vector<FaceScalar> FaceScalars;
+
   /// Three for each triangle, of corners: corner k of cell i is 4 i + k. The last one is the cell's
   /// first corner, which has the data of the cell with it.
   std::vector<std::uint32_t> Triangles;
@@ -154,6 +160,9 @@ struct CellData
 
   /// The cell's id in Own: CellIdBase Own[0] + Own[1].
   bool Ids = false;
+
+  /// ProjectedCells::FaceScalars.
+  bool FaceScalars = false;
 
   /// Gradients in the coordinates of the mesh, of any length.
   enum class Gradient

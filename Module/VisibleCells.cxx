@@ -100,8 +100,8 @@ std::vector<std::uint8_t> FindVisibleCells(const TransferFunction& function,
     });
 }
 
-std::vector<std::uint8_t> FindCrossedCells(
-  Span<const Isosurface> surfaces, Span<const std::int32_t> cells, Span<const double> scalars)
+std::vector<std::uint8_t> FindCrossedCells(Span<const Isosurface> surfaces,
+  Span<const std::int32_t> cells, Span<const double> scalars, double rounding)
 {
   std::vector<double> values;
   for (const Isosurface& surface : surfaces)
@@ -115,8 +115,8 @@ std::vector<std::uint8_t> FindCrossedCells(
   return FindCells(cells, scalars, false,
     [&](double lo, double hi)
     {
-      const auto value = std::lower_bound(values.begin(), values.end(), lo);
-      return value != values.end() && *value <= hi;
+      const auto value = std::lower_bound(values.begin(), values.end(), lo - rounding);
+      return value != values.end() && *value <= hi + rounding;
     });
 }
 

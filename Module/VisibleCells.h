@@ -20,9 +20,11 @@ TETRALUXCORE_EXPORT std::vector<std::uint8_t> FindVisibleCells(const TransferFun
   Span<const std::int32_t> cells, Span<const double> scalars, bool scalarsOfCells);
 
 /// For each cell 1 where a surface of constant scalar that is not fully transparent goes through it
-/// or touches it, else 0. scalars: one for each point. Parallel.
-TETRALUXCORE_EXPORT std::vector<std::uint8_t> FindCrossedCells(
-  Span<const Isosurface> surfaces, Span<const std::int32_t> cells, Span<const double> scalars);
+/// or touches it, else 0. scalars: one for each point. rounding: by how much whoever draws them may
+/// move the scalars relative to the surfaces' values; cells that are crossed only then have 1, too.
+/// Parallel.
+TETRALUXCORE_EXPORT std::vector<std::uint8_t> FindCrossedCells(Span<const Isosurface> surfaces,
+  Span<const std::int32_t> cells, Span<const double> scalars, double rounding);
 
 } // namespace tetralux
 

@@ -351,8 +351,13 @@ const std::vector<std::uint8_t>& VolumeScene::GetVisibleCells()
       this->VisibleCells.clear();
       break;
     case OpticalModel::Isosurfaces:
-      this->VisibleCells = FindCrossedCells(this->Surfaces, cells, this->Scalars);
+    {
+      // Both are rounded to single precision as they are mapped to -1..1.
+      constexpr double MappedRounding = 1. / (1 << 23);
+      this->VisibleCells = FindCrossedCells(
+        this->Surfaces, cells, this->Scalars, MappedRounding * this->GetScalarMap().Scale);
       break;
+    }
     default:
       this->VisibleCells =
         FindVisibleCells(this->Function, cells, this->Scalars, this->ScalarsOfCells);

@@ -105,7 +105,14 @@ void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
   }
   this->LargestBatch = std::max(this->LargestBatch,
     cells.Cells.size() * sizeof(ProjectedCell) + cells.Triangles.size() * sizeof(std::uint32_t) +
-      cells.Gradients.size() * sizeof(ProjectedGradient));
+      cells.Gradients.size() * sizeof(ProjectedGradient) +
+      cells.FaceScalars.size() * sizeof(FaceScalar));
+  if (!cells.FaceScalars.empty())
+  {
+    constexpr std::size_t TexelsOfFace = 3;
+    this->FaceScalars.Upload(this->Window, reinterpret_cast<const float*>(cells.FaceScalars.data()),
+      TexelsOfFace * cells.FaceScalars.size(), 4, "scalars of faces");
+  }
   this->Attributes->Bind();
   if (!this->Corners->Upload(
         cells.Cells.data(), cells.Cells.size(), vtkOpenGLBufferObject::ArrayBuffer) ||
@@ -136,9 +143,17 @@ void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
       add(attribute, this->Gradients, GradientSize);
     }
   }
+  if (!cells.FaceScalars.empty())
+  {
+    this->FaceScalars.Activate(this->Program, "faceScalars");
+  }
   glDrawElements(
     GL_TRIANGLES, static_cast<GLsizei>(cells.Triangles.size()), GL_UNSIGNED_INT, nullptr);
   this->Attributes->Release();
+  if (!cells.FaceScalars.empty())
+  {
+    this->FaceScalars.Deactivate();
+  }
 }
 
 void ProjectedCellDrawer::ReleaseGraphicsResources(vtkWindow* window)
@@ -151,6 +166,7 @@ void ProjectedCellDrawer::ReleaseGraphicsResources(vtkWindow* window)
   this->Corners->ReleaseGraphicsResources();
   this->Gradients->ReleaseGraphicsResources();
   this->Triangles->ReleaseGraphicsResources();
+  this->FaceScalars.ReleaseGraphicsResources(window);
   this->Program = nullptr;
   this->Source.clear();
   this->Window = nullptr;

@@ -3,6 +3,7 @@
 #define tetralux_ProjectedCellDrawer_h
 
 #include "CellProjection.h"
+#include "TextureBuffer.h"
 
 #include "vtkNew.h"
 #include "vtkWeakPointer.h"
@@ -42,7 +43,8 @@ public:
   /// log, where there is none.
   vtkShaderProgram* Use(vtkOpenGLRenderWindow* window, const Shader& shader);
 
-  /// Sends and draws; the program that Use returned is in use.
+  /// Sends and draws; the program that Use returned is in use. Throws std::runtime_error, with one
+  /// line, where the graphics card has no room for the cells.
   void Draw(const ProjectedCells& cells);
 
   /// Bytes on the graphics card of the largest batch since the last release.
@@ -57,6 +59,7 @@ private:
   vtkNew<vtkOpenGLBufferObject> Corners;
   vtkNew<vtkOpenGLBufferObject> Gradients;
   vtkNew<vtkOpenGLBufferObject> Triangles;
+  TextureBuffer FaceScalars;
   vtkShaderProgram* Program = nullptr; ///< the cache's
   std::string Source;                  ///< of the fragment shader that was found to compile
   std::size_t LargestBatch = 0;

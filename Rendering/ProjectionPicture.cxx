@@ -7,7 +7,6 @@
 #include "LargestPictureFS.h"
 #include "RayGridDec.h"
 #include "RayLimits.h"
-#include "SnapScalarDec.h"
 #include "Stopwatch.h"
 #include "VolumeScene.h"
 
@@ -215,6 +214,7 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   CellData data;
   data.Keys = scene.Dither;
   data.Ids = scene.Volume->HasCellScalars();
+  data.FaceScalars = scene.Volume->GetOpticalModel() == OpticalModel::Isosurfaces;
   if (shaded && scene.SmoothShading)
   {
     data.Gradients = CellData::Gradient::Points;
@@ -277,11 +277,7 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
   const std::string cell = "int(cellData.x) * " + std::to_string(CellIdBase) + " + int(cellData.y)";
   shader.Segment = (pass == Pass::FirstDistances ? this->Pieces : this->Integral).GetDeclarations();
   defines += scene.Dither ? "#define KEYS\n" : "";
-  if (model == OpticalModel::Isosurfaces)
-  {
-    defines += "#define SURFACES\n";
-    shader.Segment += SnapScalarDec;
-  }
+  defines += model == OpticalModel::Isosurfaces ? "#define SURFACES\n" : "";
   switch (pass)
   {
     case Pass::Colors:

@@ -35,6 +35,9 @@ flat in vec3 gradient1;
 flat in vec3 gradient2;
 flat in vec3 gradient3;
 #endif
+#ifdef SURFACES
+flat in int faces; // the first of the cell's four in faceScalars
+#endif
 
 #ifdef LINEAR
 noperspective in float rayLength; // world length of a unit of depth
@@ -57,6 +60,25 @@ float At(vec3 f, vec2 d)
 {
   return f.x + f.y * d.x + f.z * d.y;
 }
+
+#ifdef SURFACES
+uniform samplerBuffer faceScalars; // FaceScalar, three texels each
+
+// The scalar where the ray goes through one of the cell's faces, the base first: by the same
+// operations for each of them, so that it is what the cell on the other side finds.
+float FindFaceScalar(int face)
+{
+  int texel = 3 * (faces + face);
+  vec4 first = texelFetch(faceScalars, texel);
+  vec4 second = texelFetch(faceScalars, texel + 1);
+  vec2 d = gl_FragCoord.xy - second.xy;
+  float share = At(first.xyz, d);
+#ifdef PERSPECTIVE
+  share /= At(texelFetch(faceScalars, texel + 2).xyz, d);
+#endif
+  return min(first.w + clamp(share, 0.0, 1.0) * (second.z - first.w), second.z);
+}
+#endif
 
 #ifdef LIMITED
 // Between z and what limits are linear in.
@@ -160,6 +182,12 @@ struct View
 #ifdef SHADED
   vec3 Gradient; // as Scalar
 #endif
+#ifdef SURFACES
+  float Near; // differences of the faces' z to the base
+  float Far;
+  float ScalarNear; // on these faces
+  float ScalarFar;
+#endif
 };
 
 #ifdef FIRST
@@ -187,8 +215,13 @@ vec4 AddPart(View view, float near, float far)
   sNear = clamp(sNear, face0.w, face1.w);
   sFar = clamp(sFar, face0.w, face1.w);
 #ifdef SURFACES
-  sNear = SnapScalar(sNear);
-  sFar = SnapScalar(sFar);
+#ifdef LIMITED
+  sNear = near == view.Near ? view.ScalarNear : sNear;
+  sFar = far == view.Far ? view.ScalarFar : sFar;
+#else
+  sNear = view.ScalarNear;
+  sFar = view.ScalarFar;
+#endif
 #endif
   float front = view.Sign > 0.0 ? sNear : sFar;
   float back = view.Sign > 0.0 ? sFar : sNear;
@@ -253,6 +286,17 @@ void main()
     min(entries > 1.5 ? e1 : Beyond, entries > 2.5 ? e2 : Beyond));
   float far = max(entries > 0.5 ? -Beyond : e0,
     max(entries > 1.5 ? -Beyond : e1, entries > 2.5 ? -Beyond : e2));
+#ifdef SURFACES
+  int nearFace = entries > 0.5 && e0 == near ? 1 : 0;
+  nearFace = entries > 1.5 && e1 == near ? 2 : nearFace;
+  nearFace = entries > 2.5 && e2 == near ? 3 : nearFace;
+  int farFace = entries < 1.5 && e1 == far ? 2 : 3;
+  farFace = entries < 0.5 && e0 == far ? 1 : farFace;
+  view.Near = near;
+  view.Far = far;
+  view.ScalarNear = FindFaceScalar(nearFace);
+  view.ScalarFar = FindFaceScalar(farFace);
+#endif
 
 #ifdef LIMITED
   vec2 m = gl_FragCoord.xy - pictureMiddle;
@@ -269,16 +313,19 @@ void main()
 #ifdef CROPPED
   // From the front end to the back end, from plane to plane.
   vec4 color = vec4(NOTHING);
-  float z = view.Z + view.Sign * (view.Sign > 0.0 ? near : far);
-  float end = view.Z + view.Sign * (view.Sign > 0.0 ? far : near);
+  float front = view.Sign > 0.0 ? near : far;
+  float back = view.Sign > 0.0 ? far : near;
+  float begin = view.Z + view.Sign * front;
+  float end = view.Z + view.Sign * back;
+  float z = begin;
   const int LargestNumberOfParts = 7;
   for (int part = 0; part < LargestNumberOfParts && z > end; ++part)
   {
     float next = FindCut(m, z, end);
     if (IsKept(m, 0.5 * (z + next)))
     {
-      float first = clamp(view.Sign * (z - view.Z), far, near);
-      float second = clamp(view.Sign * (next - view.Z), far, near);
+      float first = z == begin ? front : clamp(view.Sign * (z - view.Z), far, near);
+      float second = next == end ? back : clamp(view.Sign * (next - view.Z), far, near);
       color = Gather(color, AddPart(view, max(first, second), min(first, second)));
     }
     z = next;

@@ -26,6 +26,10 @@ flat out vec3 gradient2;
 flat out vec3 gradient3;
 #endif
 
+#ifdef SURFACES
+flat out int faces; // the first of the cell's four in faceScalars
+#endif
+
 uniform vec2 pictureSize; // pixels
 
 #ifdef LINEAR
@@ -62,6 +66,10 @@ void main()
 #ifdef LINEAR
   rayLength =
     depthUnit * length(rayDirection + (corner.x - 0.5) * rayStepX + (corner.y - 0.5) * rayStepY);
+#endif
+#ifdef SURFACES
+  // Four corners a cell, and four faces.
+  faces = gl_VertexID / 4 * 4;
 #endif
   gl_Position = vec4(2.0 * corner / pictureSize - 1.0, 0.0, 1.0);
 }

@@ -92,6 +92,26 @@ TEST(VisibleCells, ScalarsOfCellsAndScalarsThatAreNotFinite)
     (std::vector<std::uint8_t>{ 1, 0, 0 }));
 }
 
+TEST(VisibleCells, CellsThatSurfacesGoThroughOrTouch)
+{
+  const std::vector<std::int32_t> cells = { 0, 1, 2, 3, 1, 2, 3, 4, 0, 0, 0, 0 };
+  const std::vector<double> scalars = { 0, 1, 1.5, 2, 2.5 };
+  const auto find = [&](double value, float opacity, double rounding)
+  {
+    return FindCrossedCells(
+      std::vector<Isosurface>{ { value, { 1, 1, 1 }, opacity } }, cells, scalars, rounding);
+  };
+  using Flags = std::vector<std::uint8_t>;
+  EXPECT_EQ(find(0.5, 1, 0), (Flags{ 1, 0, 0 }));
+  EXPECT_EQ(find(0.5, 0, 0), (Flags{ 0, 0, 0 }));
+  EXPECT_EQ(find(0, 1, 0), (Flags{ 1, 0, 1 }));
+  EXPECT_EQ(find(2.5, 1, 0), (Flags{ 0, 1, 0 }));
+  // Beside all scalars of a cell, but within the rounding.
+  EXPECT_EQ(find(2.6, 1, 0.2), (Flags{ 0, 1, 0 }));
+  EXPECT_EQ(find(-0.1, 1, 0.2), (Flags{ 1, 0, 1 }));
+  EXPECT_EQ(find(-0.1, 1, 0), (Flags{ 0, 0, 0 }));
+}
+
 TEST(VisibleCells, LeavingTransparentCellsOutChangesNoPixel)
 {
   // A shell of small radius in a box: most cells are empty, and rays enter the shell twice.
