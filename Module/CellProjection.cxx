@@ -471,6 +471,29 @@ int Project(const ScreenFrame& frame, const ProjectionSettings& settings,
   return n;
 }
 
+/// The values of a projected cell's functions at its corners.
+InterpolatedCell FindValues(const ProjectedCell& cell)
+{
+  const float* const places[4] = { &cell.First.X, &cell.Second.X, &cell.Third.X, &cell.Fourth.X };
+  const float own[4][2] = { { cell.Third.ScalarSlope, cell.Fourth.Code },
+    { cell.Third.ScalarRange[0], cell.Third.ScalarRange[1] },
+    { cell.Fourth.Reference[0], cell.Fourth.Reference[1] },
+    { cell.Fourth.Own[0], cell.Fourth.Own[1] } };
+  InterpolatedCell result;
+  for (int k = 0; k < 4; ++k)
+  {
+    const float x = places[k][0];
+    const float y = places[k][1];
+    const float dx = x - cell.Fourth.Reference[0];
+    const float dy = y - cell.Fourth.Reference[1];
+    const auto at = [&](const float f[3]) { return f[0] + f[1] * dx + f[2] * dy; };
+    result.Corners[k] = { x, y, at(cell.Third.Scalar),
+      { at(cell.First.Face0), at(cell.Second.Face1), at(cell.Second.Face2) }, at(cell.First.Base),
+      { own[k][0], own[k][1] } };
+  }
+  return result;
+}
+
 /// The gradient of a field in a cell, of any length.
 void FindGradient(Span<const double> coordinates, Span<const ScreenPoint> points,
   const std::int32_t* cell, double gradient[3])
@@ -583,7 +606,9 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   const std::int64_t blocks = (n + BlockSize - 1) / BlockSize;
   std::vector<std::int64_t> counts(blocks); // of the cells that are seen
   std::vector<std::uint8_t> corners(n);
-  result.Cells.resize(n);
+  const bool interpolated = frame.IsPerspective() && !settings.Interpolate;
+  result.Cells.resize(interpolated ? 0 : n);
+  result.InterpolatedCells.resize(interpolated ? n : 0);
   const bool withGradients = data.Gradients != CellData::Gradient::None;
   result.Gradients.resize(withGradients ? n : 0);
   result.FaceScalars.resize(data.FaceScalars ? 4 * n : 0);
@@ -597,7 +622,8 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
     {
       const std::int32_t cell = order[i];
       const std::int32_t* p = &cells[4 * static_cast<std::size_t>(cell)];
-      ProjectedCell& projected = result.Cells[last];
+      ProjectedCell own;
+      ProjectedCell& projected = interpolated ? own : result.Cells[last];
       double gradients[4][3];
       if (withGradients)
       {
@@ -625,6 +651,10 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
         projected.Fourth.Own[0] = static_cast<float>(high);
         projected.Fourth.Own[1] = static_cast<float>(cell % CellIdBase);
       }
+      if (interpolated)
+      {
+        result.InterpolatedCells[last] = FindValues(projected);
+      }
       corners[last++] = static_cast<std::uint8_t>(count);
     }
     counts[block] = last - begin;
@@ -635,21 +665,18 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   {
     const std::int64_t begin = block * BlockSize;
     const std::int64_t end = begin + counts[block];
-    if (begin > seen)
+    const auto push = [&](auto& values, int perCell)
     {
-      std::copy(
-        result.Cells.begin() + begin, result.Cells.begin() + end, result.Cells.begin() + seen);
-      if (withGradients)
+      if (begin > seen && !values.empty())
       {
-        std::copy(result.Gradients.begin() + begin, result.Gradients.begin() + end,
-          result.Gradients.begin() + seen);
+        const auto first = values.begin() + perCell * begin;
+        std::copy(first, first + perCell * counts[block], values.begin() + perCell * seen);
       }
-      if (data.FaceScalars)
-      {
-        std::copy(result.FaceScalars.begin() + 4 * begin, result.FaceScalars.begin() + 4 * end,
-          result.FaceScalars.begin() + 4 * seen);
-      }
-    }
+    };
+    push(result.Cells, 1);
+    push(result.InterpolatedCells, 1);
+    push(result.Gradients, 1);
+    push(result.FaceScalars, 4);
     for (std::int64_t i = begin; i < end; ++i, ++seen)
     {
       const auto corner = static_cast<std::uint32_t>(4 * seen);
@@ -659,7 +686,8 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
       }
     }
   }
-  result.Cells.resize(seen + 1);
+  result.Cells.resize(interpolated ? 0 : seen + 1);
+  result.InterpolatedCells.resize(interpolated ? seen + 1 : 0);
   result.Gradients.resize(withGradients ? seen + 1 : 0);
   result.FaceScalars.resize(data.FaceScalars ? 4 * seen : 0);
 }

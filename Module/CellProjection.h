@@ -49,7 +49,7 @@ struct ProjectionSettings
   double Shift = 0;
 
   /// Perspective interpolation (Kraus et al. 2004, section 2.2). Off: depths and scalars are
-  /// interpolated linearly on the screen, which is wrong in a perspective.
+  /// interpolated linearly on the screen, by the rasteriser, which is wrong in a perspective.
   bool Interpolate = true;
 };
 
@@ -100,6 +100,23 @@ struct ProjectedCell
 };
 static_assert(sizeof(ProjectedCell) == 4 * 32, "corners are 32 bytes apart");
 
+/// A projected cell in a perspective without perspective interpolation: what is linear on the screen,
+/// by its values at the corners, for the rasteriser to interpolate. That is cheaper than functions for
+/// fragments to evaluate, and less exact where cells are thin, as it was before the paper.
+struct InterpolatedCell
+{
+  struct Corner
+  {
+    float X, Y;
+    float Scalar;   ///< on the base
+    float Faces[3]; ///< e_k
+    float Base;
+    float Own[2]; ///< what is the same for the whole cell, as in ProjectedCell: ScalarSlope, Code;
+                  ///< ScalarRange; Reference; Own[0], Own[1]
+  } Corners[4];
+};
+static_assert(sizeof(InterpolatedCell) == 4 * 36, "corners are 36 bytes apart");
+
 /// The gradient in a projected cell, spread over its four corners as well: its three components are
 /// found as the scalar is, by Gradient(dx, dy) + Slope near and far, divided by z in a perspective.
 struct ProjectedGradient
@@ -133,11 +150,13 @@ TETRALUXCORE_EXPORT double FindShift(const ScreenFrame& frame, const ProjectionS
 /// Projected cells in the order of drawing, ready to be sent to a graphics card.
 struct ProjectedCells
 {
-  /// One more than are drawn: what the last corner's attributes reach into.
+  /// One more than are drawn: what the last corner's attributes reach into. In a perspective without
+  /// perspective interpolation InterpolatedCells in their place; the others are empty.
   std::vector<ProjectedCell> Cells;
+  std::vector<InterpolatedCell> InterpolatedCells;
   std::int64_t GetNumberOfCells() const
   {
-    return static_cast<std::int64_t>(this->Cells.size()) - 1;
+    return static_cast<std::int64_t>(this->Cells.size() + this->InterpolatedCells.size()) - 1;
   }
 
   /// Those of Cells where they are asked for, else empty.

@@ -20,12 +20,14 @@ namespace tetralux
 namespace
 {
 
-/// Distance of corners, bytes: attributes that belong to a whole cell are read as if they were the
-/// first corner's, from where the other corners have room.
-constexpr std::size_t CornerSize = sizeof(ProjectedCell) / 4;
+template <class Value>
+std::size_t GetBytes(const std::vector<Value>& values)
+{
+  return values.size() * sizeof(Value);
+}
 
-constexpr std::size_t GradientSize = sizeof(ProjectedGradient) / 4;
-
+/// Of corners, which are a quarter of a cell's bytes apart: attributes that belong to a whole cell are
+/// read as if they were the first corner's, from where the other corners have room.
 struct Attribute
 {
   const char* Name;
@@ -45,12 +47,51 @@ constexpr Attribute CellAttributes[] = {
   { "cellOwn", offsetof(ProjectedCell, Fourth.Own), 3 },
 };
 
+using InterpolatedCorner = InterpolatedCell::Corner;
+constexpr std::size_t InterpolatedSize = sizeof(InterpolatedCorner);
+
+constexpr Attribute InterpolatedAttributes[] = {
+  { "corner", 0, 2 },
+  { "cornerValues", offsetof(InterpolatedCorner, Scalar), 4 },
+  { "cornerBase", offsetof(InterpolatedCorner, Base), 1 },
+  { "cellOwn0", offsetof(InterpolatedCorner, Own), 2 },
+  { "cellOwn1", offsetof(InterpolatedCorner, Own) + InterpolatedSize, 2 },
+  { "cellOwn2", offsetof(InterpolatedCorner, Own) + 2 * InterpolatedSize, 2 },
+  { "cellOwn3", offsetof(InterpolatedCorner, Own) + 3 * InterpolatedSize, 2 },
+};
+
 constexpr Attribute GradientAttributes[] = {
   { "cellGradient0", offsetof(ProjectedGradient, Base), 3 },
   { "cellGradient1", offsetof(ProjectedGradient, SlopeX), 3 },
   { "cellGradient2", offsetof(ProjectedGradient, SlopeY), 3 },
   { "cellGradient3", offsetof(ProjectedGradient, Slope), 3 },
 };
+
+/// Sends what there is of cells, and tells the program's attributes where it is; false where it can't
+/// be sent.
+template <class Cell, std::size_t Size>
+bool Send(const std::vector<Cell>& cells, const Attribute (&attributes)[Size],
+  vtkShaderProgram* program, vtkOpenGLBufferObject* buffer, vtkOpenGLVertexArrayObject* array)
+{
+  if (cells.empty())
+  {
+    return true;
+  }
+  if (!buffer->Upload(cells.data(), cells.size(), vtkOpenGLBufferObject::ArrayBuffer))
+  {
+    return false;
+  }
+  constexpr std::size_t CornerSize = sizeof(Cell) / 4;
+  for (const Attribute& attribute : attributes)
+  {
+    if (program->IsAttributeUsed(attribute.Name))
+    {
+      array->AddAttributeArray(program, buffer, attribute.Name, static_cast<int>(attribute.Offset),
+        CornerSize, VTK_FLOAT, attribute.Components, false);
+    }
+  }
+  return true;
+}
 
 } // namespace
 
@@ -104,9 +145,8 @@ void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
     return;
   }
   this->LargestBatch = std::max(this->LargestBatch,
-    cells.Cells.size() * sizeof(ProjectedCell) + cells.Triangles.size() * sizeof(std::uint32_t) +
-      cells.Gradients.size() * sizeof(ProjectedGradient) +
-      cells.FaceScalars.size() * sizeof(FaceScalar));
+    GetBytes(cells.Cells) + GetBytes(cells.InterpolatedCells) + GetBytes(cells.Gradients) +
+      GetBytes(cells.FaceScalars) + GetBytes(cells.Triangles));
   if (!cells.FaceScalars.empty())
   {
     constexpr std::size_t TexelsOfFace = 3;
@@ -114,34 +154,16 @@ void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
       TexelsOfFace * cells.FaceScalars.size(), 4, "scalars of faces");
   }
   this->Attributes->Bind();
-  if (!this->Corners->Upload(
-        cells.Cells.data(), cells.Cells.size(), vtkOpenGLBufferObject::ArrayBuffer) ||
-    !this->Triangles->Upload(cells.Triangles, vtkOpenGLBufferObject::ElementArrayBuffer) ||
-    (!cells.Gradients.empty() &&
-      !this->Gradients->Upload(cells.Gradients, vtkOpenGLBufferObject::ArrayBuffer)))
+  const auto send = [this](
+                      const auto& values, const auto& attributes, vtkOpenGLBufferObject* buffer)
+  { return Send(values, attributes, this->Program, buffer, this->Attributes); };
+  if (!send(cells.Cells, CellAttributes, this->Corners) ||
+    !send(cells.InterpolatedCells, InterpolatedAttributes, this->Corners) ||
+    !send(cells.Gradients, GradientAttributes, this->Gradients) ||
+    !this->Triangles->Upload(cells.Triangles, vtkOpenGLBufferObject::ElementArrayBuffer))
   {
     this->Attributes->Release();
     throw std::runtime_error("projected cells could not be sent to the graphics card");
-  }
-  const auto add = [this](
-                     const Attribute& attribute, vtkOpenGLBufferObject* buffer, std::size_t stride)
-  {
-    if (this->Program->IsAttributeUsed(attribute.Name))
-    {
-      this->Attributes->AddAttributeArray(this->Program, buffer, attribute.Name,
-        static_cast<int>(attribute.Offset), stride, VTK_FLOAT, attribute.Components, false);
-    }
-  };
-  for (const Attribute& attribute : CellAttributes)
-  {
-    add(attribute, this->Corners, CornerSize);
-  }
-  for (const Attribute& attribute : GradientAttributes)
-  {
-    if (!cells.Gradients.empty())
-    {
-      add(attribute, this->Gradients, GradientSize);
-    }
   }
   if (!cells.FaceScalars.empty())
   {

@@ -334,8 +334,7 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
   if (pass == Pass::Colors && scene.Dither)
   {
     shader.Segment += AlphaDitherDec;
-    shader.Dither = "color = DitherAlpha(color, GetRandomNumber(gl_FragCoord.xy, floor(place.z / "
-                    "8.0)));";
+    shader.Dither = "color = DitherAlpha(color, GetRandomNumber(gl_FragCoord.xy, key));";
   }
   return shader;
 }

@@ -9,7 +9,8 @@
 //   NUMBER_OF_LIMITS    kept on the positive side of so many planes
 //   OPAQUE              not behind opaque geometry
 //   CROPPED             in some of 27 regions only
-//   LINEAR            a perspective, but without PERSPECTIVE: what limits rays has 1 / depth
+//   LINEAR            a perspective, but without PERSPECTIVE: what is linear comes interpolated; what
+//                     limits rays has 1 / depth
 //   GATHER            of vec4 before and added, two parts of a ray in the same cell: what both add;
 //                     where CROPPED
 //   NOTHING           what adds nothing to that
@@ -22,6 +23,13 @@
 
 out vec4 fragOutput0; // gl_FragData[0]
 
+#ifdef LINEAR
+noperspective in vec4 values; // scalar and faces
+noperspective in vec2 depths; // on the base; world length of a unit of depth
+flat in vec4 properties;      // slope of the scalar, code, smallest and largest scalar
+flat in vec2 reference;
+flat in vec2 cellData;
+#else
 flat in vec4 base;   // on the least steep face, and the slope of the scalar behind it
 flat in vec4 face0;  // the three others, and the smallest and largest scalar
 flat in vec4 face1;
@@ -29,6 +37,7 @@ flat in vec3 face2;
 flat in vec3 scalar;
 flat in vec3 place;  // reference, code
 flat in vec3 cellData;
+#endif
 #ifdef SHADED
 flat in vec3 gradient0; // ProjectedGradient
 flat in vec3 gradient1;
@@ -39,9 +48,7 @@ flat in vec3 gradient3;
 flat in int faces; // the first of the cell's four in faceScalars
 #endif
 
-#ifdef LINEAR
-noperspective in float rayLength; // world length of a unit of depth
-#else
+#ifndef LINEAR
 uniform float depthUnit; // world length of rayDirection where it has length 1
 #ifdef PERSPECTIVE
 uniform vec3 rayDirection; // of the pixel in the lower left, and its change from pixel to pixel
@@ -178,6 +185,8 @@ struct View
   float Sign;      // 1 where the base is a front face, -1 where it is a back face
   float Z;         // on the base
   float Scalar;    // on the base, times Z in a perspective
+  float ScalarSlope;
+  vec2 ScalarRange;
   float RayLength; // world length of a unit of depth
 #ifdef SHADED
   vec3 Gradient; // as Scalar
@@ -202,8 +211,8 @@ float GetDistance(float begin, float share, float len)
 vec4 AddPart(View view, float near, float far)
 {
   float len = (near - far) * view.RayLength;
-  float sNear = view.Scalar + base.w * near;
-  float sFar = view.Scalar + base.w * far;
+  float sNear = view.Scalar + view.ScalarSlope * near;
+  float sFar = view.Scalar + view.ScalarSlope * far;
 #ifdef PERSPECTIVE
   // Kraus et al. 2004, section 2.1: what was interpolated is divided by 1 / depth.
   float zNear = view.Z + view.Sign * near;
@@ -212,8 +221,8 @@ vec4 AddPart(View view, float near, float far)
   sNear /= zNear;
   sFar /= zFar;
 #endif
-  sNear = clamp(sNear, face0.w, face1.w);
-  sFar = clamp(sFar, face0.w, face1.w);
+  sNear = clamp(sNear, view.ScalarRange.x, view.ScalarRange.y);
+  sFar = clamp(sFar, view.ScalarRange.x, view.ScalarRange.y);
 #ifdef SURFACES
 #ifdef LIMITED
   sNear = near == view.Near ? view.ScalarNear : sNear;
@@ -255,33 +264,44 @@ vec4 Gather(vec4 before, vec4 added)
 
 void main()
 {
-  vec2 d = gl_FragCoord.xy - place.xy;
-#ifdef KEYS
-  float code = mod(place.z, 8.0);
-#else
-  float code = place.z;
-#endif
-  float entries = code >= 4.0 ? code - 4.0 : code;
-#if defined(PERSPECTIVE)
-  float rayLength = depthUnit *
-    length(rayDirection + (gl_FragCoord.x - 0.5) * rayStepX + (gl_FragCoord.y - 0.5) * rayStepY);
-#elif !defined(LINEAR)
-  float rayLength = depthUnit;
-#endif
-
+  // Differences of faces to the base: only they count for the thickness, however thin the cell is.
   View view;
-  view.Sign = code >= 4.0 ? -1.0 : 1.0;
-  view.Z = At(base.xyz, d);
-  view.Scalar = At(scalar, d);
-  view.RayLength = rayLength;
-#ifdef SHADED
-  view.Gradient = gradient0 + d.x * gradient1 + d.y * gradient2;
-#endif
-
-  // Differences to the base: only they count for the thickness, however thin the cell is.
+#ifdef LINEAR
+  vec2 d = gl_FragCoord.xy - reference;
+  float code = properties.y;
+  float e0 = values.y;
+  float e1 = values.z;
+  float e2 = values.w;
+  view.Z = depths.x;
+  view.Scalar = values.x;
+  view.ScalarSlope = properties.x;
+  view.ScalarRange = properties.zw;
+  view.RayLength = depths.y;
+#else
+  vec2 d = gl_FragCoord.xy - place.xy;
+  float code = place.z;
   float e0 = At(face0.xyz, d);
   float e1 = At(face1.xyz, d);
   float e2 = At(face2, d);
+  view.Z = At(base.xyz, d);
+  view.Scalar = At(scalar, d);
+  view.ScalarSlope = base.w;
+  view.ScalarRange = vec2(face0.w, face1.w);
+  view.RayLength = depthUnit;
+#endif
+#ifdef PERSPECTIVE
+  view.RayLength *=
+    length(rayDirection + (gl_FragCoord.x - 0.5) * rayStepX + (gl_FragCoord.y - 0.5) * rayStepY);
+#endif
+#ifdef KEYS
+  float key = floor(code / 8.0);
+  code -= 8.0 * key;
+#endif
+  float entries = code >= 4.0 ? code - 4.0 : code;
+  view.Sign = code >= 4.0 ? -1.0 : 1.0;
+#ifdef SHADED
+  view.Gradient = gradient0 + d.x * gradient1 + d.y * gradient2;
+#endif
   float near = min(min(0.0, entries > 0.5 ? e0 : Beyond),
     min(entries > 1.5 ? e1 : Beyond, entries > 2.5 ? e2 : Beyond));
   float far = max(entries > 0.5 ? -Beyond : e0,

@@ -6,7 +6,15 @@
 //VTK::Projection::Dec
 
 in vec2 corner; // pixels, from the lower left of the picture
-in vec3 cellBase;
+#ifdef LINEAR
+in vec4 cornerValues; // InterpolatedCell: scalar and faces
+in float cornerBase;
+in vec2 cellOwn0;
+in vec2 cellOwn1;
+in vec2 cellOwn2;
+in vec2 cellOwn3;
+#else
+in vec3 cellBase; // ProjectedCell
 in vec3 cellFace0;
 in vec3 cellFace1;
 in vec3 cellFace2;
@@ -14,6 +22,7 @@ in vec3 cellScalar;
 in vec3 cellScalars; // slope, smallest, largest
 in vec3 cellPlace;   // reference, code
 in vec3 cellOwn;     // CellData
+#endif
 
 #ifdef SHADED
 in vec3 cellGradient0; // ProjectedGradient: on the base, its changes for a pixel, and behind the base
@@ -37,9 +46,12 @@ uniform vec3 rayDirection; // of the pixel in the lower left, and its change fro
 uniform vec3 rayStepX;
 uniform vec3 rayStepY;
 uniform float depthUnit; // world length of rayDirection where it has length 1
-noperspective out float rayLength;
-#endif
-
+noperspective out vec4 values;    // scalar and faces
+noperspective out vec2 depths;    // on the base; world length of a unit of depth
+flat out vec4 properties;         // slope of the scalar, code, smallest and largest scalar
+flat out vec2 reference;
+flat out vec2 cellData;
+#else
 flat out vec4 base;   // on the least steep face, and the slope of the scalar behind it
 flat out vec4 face0;  // the three others, and the smallest and largest scalar
 flat out vec4 face1;
@@ -47,9 +59,18 @@ flat out vec3 face2;
 flat out vec3 scalar;
 flat out vec3 place;  // reference, code
 flat out vec3 cellData;
+#endif
 
 void main()
 {
+#ifdef LINEAR
+  values = cornerValues;
+  depths = vec2(cornerBase,
+    depthUnit * length(rayDirection + (corner.x - 0.5) * rayStepX + (corner.y - 0.5) * rayStepY));
+  properties = vec4(cellOwn0, cellOwn1);
+  reference = cellOwn2;
+  cellData = cellOwn3;
+#else
   base = vec4(cellBase, cellScalars.x);
   face0 = vec4(cellFace0, cellScalars.y);
   face1 = vec4(cellFace1, cellScalars.z);
@@ -57,15 +78,12 @@ void main()
   scalar = cellScalar;
   place = cellPlace;
   cellData = cellOwn;
+#endif
 #ifdef SHADED
   gradient0 = cellGradient0;
   gradient1 = cellGradient1;
   gradient2 = cellGradient2;
   gradient3 = cellGradient3;
-#endif
-#ifdef LINEAR
-  rayLength =
-    depthUnit * length(rayDirection + (corner.x - 0.5) * rayStepX + (corner.y - 0.5) * rayStepY);
 #endif
 #ifdef SURFACES
   // Four corners a cell, and four faces.

@@ -413,6 +413,66 @@ TEST(CellProjection, BatchesDoNotDependOnThreads)
   EXPECT_LE(triangles, 2 * results[0].GetNumberOfCells());
 }
 
+TEST(CellProjection, CornersOfInterpolatedCellsHaveTheValuesOfTheFunctions)
+{
+  const TetrahedralMesh mesh = MakeBox(6, 6, 6, { -1, -1, -1 }, { 1, 1, 1 }, 0.15);
+  const RayGrid grid = MakePerspective(2.5);
+  const double center[3] = { 0, 0, 0 };
+  const ScreenFrame frame(grid, center, 2);
+  ProjectionSettings settings;
+  settings.Width = settings.Height = Size;
+  settings.Interpolate = false;
+  std::vector<ScreenPoint> points(mesh.GetNumberOfPoints());
+  std::vector<double> scalars(points.size());
+  std::iota(scalars.begin(), scalars.end(), 0.);
+  frame.Project(mesh.Points, scalars, 0, 1. / static_cast<double>(scalars.size()), points);
+  std::vector<std::int32_t> order(mesh.GetNumberOfCells());
+  std::iota(order.begin(), order.end(), 0);
+  CellData data;
+  data.Ids = true;
+  ProjectedCells cells;
+  ProjectCells(frame, settings, points, mesh.Cells, order, data, cells);
+  EXPECT_TRUE(cells.Cells.empty());
+  ASSERT_EQ(cells.InterpolatedCells.size(), static_cast<std::size_t>(cells.GetNumberOfCells()) + 1);
+  EXPECT_GT(cells.GetNumberOfCells(), 900);
+  for (std::int64_t i = 0; i < cells.GetNumberOfCells(); ++i)
+  {
+    const InterpolatedCell::Corner* corners = cells.InterpolatedCells[i].Corners;
+    const auto id = static_cast<std::size_t>(corners[3].Own[0]) * CellIdBase +
+      static_cast<std::size_t>(corners[3].Own[1]);
+    const std::int32_t* p = &mesh.Cells[4 * id];
+    ProjectedCell cell;
+    ASSERT_GT(
+      ProjectCell(frame, settings, points[p[0]], points[p[1]], points[p[2]], points[p[3]], cell),
+      0);
+    EXPECT_EQ(corners[0].Own[0], cell.Third.ScalarSlope);
+    EXPECT_EQ(corners[0].Own[1], cell.Fourth.Code);
+    EXPECT_EQ(corners[1].Own[0], cell.Third.ScalarRange[0]);
+    EXPECT_EQ(corners[1].Own[1], cell.Third.ScalarRange[1]);
+    EXPECT_EQ(corners[2].Own[0], cell.Fourth.Reference[0]);
+    EXPECT_EQ(corners[2].Own[1], cell.Fourth.Reference[1]);
+    const float* places[4] = { &cell.First.X, &cell.Second.X, &cell.Third.X, &cell.Fourth.X };
+    for (int k = 0; k < 4; ++k)
+    {
+      EXPECT_EQ(corners[k].X, places[k][0]);
+      EXPECT_EQ(corners[k].Y, places[k][1]);
+      const double dx = static_cast<double>(corners[k].X) - cell.Fourth.Reference[0];
+      const double dy = static_cast<double>(corners[k].Y) - cell.Fourth.Reference[1];
+      const auto expectNear = [&](float value, const float f[3])
+      {
+        constexpr double Roundings = 4. / (1 << 24); // of the terms of a sum of three
+        const double size = std::abs(f[0]) + std::abs(f[1] * dx) + std::abs(f[2] * dy);
+        EXPECT_NEAR(value, f[0] + f[1] * dx + f[2] * dy, Roundings * size);
+      };
+      expectNear(corners[k].Scalar, cell.Third.Scalar);
+      expectNear(corners[k].Faces[0], cell.First.Face0);
+      expectNear(corners[k].Faces[1], cell.Second.Face1);
+      expectNear(corners[k].Faces[2], cell.Second.Face2);
+      expectNear(corners[k].Base, cell.First.Base);
+    }
+  }
+}
+
 TEST(ScreenFrame, LimitsThatCutNothingAreLeftOut)
 {
   const TetrahedralMesh mesh = MakeBox(3, 3, 3, { -1, -1, -1 }, { 1, 1, 1 });

@@ -223,6 +223,61 @@ TEST(ProjectionMapper, CorrectionsOff)
   EXPECT_EQ(dithered, scene.Render()); // the same in each frame
 }
 
+// In a view that is nearly parallel there is nothing to correct: what the rasteriser interpolates is
+// then as good as what fragments find, with all that a cell may have with it.
+TEST(ProjectionMapper, NarrowViewsNeedNoPerspectiveInterpolation)
+{
+  ProjectionMapperScene scene;
+  constexpr double Narrowness = 100;
+  vtkCamera* camera = scene.Renderer->GetActiveCamera();
+  camera->SetViewAngle(camera->GetViewAngle() / Narrowness);
+  camera->Dolly(1 / Narrowness);
+  scene.Renderer->ResetCameraClippingRange();
+  const auto expectSame = [&](const char* what)
+  {
+    scene.Projection->PerspectiveInterpolationOn();
+    const std::vector<float> best = scene.Render();
+    const float* depths = scene.GetDepths();
+    const std::vector<float> expected(depths, depths + best.size() / 4);
+    EXPECT_GT(*std::max_element(best.begin(), best.end()), 0.1) << what;
+    scene.Projection->PerspectiveInterpolationOff();
+    // What is left of the perspective, and corners that the rasteriser rounds to 1/256 pixel.
+    constexpr double Rounding = 1e-3;
+    EXPECT_LT(FindLargestDifference(scene.Render(), best), Rounding) << what;
+    depths = scene.GetDepths();
+    std::int64_t others = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      others += std::abs(depths[i] / expected[i] - 1) > Rounding / Narrowness;
+    }
+    EXPECT_LT(others, 20) << what; // along silhouettes
+  };
+  expectSame("plain");
+  scene.Volume->GetProperty()->ShadeOn();
+  expectSame("lit");
+  scene.Volume->GetProperty()->ShadeOff();
+  scene.Projection->CroppingOn();
+  scene.Projection->SetCroppingRegionPlanes(0.2, 0.7, 0.35, 0.8, 0.3, 0.6);
+  scene.Projection->SetCroppingRegionFlagsToFence();
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0.5, 0.5, 0.5);
+  plane->SetNormal(1, 2, 3);
+  scene.Projection->AddClippingPlane(plane);
+  expectSame("clipped and cropped");
+  scene.Projection->CroppingOff();
+  scene.Projection->RemoveAllClippingPlanes();
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("OfCells");
+  for (vtkIdType cell = 0; cell < scene.Grid->GetNumberOfCells(); ++cell)
+  {
+    array->InsertNextValue(std::sin(1.7 * static_cast<double>(cell)));
+  }
+  scene.Grid->GetCellData()->AddArray(array);
+  scene.Projection->SetScalarModeToUseCellFieldData();
+  scene.Projection->SelectScalarArray("OfCells");
+  expectSame("cell data");
+}
+
 TEST(ProjectionMapper, DitheringKeepsWhatIsTooThinForEightBits)
 {
   // Each cell's opacity is far below half of 1/255.
