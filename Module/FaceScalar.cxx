@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceScalar.h"
 
-#include "CellProjection.h"
 #include "LocalScreen.h"
 
 #include <algorithm>

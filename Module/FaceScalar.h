@@ -2,6 +2,7 @@
 #ifndef tetralux_FaceScalar_h
 #define tetralux_FaceScalar_h
 
+#include "ProjectionSettings.h"
 #include "ScreenFrame.h"
 #include "TetraluxCoreModule.h"
 
@@ -9,8 +10,6 @@
 
 namespace tetralux
 {
-
-struct ProjectionSettings;
 
 /// The scalar where rays go through a face of a projected mesh, as a function of the face alone. The
 /// cells on both sides of it thus find the same scalar, to the last bit, and with that the same side

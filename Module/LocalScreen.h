@@ -5,7 +5,7 @@
 // Cells and faces as they are seen around a reference pixel of their own: near to it, functions of the
 // pixel keep their accuracy in single precision.
 
-#include "CellProjection.h"
+#include "ProjectionSettings.h"
 #include "ScreenFrame.h"
 
 #include <algorithm>
@@ -96,6 +96,23 @@ ScreenBox FindBox(const ScreenFrame& frame, const ScreenPoint* const (&points)[S
     }
   }
   return box;
+}
+
+/// Cuts off what is beyond the picture; false where no pixel's centre is left.
+inline bool Clamp(ScreenBox& box, const ProjectionSettings& settings)
+{
+  const double size[2] = { static_cast<double>(settings.Width),
+    static_cast<double>(settings.Height) };
+  for (int a = 0; a < 2; ++a)
+  {
+    box.Lo[a] = Bound(box.Lo[a], -1, size[a] + 1);
+    box.Hi[a] = Bound(box.Hi[a], -2, size[a]);
+    if (!(-Floor(settings.Margin - box.Lo[a]) <= Floor(box.Hi[a] + settings.Margin)))
+    {
+      return false;
+    }
+  }
+  return box.Lo[0] < size[0] && box.Lo[1] < size[1] && box.Hi[0] > -1 && box.Hi[1] > -1;
 }
 
 } // namespace tetralux

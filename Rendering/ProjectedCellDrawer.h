@@ -2,7 +2,7 @@
 #ifndef tetralux_ProjectedCellDrawer_h
 #define tetralux_ProjectedCellDrawer_h
 
-#include "CellProjection.h"
+#include "ProjectedCells.h"
 #include "TextureBuffer.h"
 
 #include "vtkNew.h"

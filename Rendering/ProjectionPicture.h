@@ -2,11 +2,11 @@
 #ifndef tetralux_ProjectionPicture_h
 #define tetralux_ProjectionPicture_h
 
-#include "CellProjection.h"
 #include "FloatTarget.h"
 #include "GpuLighting.h"
 #include "GpuSegmentIntegral.h"
 #include "ProjectedCellDrawer.h"
+#include "ProjectedCells.h"
 #include "RayGrid.h"
 #include "RayGridUniforms.h"
 #include "ScreenFrame.h"

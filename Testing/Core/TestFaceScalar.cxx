@@ -2,7 +2,7 @@
 // Scalars on faces: the same for the cells on both sides, and right.
 #include "FaceScalar.h"
 
-#include "CellProjection.h"
+#include "ProjectedCells.h"
 #include "ReferenceScenes.h"
 
 #include <gtest/gtest.h>
