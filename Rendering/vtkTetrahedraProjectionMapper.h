@@ -103,8 +103,9 @@ public:
    * warning says why. NON_CONVEX_ORDER: by common faces, and a guess across empty space (MPVONC of
    * Williams 1992). CENTROID_ORDER: by distance of centroids, the fastest, and wrong here and
    * there. AUTOMATIC_ORDER (default): as EXACT_ORDER, without the warning. Cells that hide each
-   * other in a cycle have no right order; GetStatistics() counts them. Optical models whose
-   * contributions commute need no order and have none.
+   * other in a cycle have no right order; GetStatistics() counts them, and
+   * vtkMeshedPolyhedraVisibilitySort, given the same input, camera and matrix, names them. Optical
+   * models whose contributions commute need no order and have none.
    */
   vtkSetClampMacro(Order, int, AUTOMATIC_ORDER, CENTROID_ORDER);
   vtkGetMacro(Order, int);
