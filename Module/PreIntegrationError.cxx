@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <limits>
 #include <random>
-#include <utility>
 #include <vector>
 
 namespace tetralux
@@ -477,117 +476,222 @@ double GetPictureError(const PreIntegrationError& error, double pathLength, doub
 namespace
 {
 
-struct ModelSegment
+/// What a camera anywhere on a ray sees of it, by table: back to front, so that each segment may be
+/// the first one.
+struct SeenByTable
 {
-  double Front, Back, Length;
-  SegmentRadiance Exact;
+  double Color[3] = { 0, 0, 0 };
+  double Transmittance = 1;
+
+  void AddInFront(const float rgba[4])
+  {
+    const double transmittance = 1 - static_cast<double>(rgba[3]);
+    for (int c = 0; c < 3; ++c)
+    {
+      this->Color[c] = static_cast<double>(rgba[c]) + transmittance * this->Color[c];
+    }
+    this->Transmittance *= transmittance;
+  }
+
+  double GetError(const SegmentRadiance& exact) const
+  {
+    double error = std::abs(exact.Transmittance - this->Transmittance);
+    for (int c = 0; c < 3; ++c)
+    {
+      error = std::max(error, std::abs(exact.Color[c] - this->Color[c]));
+    }
+    return error;
+  }
 };
 
-constexpr int MostSegments = 400;
-
-/// A ray whose scalar and lengths go by steps of given sizes.
-std::vector<ModelSegment> MakeModelRay(const TransferFunction& function, const RayModel& model,
-  double scalarStep, double longest, std::mt19937_64& generator)
+/// Nodes within the scalars of a sample; a part of them, evenly, where they are many.
+std::vector<double> FindNodes(
+  const TransferFunction& function, const double range[2], std::size_t most)
 {
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::normal_distribution<double> normal(0, 1);
-  const double lo = model.ScalarRange[0];
-  const double width = model.ScalarRange[1] - lo;
-  std::vector<ModelSegment> segments;
-  double place = unit(generator); // in the range
-  // A drift takes slow rays through all of the range, too.
-  double drift = place < 0.5 ? 1 : -1;
-  double path = 0;
-  double transmittance = 1;
-  constexpr double Opaque = 1e-6; // what lies behind changes no channel by more
-  while (path < model.PathLength && segments.size() < MostSegments && transmittance > Opaque)
+  std::vector<double> nodes;
+  for (const TransferFunction::Node& node : function.Nodes)
   {
-    double next = place + scalarStep * (drift + normal(generator));
-    if (next < 0 || next > 1)
+    if (range[0] < node.Scalar && node.Scalar < range[1])
     {
-      drift = -drift;
-      next = std::clamp(next < 0 ? -next : 2 - next, 0., 1.);
+      nodes.push_back(node.Scalar);
     }
-    ModelSegment segment;
-    segment.Front = lo + place * width;
-    segment.Back = lo + next * width;
-    segment.Length = longest * (1 - unit(generator));
-    segment.Exact =
-      IntegrateEmissionAbsorption(function, segment.Front, segment.Back, segment.Length);
-    transmittance *= segment.Exact.Transmittance;
-    path += segment.Length;
-    place = next;
-    segments.push_back(segment);
   }
-  return segments;
+  const std::size_t step = nodes.size() / std::max<std::size_t>(most, 1) + 1;
+  for (std::size_t k = 0; k * step < nodes.size(); ++k)
+  {
+    nodes[k] = nodes[k * step];
+  }
+  nodes.resize((nodes.size() + step - 1) / step);
+  return nodes;
 }
 
-std::vector<std::vector<ModelSegment>> MakeModelRays(
-  const TransferFunction& function, const RayModel& model)
+/// Those rays of a sample that come nearest to running along a node of the function, moved onto it:
+/// the middle of a segment gets the scalar of the node. Tables are most wrong next to bends and steps,
+/// along which the worst rays of a picture run, and none of a sample by chance.
+std::vector<std::vector<RaySegment>> MoveOntoNodes(
+  const TransferFunction& function, const RaySample& sample)
 {
-  std::vector<std::vector<ModelSegment>> rays;
-  std::mt19937_64 generator(1);
-  constexpr int RaysOfAKind = 6;
-  for (const double scalarStep : { 0.002, 0.02, 0.2 })
+  double range[2] = { std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
+  for (const std::vector<RaySegment>& ray : sample.Rays)
   {
-    for (const double part : { 1., 1. / 4, 1. / 16 })
+    for (const RaySegment& segment : ray)
     {
-      for (int i = 0; i < RaysOfAKind; ++i)
+      range[0] = std::min({ range[0], segment.Front, segment.Back });
+      range[1] = std::max({ range[1], segment.Front, segment.Back });
+    }
+  }
+  // A quarter of the sample, as many rays for each node.
+  const std::size_t most = sample.Rays.size() / 4;
+  const std::vector<double> nodes = FindNodes(function, range, most);
+  const std::size_t count = nodes.empty() ? 0 : std::max<std::size_t>(most / nodes.size(), 1);
+  std::vector<std::vector<RaySegment>> moved(count * nodes.size());
+  // All rays are searched for each of a few nodes, a part of them for each of many.
+  constexpr std::size_t FewNodes = 32;
+  const std::size_t step = nodes.size() / FewNodes + 1;
+  struct Near
+  {
+    double Distance; ///< of the farther end from the node, scalars for each unit of length
+    std::size_t Ray, Segment;
+  };
+  const auto n = static_cast<std::ptrdiff_t>(nodes.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::ptrdiff_t k = 0; k < n; ++k)
+  {
+    // The nearest segment of each ray, and of those the nearest.
+    std::vector<Near> nearest;
+    for (std::size_t i = static_cast<std::size_t>(k) % step; i < sample.Rays.size(); i += step)
+    {
+      Near near{ std::numeric_limits<double>::infinity(), i, 0 };
+      for (std::size_t j = 0; j < sample.Rays[i].size(); ++j)
       {
-        rays.push_back(
-          MakeModelRay(function, model, scalarStep, part * model.LongestSegment, generator));
+        const RaySegment& segment = sample.Rays[i][j];
+        const double distance =
+          std::max(std::abs(segment.Front - nodes[k]), std::abs(segment.Back - nodes[k])) /
+          segment.Length;
+        near = distance < near.Distance ? Near{ distance, i, j } : near;
+      }
+      if (!sample.Rays[i].empty())
+      {
+        nearest.push_back(near);
+      }
+    }
+    const std::size_t found = std::min(count, nearest.size());
+    std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(found),
+      nearest.end(), [](const Near& a, const Near& b) { return a.Distance < b.Distance; });
+    for (std::size_t i = 0; i < found; ++i)
+    {
+      // The nearest ones of all nodes first: the worst should come early.
+      std::vector<RaySegment>& ray = moved[i * nodes.size() + static_cast<std::size_t>(k)];
+      ray = sample.Rays[nearest[i].Ray];
+      const RaySegment& segment = ray[nearest[i].Segment];
+      const double shift = nodes[k] - 0.5 * (segment.Front + segment.Back);
+      for (RaySegment& s : ray)
+      {
+        s.Front = std::clamp(s.Front + shift, range[0], range[1]);
+        s.Back = std::clamp(s.Back + shift, range[0], range[1]);
       }
     }
   }
-  return rays;
+  return moved;
 }
 
-/// Largest error of a channel of a ray; lookUp(front, back, length, rgba).
-template <class LookUp>
-double GetRayError(const std::vector<ModelSegment>& ray, const LookUp& lookUp)
+/// A sample's rays, and what a camera at the front of each of their segments sees.
+class ExactRays
 {
-  SegmentRadiance exact;
-  double color[3] = { 0, 0, 0 };
-  double transmittance = 1;
-  for (const ModelSegment& segment : ray)
+public:
+  ExactRays(const TransferFunction& function, const RaySample& sample)
+    : Rays(MoveOntoNodes(function, sample))
   {
-    exact.AddBehind(segment.Exact);
-    float rgba[4];
-    lookUp(segment.Front, segment.Back, segment.Length, rgba);
-    for (int c = 0; c < 3; ++c)
+    this->Rays.insert(this->Rays.end(), sample.Rays.begin(), sample.Rays.end());
+    this->Seen.resize(this->Rays.size());
+    const auto n = static_cast<std::ptrdiff_t>(this->Rays.size());
+#pragma omp parallel for schedule(dynamic, 8)
+    for (std::ptrdiff_t i = 0; i < n; ++i)
     {
-      color[c] += transmittance * static_cast<double>(rgba[c]);
+      const std::vector<RaySegment>& ray = this->Rays[i];
+      this->Seen[i].resize(ray.size());
+      SegmentRadiance behind;
+      for (std::size_t k = ray.size(); k-- > 0;)
+      {
+        SegmentRadiance seen =
+          IntegrateEmissionAbsorption(function, ray[k].Front, ray[k].Back, ray[k].Length);
+        seen.AddBehind(behind);
+        this->Seen[i][k] = behind = seen;
+      }
     }
-    transmittance *= 1 - static_cast<double>(rgba[3]);
   }
-  double error = std::abs(exact.Transmittance - transmittance);
-  for (int c = 0; c < 3; ++c)
-  {
-    error = std::max(error, std::abs(exact.Color[c] - color[c]));
-  }
-  return error;
-}
 
-/// The largest of all rays, or of the first ones where it is beyond what is allowed.
-template <class LookUp>
-double GetRaysError(
-  const std::vector<std::vector<ModelSegment>>& rays, double allowed, const LookUp& lookUp)
-{
-  double error = 0;
-  for (const std::vector<ModelSegment>& ray : rays)
+  std::size_t GetSize() const { return this->Rays.size(); }
+
+  /// Largest error of a channel that any camera on the first rays sees, or infinity where it is more
+  /// than is allowed; lookUp(front, back, length, rgba).
+  template <class LookUp>
+  double Measure(std::size_t count, double allowed, const LookUp& lookUp) const
   {
-    error = std::max(error, GetRayError(ray, lookUp));
-    if (error > allowed)
+    double largest = 0;
+    bool tooLarge = false;
+    const auto n = static_cast<std::ptrdiff_t>(std::min(count, this->Rays.size()));
+#pragma omp parallel for schedule(dynamic, 4) reduction(max : largest) shared(tooLarge)
+    for (std::ptrdiff_t i = 0; i < n; ++i)
     {
-      break;
+      bool isDecided;
+#pragma omp atomic read
+      isDecided = tooLarge;
+      if (isDecided)
+      {
+        continue;
+      }
+      largest = std::max(largest, this->MeasureRay(i, lookUp));
+      if (largest > allowed)
+      {
+#pragma omp atomic write
+        tooLarge = true;
+      }
     }
+    return tooLarge ? std::numeric_limits<double>::infinity() : largest;
   }
-  return error;
+
+private:
+  template <class LookUp>
+  double MeasureRay(std::size_t i, const LookUp& lookUp) const
+  {
+    double largest = 0;
+    SeenByTable seen;
+    for (std::size_t k = this->Rays[i].size(); k-- > 0;)
+    {
+      const RaySegment& segment = this->Rays[i][k];
+      float rgba[4];
+      lookUp(segment.Front, segment.Back, segment.Length, rgba);
+      seen.AddInFront(rgba);
+      largest = std::max(largest, seen.GetError(this->Seen[i][k]));
+    }
+    return largest;
+  }
+
+  std::vector<std::vector<RaySegment>> Rays;      ///< those on nodes first
+  std::vector<std::vector<SegmentRadiance>> Seen; ///< from the front of each segment
+};
+
+/// How much worse the worst of the rays of a picture is than the worst of a sample, at most in nearly
+/// all scenes (Module/Notes.md).
+constexpr double WorseInPictures = 3;
+
+/// Infinity where it is more than is allowed.
+double EstimateOnRays(const ExactRays& rays, const TransferFunction& function,
+  const PreIntegrationTable& table, double allowed)
+{
+  const double worst = rays.Measure(rays.GetSize(), allowed / WorseInPictures,
+    [&table](double front, double back, double length, float rgba[4])
+    { table.Lookup(front, back, length, rgba); });
+  const double estimate = WorseInPictures * worst;
+  // More than all of a channel no picture is wrong by.
+  return estimate <= allowed ? std::min(estimate, std::max(GetLargestColor(function), 1.))
+                             : std::numeric_limits<double>::infinity();
 }
 
 /// Nodes between two scalars, on average over all segments of the rays, plus one.
-double CountPieces(
-  const TransferFunction& function, const std::vector<std::vector<ModelSegment>>& rays)
+double CountPieces(const TransferFunction& function, const RaySample& sample)
 {
   const auto rank = [&function](double s)
   {
@@ -598,9 +702,9 @@ double CountPieces(
   };
   double pieces = 0;
   double segments = 0;
-  for (const std::vector<ModelSegment>& ray : rays)
+  for (const std::vector<RaySegment>& ray : sample.Rays)
   {
-    for (const ModelSegment& segment : ray)
+    for (const RaySegment& segment : ray)
     {
       pieces += 1 + static_cast<double>(std::abs(rank(segment.Front) - rank(segment.Back)));
     }
@@ -612,12 +716,10 @@ double CountPieces(
 } // namespace
 
 double EstimatePictureError(
-  const TransferFunction& function, const PreIntegrationTable& table, const RayModel& model)
+  const TransferFunction& function, const PreIntegrationTable& table, const RaySample& rays)
 {
   constexpr double Any = std::numeric_limits<double>::infinity();
-  return GetRaysError(MakeModelRays(function, model), Any,
-    [&table](double front, double back, double length, float rgba[4])
-    { table.Lookup(front, back, length, rgba); });
+  return EstimateOnRays(ExactRays(function, rays), function, table, Any);
 }
 
 // ------------------------------------------------------------------------------------------------
@@ -652,8 +754,8 @@ std::vector<PreIntegrationSettings> GetCandidates(const TableGoal& goal)
       settings.Scale = sizes.Steps > 0 ? LengthScale::Logarithmic : LengthScale::Linear;
       settings.StepsPerDoubling = std::max(sizes.Steps, 1);
       settings.Axis = axis;
-      std::copy_n(goal.Rays.ScalarRange, 2, settings.ScalarRange);
-      settings.LongestSegment = goal.Rays.LongestSegment;
+      std::copy_n(goal.ScalarRange, 2, settings.ScalarRange);
+      settings.LongestSegment = goal.LongestSegment;
       // Sizes that are given make some steps of the ladder the same.
       const bool again = std::any_of(candidates.begin(), candidates.end(),
         [&](const PreIntegrationSettings& other)
@@ -766,34 +868,42 @@ bool HasColorsUpToOne(const TransferFunction& function)
 TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const TableGoal& goal)
 {
   TableChoice choice;
-  const std::vector<std::vector<ModelSegment>> rays = MakeModelRays(function, goal.Rays);
-  choice.PiecesPerSegment = CountPieces(function, rays);
+  choice.PiecesPerSegment = CountPieces(function, *goal.Rays);
   if (choice.PiecesPerSegment <= goal.LookupCost && !goal.AlwaysTable)
   {
     choice.Reason = "closed form: a segment has few pieces, a lookup takes longer";
     return choice;
   }
 
-  const double target = 0.5 * goal.MaximumError;
+  const ExactRays rays(function, *goal.Rays);
   const bool integersHold = HasColorsUpToOne(function);
-  const auto getError = [&](const PreIntegrationSettings& settings, double allowed)
+  // A few rays tell most tables that are not right, for much less than it takes to fill them.
+  const auto mayBeRight = [&](const PreIntegrationSettings& settings, double allowed)
   {
+    constexpr std::size_t FewRays = 32;
     const VirtualTable table(function, settings);
-    return GetRaysError(rays, allowed,
-      [&table](double front, double back, double length, float rgba[4])
-      { table.LookUp(front, back, length, rgba); });
+    return rays.Measure(FewRays, allowed / WorseInPictures,
+             [&table](double front, double back, double length, float rgba[4])
+             { table.LookUp(front, back, length, rgba); }) <= allowed;
   };
-  const auto isRight = [&](const PreIntegrationSettings& settings)
+  PreIntegrationTable table;
+  const auto isRight = [&](const PreIntegrationSettings& settings, double allowed)
   {
-    choice.PictureError = getError(settings, target);
-    return choice.PictureError <= target;
+    if (!mayBeRight(settings, allowed))
+    {
+      return false;
+    }
+    BuildPreIntegrationTable(function, settings, table);
+    choice.PictureError = EstimateOnRays(rays, function, table, allowed);
+    return choice.PictureError <= allowed;
   };
   std::vector<PreIntegrationSettings> candidates = GetCandidates(goal);
   for (PreIntegrationSettings& settings : candidates)
   {
     const auto fits = [&](TexelFormat format) { return Fits(settings, format, goal); };
     // In single precision first: what that can't do, no other format can.
-    if (!fits(goal.AnyFormat ? TexelFormat::UNorm8 : goal.Format) || !isRight(settings))
+    if (!fits(goal.AnyFormat ? TexelFormat::UNorm8 : goal.Format) ||
+      !mayBeRight(settings, goal.MaximumError))
     {
       continue;
     }
@@ -803,11 +913,11 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
       settings.Format = format;
       const bool isFree =
         goal.AnyFormat ? !IsInteger(format) || integersHold : format == goal.Format;
-      if (isFree && fits(format) && isRight(settings))
+      if (isFree && fits(format) && isRight(settings, goal.MaximumError))
       {
         choice.ClosedForm = false;
         choice.Settings = settings;
-        choice.Reason = "table: the smallest that is right enough on model rays";
+        choice.Reason = "table: the smallest that is right enough";
         return choice;
       }
     }
@@ -818,23 +928,19 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
   {
     return choice;
   }
+  double least = std::numeric_limits<double>::infinity();
   for (PreIntegrationSettings& settings : candidates)
   {
     settings.Format = goal.AnyFormat ? TexelFormat::Float : goal.Format;
-    if (!Fits(settings, settings.Format, goal))
+    if (Fits(settings, settings.Format, goal) && isRight(settings, least))
     {
-      continue;
-    }
-    const double error = getError(
-      settings, choice.ClosedForm ? std::numeric_limits<double>::infinity() : choice.PictureError);
-    if (choice.ClosedForm || error < choice.PictureError)
-    {
+      least = choice.PictureError;
       choice.ClosedForm = false;
       choice.Settings = settings;
-      choice.PictureError = error;
       choice.Reason = "table: asked for; none is right enough, this is the most exact one";
     }
   }
+  choice.PictureError = choice.ClosedForm ? 0 : least;
   return choice;
 }
 

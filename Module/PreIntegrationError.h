@@ -17,11 +17,13 @@
 //
 // It grows with the number of segments, which is why a table has to be more accurate than the picture
 // (Kraus et al. 2004, section 3), and it is reached only by rays whose every segment is the worst
-// one. What to expect is measured on model rays, see RayModel.
+// one. What to expect is measured on a sample of rays: of the mesh, or of a model of one (RaySample.h).
 
 #include "PreIntegrationTable.h"
+#include "RaySample.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 namespace tetralux
@@ -56,28 +58,29 @@ TETRALUXCORE_EXPORT PreIntegrationError EstimatePreIntegrationError(
 TETRALUXCORE_EXPORT double GetPictureError(
   const PreIntegrationError& error, double pathLength, double segments);
 
-/// Rays like those of a picture: the scalar wanders over the table's range (reflected at its ends),
-/// by slow, middling and fast steps from segment to segment, and lengths are drawn evenly from 0 to
-/// the longest, a quarter and a sixteenth of it, until the path is as long as asked for, or the ray
-/// has 400 segments or is opaque. The same rays for the same arguments.
-struct RayModel
-{
-  double PathLength = 1; ///< longest way through the volume, world units
-  double ScalarRange[2] = { 0, 1 };
-  double LongestSegment = 1;
-};
-
-/// Largest error of a channel on the rays of a model: what a picture by lookups in the table is
-/// expected to be wrong by. Some 10 milliseconds.
+/// What pictures by lookups in a table are expected to be wrong by, at most: three times the largest
+/// error of a channel that a camera anywhere on the rays sees. A sample has a thousandth of the rays of
+/// a picture, and the worst of it is seldom the worst. Some of its rays are measured once more with
+/// scalars that run along a node of the function, where tables are most wrong: next to a step a
+/// segment in a million may be wrong by more than all others together. So pictures of nearly all
+/// scenes are better, most of them by a factor of two to four (Module/Notes.md). Never more than the
+/// largest color, or 1.
+/// Some 50 milliseconds of one thread for a sample of 100,000 segments; parallel.
 TETRALUXCORE_EXPORT double EstimatePictureError(
-  const TransferFunction& function, const PreIntegrationTable& table, const RayModel& model);
+  const TransferFunction& function, const PreIntegrationTable& table, const RaySample& rays);
 
 /// What a table is chosen for.
 struct TableGoal
 {
   double MaximumError = 1. / 255; ///< of a picture's channel, absolute, more than 0
   std::size_t MaximumBytes = std::size_t{ 64 } << 20;
-  RayModel Rays;
+
+  /// What the table has to be right for; not nullptr.
+  std::shared_ptr<const RaySample> Rays;
+
+  // What the axes of the table reach to: no scalar or segment of a picture is beyond.
+  double ScalarRange[2] = { 0, 1 };
+  double LongestSegment = 1; ///< world units
 
   /// Time of a lookup in units of that of the closed form on one piece. Segments with more pieces
   /// are faster by table. A processor takes about as long for a lookup of eight rays as for
@@ -105,14 +108,16 @@ struct TableChoice
   bool ClosedForm = true;
   PreIntegrationSettings Settings; ///< of the table
   double PictureError = 0;         ///< what EstimatePictureError will find; 0 where ClosedForm
-  double PiecesPerSegment = 1;     ///< of the model's rays, on average
+  double PiecesPerSegment = 1;     ///< of the rays, on average
   std::string Reason;              ///< one line
 };
 
-/// The smallest table whose EstimatePictureError is at most half of what is asked for; else none, or
-/// with AlwaysTable the one of the least error.
-/// Tables of growing size are tried until one is right, with no more texels computed than the model's
-/// rays look up: some 10 milliseconds to a second. Throws as BuildPreIntegrationTable does.
+/// The smallest table whose EstimatePictureError is at most what is asked for; else none, or with
+/// AlwaysTable the one of the least error.
+/// Tables of growing size are tried until one is right. A few rays rule most of them out, for which
+/// only the texels they look up are computed; what is left is built and measured on all rays. Some 100
+/// milliseconds of one thread, and up to a second where no table is right. Throws as
+/// BuildPreIntegrationTable does.
 TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(
   const TransferFunction& function, const TableGoal& goal);
 

@@ -53,6 +53,7 @@ void VolumeScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
   ++this->MeshVersion;
   this->Scalars.clear();
   this->FloatScalars = this->DoubleScalars = ScalarMap();
+  this->SampledRays.reset();
   this->PointGradientsValid = false;
   this->Invalidate();
 }
@@ -83,6 +84,7 @@ void VolumeScene::SetScalars(std::vector<double> scalars, bool ofCells)
   this->Scalars = std::move(scalars);
   this->ScalarsOfCells = ofCells;
   this->FloatScalars = this->DoubleScalars = ScalarMap();
+  this->SampledRays.reset();
   this->PointGradientsValid = false;
   this->Invalidate();
 
@@ -431,6 +433,17 @@ double VolumeScene::GetLongestSegment(const RayGrid& grid)
     }
   }
   return this->GetLongestEdge() * std::sqrt(squares) / std::abs(determinant);
+}
+
+std::shared_ptr<const RaySample> VolumeScene::GetRaySample(double scale)
+{
+  if (!this->SampledRays || this->ScaleOfRays != scale)
+  {
+    this->SampledRays =
+      std::make_shared<const RaySample>(DrawMeshRays(*this->Mesh, this->Scalars, scale));
+    this->ScaleOfRays = scale;
+  }
+  return this->SampledRays;
 }
 
 double VolumeScene::GetWorldRadius(const RayGrid& grid) const

@@ -8,6 +8,7 @@
 #include "PointGradients.h"
 #include "PreIntegrationTable.h"
 #include "RayGrid.h"
+#include "RaySample.h"
 #include "TetraluxCoreModule.h"
 #include "TransferFunction.h"
 #include "WalkMesh.h"
@@ -139,6 +140,9 @@ public:
   /// No segment of a ray is longer, world units: the longest edge, where it is stretched most.
   double GetLongestSegment(const RayGrid& grid);
 
+  /// DrawMeshRays, of scalars at points: the same until the mesh, the scalars or the scale change.
+  std::shared_ptr<const RaySample> GetRaySample(double scale);
+
   /// Radius of the mesh in the world, world units: along its longest extent, where MeshFromWorld of
   /// the grid stretches it.
   double GetWorldRadius(const RayGrid& grid) const;
@@ -175,7 +179,9 @@ private:
   std::int64_t NumberOfTransparentCells = 0;
   ScalarMap FloatScalars, DoubleScalars; ///< of the mesh's tables
   std::uint64_t MeshVersion = 0;
-  double LongestEdge = -1; ///< of the mesh; negative: not measured yet
+  double LongestEdge = -1;                      ///< of the mesh; negative: not measured yet
+  std::shared_ptr<const RaySample> SampledRays; ///< nullptr: not drawn yet
+  double ScaleOfRays = 0;
   std::uint64_t PointsVersion = 0;
   std::uint64_t TableVersion = 0;
   std::uint64_t CellValuesVersion = 0;

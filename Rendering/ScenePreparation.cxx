@@ -312,16 +312,17 @@ void ScenePreparation::PrepareTable(vtkVolume* volume)
     return;
   }
   const Stopwatch stopwatch;
-  const double scale = GetLargestScale(volume);
+  // Rounded, so that a volume which is only turned keeps its table.
+  const double scale = static_cast<float>(GetLargestScale(volume));
   SegmentTable::Request request;
   request.Interactive = volume->GetAllocatedRenderTime() < InteractiveSeconds;
   TableGoal& goal = request.Goal;
   goal.MaximumError =
     std::max(TableErrorShare * this->Mapper->GetMaximumError(), SmallestFunctionError);
   goal.MaximumBytes = static_cast<std::size_t>(this->Mapper->GetTableMaximumBytes());
-  goal.Rays.PathLength = 2 * mesh.GetRadius() * scale;
-  goal.Rays.LongestSegment = this->Scene.GetLongestEdge() * scale; // no segment is longer
-  std::copy_n(this->Scene.GetScalarRange(), 2, goal.Rays.ScalarRange);
+  goal.Rays = this->Scene.GetRaySample(scale);
+  goal.LongestSegment = this->Scene.GetLongestEdge() * scale; // no segment is longer
+  std::copy_n(this->Scene.GetScalarRange(), 2, goal.ScalarRange);
   goal.AlwaysTable = this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::TABLE;
   goal.ScalarSize = this->Mapper->GetTableScalarSize();
   goal.LengthSize = this->Mapper->GetTableLengthSize();

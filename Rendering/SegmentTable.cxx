@@ -31,12 +31,12 @@ bool AreEqual(const SegmentTable::Request& a, const SegmentTable::Request& b)
   const TableGoal& x = a.Goal;
   const TableGoal& y = b.Goal;
   return x.AlwaysTable == y.AlwaysTable && x.MaximumError == y.MaximumError &&
-    x.MaximumBytes == y.MaximumBytes && x.LookupCost == y.LookupCost &&
-    x.Rays.PathLength == y.Rays.PathLength && x.Rays.LongestSegment == y.Rays.LongestSegment &&
-    std::equal(x.Rays.ScalarRange, x.Rays.ScalarRange + 2, y.Rays.ScalarRange) &&
-    x.ScalarSize == y.ScalarSize && x.LengthSize == y.LengthSize && x.AnyScale == y.AnyScale &&
-    x.Scale == y.Scale && x.AnyAxis == y.AnyAxis && x.Axis == y.Axis &&
-    x.AnyFormat == y.AnyFormat && x.Format == y.Format;
+    x.MaximumBytes == y.MaximumBytes && x.LookupCost == y.LookupCost && x.Rays == y.Rays &&
+    x.LongestSegment == y.LongestSegment &&
+    std::equal(x.ScalarRange, x.ScalarRange + 2, y.ScalarRange) && x.ScalarSize == y.ScalarSize &&
+    x.LengthSize == y.LengthSize && x.AnyScale == y.AnyScale && x.Scale == y.Scale &&
+    x.AnyAxis == y.AnyAxis && x.Axis == y.Axis && x.AnyFormat == y.AnyFormat &&
+    x.Format == y.Format;
 }
 
 } // namespace
@@ -61,10 +61,11 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
     settings.Format = request.Goal.AnyFormat ? TexelFormat::Float : request.Goal.Format;
     settings.ScalarSize = request.Goal.ScalarSize > 0 ? request.Goal.ScalarSize : 128;
     settings.LengthSize = request.Goal.LengthSize > 0 ? request.Goal.LengthSize : 64;
-    std::copy_n(request.Goal.Rays.ScalarRange, 2, settings.ScalarRange);
-    settings.LongestSegment = request.Goal.Rays.LongestSegment;
+    std::copy_n(request.Goal.ScalarRange, 2, settings.ScalarRange);
+    settings.LongestSegment = request.Goal.LongestSegment;
     this->Coarse = true;
     this->Build(function, GetCoarseSettings(settings, CoarseBytes));
+    this->PictureError = EstimatePictureError(function, *this->Table, *request.Goal.Rays);
     this->Reason = "a coarse table during interaction";
   }
   else
@@ -72,6 +73,7 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
     const TableChoice choice = ChoosePreIntegrationTable(function, request.Goal);
     this->Coarse = false;
     this->Reason = choice.Reason;
+    this->PictureError = choice.PictureError;
     if (choice.ClosedForm && request.Goal.AlwaysTable)
     {
       throw std::invalid_argument(
@@ -80,16 +82,11 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
     if (choice.ClosedForm)
     {
       this->Table.reset();
-      this->PictureError = 0;
     }
     else
     {
       this->Build(function, choice.Settings);
     }
-  }
-  if (this->Table)
-  {
-    this->PictureError = EstimatePictureError(function, *this->Table, request.Goal.Rays);
   }
   this->Function = function;
   this->Last = request;

@@ -353,12 +353,12 @@ void CompareTimes()
   }
 }
 
-RayModel MakeModel()
+RaySample DrawRays()
 {
   RayModel model;
   model.PathLength = 10 * Longest;
   model.LongestSegment = Longest;
-  return model;
+  return DrawModelRays(model);
 }
 
 const Function* GetAccuracyFunctions(int& count)
@@ -394,7 +394,7 @@ void CompareAxes()
         PreIntegrationTable table;
         BuildPreIntegrationTable(functions[k].Nodes, settings, table);
         std::printf(" %8.1e/%8.1e", EstimatePreIntegrationError(functions[k].Nodes, table).Segment,
-          EstimatePictureError(functions[k].Nodes, table, MakeModel()));
+          EstimatePictureError(functions[k].Nodes, table, DrawRays()));
       }
       std::printf("\n");
     }
@@ -431,7 +431,7 @@ void CompareScales()
       const PreIntegrationError error = EstimatePreIntegrationError(function.Nodes, table);
       std::printf("%-14s %-20s %8.1f %10.1e %10.1e %10.1e\n", function.Name, scale.Name,
         1e-6 * static_cast<double>(table.GetNumberOfBytes()), error.Segment, error.PerLength,
-        EstimatePictureError(function.Nodes, table, MakeModel()));
+        EstimatePictureError(function.Nodes, table, DrawRays()));
     }
   }
   std::printf("\n");
@@ -453,7 +453,7 @@ void CompareFormats()
     std::printf("%-8s %6.1f MB %6.1f ms %10.1e %10.1e\n", names[k],
       1e-6 * static_cast<double>(table.GetNumberOfBytes()), time,
       EstimatePreIntegrationError(function, table).Rounding,
-      EstimatePictureError(function, table, MakeModel()));
+      EstimatePictureError(function, table, DrawRays()));
   }
   std::printf("\n");
 }
@@ -471,7 +471,8 @@ void CompareChoices()
       TableGoal goal;
       goal.MaximumError = maximumError;
       goal.LookupCost = 0;
-      goal.Rays = MakeModel();
+      goal.Rays = std::make_shared<RaySample>(DrawRays());
+      goal.LongestSegment = Longest;
       TableChoice choice;
       const double time =
         Time(1, [&]() { choice = ChoosePreIntegrationTable(functions[k].Nodes, goal); });
