@@ -66,14 +66,9 @@ def copy_points(image):
 
 
 def test_blunt_fin(folder):
-    from vtkmodules.vtkIOParallel import vtkMultiBlockPLOT3DReader
+    from blunt_fin import read_blunt_fin
 
-    fin = vtkMultiBlockPLOT3DReader()
-    fin.SetXYZFileName(os.path.join(folder, "bluntfinxyz.bin"))
-    fin.SetQFileName(os.path.join(folder, "bluntfinq.bin"))
-    fin.AddFunction(100)
-    fin.Update()
-    convex = convexify(fin.GetOutput().GetBlock(0))
+    convex = convexify(read_blunt_fin(folder).GetBlock(0))
     check_volumes(convex)
     # Weiler et al. 2003 have 3,534 for another triangulation of the same points.
     assert 3000 < convex.GetNumberOfImaginaryCells() < 4500

@@ -5,29 +5,16 @@ import math
 import os
 import tempfile
 
-from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
-from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkVolumeProperty
 
 import tetralux
-
-
-def make_property():
-    opacity = vtkPiecewiseFunction()
-    opacity.AddPoint(0, 0.5)
-    opacity.AddPoint(1, 0.5)
-    color = vtkColorTransferFunction()
-    color.AddRGBPoint(0, 1, 0, 0)
-    color.AddRGBPoint(1, 0, 0, 1)
-    volume_property = vtkVolumeProperty()
-    volume_property.SetColor(color)
-    volume_property.SetScalarOpacity(opacity)
-    return volume_property
+from mapper_scene import make_property
 
 
 def make_table():
     table = tetralux.vtkPreIntegrationTable()
-    table.SetVolumeProperty(make_property())
+    colors = [(0, 1, 0, 0), (1, 0, 0, 1)]
+    table.SetVolumeProperty(make_property(colors, opacities=[(0, 0.5), (1, 0.5)]))
     table.SetScalarSize(17)
     table.SetLengthSize(9)
     table.SetLongestSegment(4)

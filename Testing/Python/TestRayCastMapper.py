@@ -1,79 +1,34 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The ray cast mapper from Python: created by name, a cube's opacity as its optical depth says."""
 
-import json
 import math
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray
-from vtkmodules.vtkCommonDataModel import (
-    vtkImageData,
-    vtkMultiBlockDataSet,
-    vtkPiecewiseFunction,
-)
-from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkRenderer, vtkVolume
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
 import tetralux
+from mapper_scene import MapperScene, make_property, make_unit_cube, set_scalars
 
-
-def make_cube():
-    cube = vtkImageData()
-    cube.SetDimensions(4, 4, 4)
-    cube.SetSpacing(1 / 3, 1 / 3, 1 / 3)
-    array = vtkDoubleArray()
-    array.SetName("Constant")
-    array.SetNumberOfTuples(64)
-    array.Fill(2.5)
-    cube.GetPointData().SetScalars(array)
-    return cube
-
+cube = make_unit_cube()
+set_scalars(cube, "Constant", numpy.full(64, 2.5))
 
 mapper = tetralux.vtkTetrahedraRayCastMapper()
 assert mapper.IsA("vtkUnstructuredGridVolumeMapper")
 assert mapper.GetStatistics() == "{}"
-cube = make_cube()
 mapper.SetInputData(cube)
 assert mapper.GetBounds() == (0, 1, 0, 1, 0, 1)
 
-color = vtkColorTransferFunction()
-color.AddRGBPoint(0, 0, 1, 0.25)
-color.AddRGBPoint(5, 1, 1, 0.25)  # at 2.5: one half, 1, 0.25
-opacity = vtkPiecewiseFunction()
-opacity.AddPoint(0, 0)
-opacity.AddPoint(10, 1)  # at 2.5: 0.25
-volume = vtkVolume()
-volume.SetMapper(mapper)
-volume.GetProperty().SetColor(color)
-volume.GetProperty().SetScalarOpacity(opacity)
-volume.GetProperty().SetScalarOpacityUnitDistance(0.2)
-
-# Twice as high as the cube, and seen along z.
-renderer = vtkRenderer()
-renderer.AddVolume(volume)
-camera = renderer.GetActiveCamera()
-camera.ParallelProjectionOn()
-camera.SetParallelScale(1)
-camera.SetPosition(0.5, 0.5, 4)
-camera.SetFocalPoint(0.5, 0.5, 0)
-camera.SetClippingRange(0.1, 10)
-window = tetralux.vtkHeadlessRenderWindow()
-window.SetSize(120, 80)
-window.AddRenderer(renderer)
-
-
-def render():
-    window.Render()
-    image = mapper.GetOutputImage()
-    width, height, _ = image.GetDimensions()
-    points = image.GetPointData()
-    rgba = vtk_to_numpy(points.GetArray("RGBA")).reshape(height, width, 4)
-    depth = vtk_to_numpy(points.GetArray("Depth")).reshape(height, width)
-    return rgba.copy(), depth.copy(), json.loads(mapper.GetStatistics())
+volume_property = make_property(
+    colors=[(0, 0, 1, 0.25), (5, 1, 1, 0.25)],  # at 2.5: one half, 1, 0.25
+    opacities=[(0, 0), (10, 1)],  # at 2.5: 0.25
+    unit_distance=0.2,
+)
+scene = MapperScene(mapper, volume_property, 120, 80)
+scene.look_at_unit_cube()
 
 
 def check(thickness):
-    rgba, depth, statistics = render()
+    rgba, depth, statistics = scene.render()
     assert rgba.shape == (80, 120, 4) and rgba.dtype == numpy.float32
     alpha = 1 - math.exp(-0.25 / 0.2 * thickness)
     inside = numpy.zeros((80, 120), bool)
@@ -110,14 +65,14 @@ check(thickness=1)
 # Other optical models: the cube's one colour at its one scalar.
 inside = (slice(25, 55), slice(45, 75))
 mapper.SetBlendModeToMaximumIntensity()
-rgba, _, statistics = render()
+rgba, _, statistics = scene.render()
 assert statistics["segments"]["integration"] == "largest scalar"
 assert numpy.abs(rgba[inside] - 0.25 * numpy.array([0.5, 1, 0.25, 1])).max() < 1e-6
 mapper.SetBlendModeToAdditive()
-rgba, _, _ = render()
+rgba, _, _ = scene.render()
 assert numpy.abs(rgba[inside] - 0.25 / 0.2 * numpy.array([0.5, 1, 0.25, 0])).max() < 1e-5
 mapper.SetBlendModeToAbsorption()
-rgba, _, _ = render()
+rgba, _, _ = scene.render()
 opacity = 1 - math.exp(-0.25 / 0.2)
 assert numpy.abs(rgba[inside] - opacity * numpy.array([0, 0, 0, 1])).max() < 1e-5
 mapper.SetBlendModeToComposite()

@@ -47,16 +47,11 @@ def test_quadratic_cell_and_counts():
 
 
 def test_real_data(folder):
+    from blunt_fin import read_blunt_fin
     from vtkmodules.vtkIOExodus import vtkExodusIIReader
-    from vtkmodules.vtkIOParallel import vtkMultiBlockPLOT3DReader
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-    fin = vtkMultiBlockPLOT3DReader()
-    fin.SetXYZFileName(os.path.join(folder, "bluntfinxyz.bin"))
-    fin.SetQFileName(os.path.join(folder, "bluntfinq.bin"))
-    fin.AddFunction(100)
-    fin.Update()
-    output = split(fin.GetOutput()).GetOutput()
+    output = split(read_blunt_fin(folder)).GetOutput()
     assert output.GetNumberOfCells() == 187395
     assert output.GetNumberOfPoints() == 40960
     assert output.GetPointData().GetArray("Density")

@@ -48,14 +48,9 @@ def test_image():
 
 
 def test_blunt_fin(folder):
-    from vtkmodules.vtkIOParallel import vtkMultiBlockPLOT3DReader
+    from blunt_fin import read_blunt_fin
 
-    fin = vtkMultiBlockPLOT3DReader()
-    fin.SetXYZFileName(os.path.join(folder, "bluntfinxyz.bin"))
-    fin.SetQFileName(os.path.join(folder, "bluntfinq.bin"))
-    fin.AddFunction(100)
-    fin.Update()
-    neighbors = find_neighbors(fin.GetOutput())
+    neighbors = find_neighbors(read_blunt_fin(folder))
     assert neighbors.GetOutput().GetNumberOfCells() == 187395
     assert neighbors.GetNumberOfComponents() == 1
     assert neighbors.GetNumberOfZeroVolumeCells() == 77

@@ -5,16 +5,12 @@ import math
 
 import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401: how VTK draws what its mapper casts
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPiecewiseFunction, vtkUnstructuredGrid
-from vtkmodules.vtkRenderingCore import (
-    vtkColorTransferFunction,
-    vtkRenderer,
-    vtkVolume,
-    vtkVolumeProperty,
-)
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
+from vtkmodules.vtkRenderingCore import vtkVolume
 from vtkmodules.vtkRenderingVolume import vtkUnstructuredGridVolumeRayCastMapper
 
 import tetralux
+from mapper_scene import MapperScene, make_property
 
 
 def make_array(values):
@@ -24,23 +20,14 @@ def make_array(values):
     return array
 
 
-def make_property():
-    """Attenuation goes from 1 to 3 over scalars from 0 to 1; red."""
-    color = vtkColorTransferFunction()
-    color.AddRGBPoint(0, 1, 0, 0)
-    opacity = vtkPiecewiseFunction()
-    opacity.AddPoint(0, 0.5)
-    opacity.AddPoint(1, 1.5)
-    result = vtkVolumeProperty()
-    result.SetColor(color)
-    result.SetScalarOpacity(opacity)
-    result.SetScalarOpacityUnitDistance(0.5)
-    return result
+def make_red_property():
+    """Attenuation goes from 1 to 3 over scalars from 0 to 1."""
+    return make_property([(0, 1, 0, 0)], [(0, 0.5), (1, 1.5)], unit_distance=0.5)
 
 
 def test_segments():
     volume = vtkVolume()
-    volume.SetProperty(make_property())
+    volume.SetProperty(make_red_property())
     near, far = make_array([0, 1]), make_array([1, 0.5])
     integrator = tetralux.vtkTetrahedraRayIntegrator()
     integrator.Initialize(volume, near)
@@ -65,23 +52,15 @@ def test_picture():
     mapper = vtkUnstructuredGridVolumeRayCastMapper()
     mapper.SetInputData(grid)
     mapper.SetRayIntegrator(tetralux.vtkTetrahedraRayIntegrator())
-    volume = vtkVolume()
-    volume.SetMapper(mapper)
-    volume.SetProperty(make_property())
-    renderer = vtkRenderer()
-    renderer.AddVolume(volume)
-    window = tetralux.vtkHeadlessRenderWindow()
-    window.SetSize(64, 64)
-    window.AddRenderer(renderer)
-    camera = renderer.GetActiveCamera()
-    camera.ParallelProjectionOn()
-    camera.SetParallelScale(0.4)
-    camera.SetPosition(0.3, 0.2, 5)
-    camera.SetFocalPoint(0.3, 0.2, 0)
-    renderer.ResetCameraClippingRange()
-    window.Render()
+    scene = MapperScene(mapper, make_red_property(), 64, 64)
+    scene.camera.ParallelProjectionOn()
+    scene.camera.SetParallelScale(0.4)
+    scene.camera.SetPosition(0.3, 0.2, 5)
+    scene.camera.SetFocalPoint(0.3, 0.2, 0)
+    scene.renderer.ResetCameraClippingRange()
+    scene.window.Render()
     pixels = vtkUnsignedCharArray()
-    window.GetPixelData(32, 32, 32, 32, 0, pixels, 0)
+    scene.window.GetPixelData(32, 32, 32, 32, 0, pixels, 0)
     # A ray there is about 0.5 long in the cell, where the attenuation is 2.
     assert abs(pixels.GetComponent(0, 0) / 255 - (1 - math.exp(-1))) < 0.03
 
