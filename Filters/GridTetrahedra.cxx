@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridTetrahedra.h"
 
+#include "MeshLimits.h"
 #include "vtkTetrahedraIntake.h"
 
 #include "vtkCell.h"
@@ -16,15 +17,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 
 namespace tetralux
 {
 namespace
 {
-
-constexpr vtkIdType MaximumPoints = std::numeric_limits<std::int32_t>::max();
-constexpr vtkIdType MaximumCells = (vtkIdType(1) << 29) - 1;
 
 /// Three for a type that VTK does not know, too: who knows what it fills.
 int GetCellDimension(int cellType)

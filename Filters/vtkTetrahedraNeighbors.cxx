@@ -4,6 +4,7 @@
 #include "CellVolumes.h"
 #include "FaceNeighbors.h"
 #include "MeshCleaning.h"
+#include "MeshLimits.h"
 #include "vtkTetrahedraIntake.h"
 
 #include "vtkCell.h"
@@ -34,7 +35,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 #include <new>
 #include <numeric>
 #include <string>
@@ -69,9 +69,6 @@ struct vtkTetrahedraNeighbors::Counts : MeshCounts
 
 namespace
 {
-
-constexpr vtkIdType MaximumPoints = std::numeric_limits<std::int32_t>::max();
-constexpr vtkIdType MaximumCells = (vtkIdType(1) << 29) - 1;
 
 /// Points or cells that a task handles at least.
 constexpr vtkIdType Grain = 16384;
@@ -220,11 +217,13 @@ private:
   /// Takes the tetrahedra; returns why the grid is refused, or nothing.
   std::string Read(MeshCounts& counts)
   {
-    if (this->NumberOfPoints > MaximumPoints || this->NumberOfCells > MaximumCells)
+    if (this->NumberOfPoints > tetralux::MaximumPoints ||
+      this->NumberOfCells > tetralux::MaximumCells)
     {
       return "the input has " + std::to_string(this->NumberOfPoints) + " points and " +
-        std::to_string(this->NumberOfCells) + " cells; at most " + std::to_string(MaximumPoints) +
-        " and " + std::to_string(MaximumCells) + " are possible";
+        std::to_string(this->NumberOfCells) + " cells; at most " +
+        std::to_string(tetralux::MaximumPoints) + " and " + std::to_string(tetralux::MaximumCells) +
+        " are possible";
     }
     this->Mesh.Points.resize(3 * this->NumberOfPoints);
     vtkSMPTools::For(0, this->NumberOfPoints, Grain,

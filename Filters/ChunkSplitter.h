@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ChunkSplitter_h
+#define tetralux_ChunkSplitter_h
+
+#include "CellKind.h"
+#include "CellSources.h"
+#include "CellSplit.h"
+#include "FacetedCells.h"
+#include "IntakeChunk.h"
+#include "vtkTetrahedraIntake.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkGenericCell.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace tetralux
+{
+
+/// What the tasks of a block have in common.
+struct BlockContext
+{
+  DataSetBlock Block;
+  std::int64_t NumberOfPoints = 0;
+  const double* Coordinates = nullptr; ///< of the whole mesh, by its ids
+  const unsigned char* CellGhosts = nullptr;
+  const unsigned char* PointGhosts = nullptr;
+};
+
+/// Splits the cells of one chunk.
+template <class SourceT>
+class ChunkSplitter
+{
+public:
+  ChunkSplitter(const SourceT& source, const BlockContext& context, IntakeChunk& chunk)
+    : Source(source)
+    , Context(context)
+    , Output(chunk)
+  {
+  }
+
+  void Split(vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType cellId = begin; cellId < end; ++cellId)
+    {
+      this->SplitCell(cellId);
+    }
+  }
+
+private:
+  void SplitCell(vtkIdType cellId)
+  {
+    this->Source.GetCell(cellId, this->Current);
+    const int type = this->Current.Type & 0xff; // VTK keeps types in a byte
+    ++this->Output.CellsByType[type];
+
+    const unsigned char ghost = this->Context.CellGhosts ? this->Context.CellGhosts[cellId] : 0;
+    if (ghost & vtkDataSetAttributes::DUPLICATECELL)
+    {
+      ++this->Output.GhostCells;
+      return;
+    }
+    if (ghost & (vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL))
+    {
+      ++this->Output.BlankedCells;
+      return;
+    }
+
+    const CellKind kind = ClassifyCellType(type);
+    if (kind == CellKind::LowerDimensional)
+    {
+      ++this->Output.LowerDimensionalCells;
+      return;
+    }
+    if (kind == CellKind::Unsupported)
+    {
+      ++this->Output.SkippedByType[type];
+      return;
+    }
+
+    this->Faces.Clear();
+    bool valid = true;
+    if (kind == CellKind::Polyhedron)
+    {
+      this->Source.GetFaces(cellId,
+        [&](const vtkIdType* ids, vtkIdType size)
+        {
+          this->Polygon.assign(ids, ids + size);
+          valid = valid && this->MakeGlobal(this->Polygon);
+          if (valid)
+          {
+            this->Faces.AddPolygon(this->Polygon.data(), this->Polygon.size());
+          }
+        });
+    }
+    std::vector<std::int64_t>& points = this->Current.Points;
+    if (!valid || points.size() < GetRequiredPoints(kind, type) || !this->MakeGlobal(points))
+    {
+      ++this->Output.InvalidCells;
+      return;
+    }
+    if (this->Context.PointGhosts &&
+      std::any_of(points.begin(), points.end(),
+        [this](std::int64_t point)
+        {
+          return this->Context.PointGhosts[point - this->Context.Block.FirstPoint] &
+            vtkDataSetAttributes::HIDDENPOINT;
+        }))
+    {
+      ++this->Output.BlankedCells;
+      return;
+    }
+
+    this->Tets.clear();
+    this->SplitPoints(kind, type, cellId);
+    for (std::size_t i = 0; i < this->Tets.size(); i += 4)
+    {
+      const std::int64_t* t = &this->Tets[i];
+      const bool collapsed = t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] ||
+        t[1] == t[3] || t[2] == t[3];
+      // A tetrahedron with a repeated point is kept as it is: a defect of the mesh, for others to
+      // count. In a larger cell it is the missing part of a collapsed cell.
+      if (!collapsed || kind == CellKind::Tetrahedron)
+      {
+        this->Output.Tetrahedra.insert(this->Output.Tetrahedra.end(), t, t + 4);
+        this->Output.Parents.push_back(cellId);
+      }
+    }
+  }
+
+  /// From ids within the block to those of the mesh; false where one does not exist.
+  bool MakeGlobal(std::vector<std::int64_t>& points) const
+  {
+    for (std::int64_t& point : points)
+    {
+      if (point < 0 || point >= this->Context.NumberOfPoints)
+      {
+        return false;
+      }
+      point += this->Context.Block.FirstPoint;
+    }
+    return true;
+  }
+
+  void SplitPoints(CellKind kind, int type, vtkIdType cellId)
+  {
+    std::vector<std::int64_t>& points = this->Current.Points;
+    std::int64_t tets[6 * 4];
+    int count = 0;
+    switch (kind)
+    {
+      case CellKind::Tetrahedron:
+        this->Tets.assign(points.begin(), points.begin() + 4);
+        return;
+      case CellKind::Pyramid:
+        count = SplitPyramid(points.data(), tets);
+        break;
+      case CellKind::Wedge:
+        count = SplitWedge(points.data(), tets);
+        break;
+      case CellKind::Voxel:
+      case CellKind::Hexahedron:
+        if (this->Current.Parity >= 0)
+        {
+          count = SplitStructuredHexahedron(points.data(), this->Current.Parity == 1, tets);
+          break;
+        }
+        if (kind == CellKind::Voxel)
+        {
+          std::swap(points[2], points[3]);
+          std::swap(points[6], points[7]);
+        }
+        count = SplitHexahedron(points.data(), tets);
+        break;
+      case CellKind::Faceted:
+        this->SplitFaceted(*GetFacetedCellType(type));
+        return;
+      case CellKind::Polyhedron:
+        this->SplitPolyhedron();
+        return;
+      case CellKind::ConvexPointSet:
+        this->SplitConvexPointSet(cellId);
+        return;
+      case CellKind::LowerDimensional:
+      case CellKind::Unsupported:
+        return;
+    }
+    this->Tets.assign(tets, tets + 4 * count);
+  }
+
+  void SplitFaceted(const FacetedCellType& type)
+  {
+    const std::vector<std::int64_t>& points = this->Current.Points;
+    for (const std::vector<int>& polygon : type.Polygons)
+    {
+      this->Polygon.clear();
+      for (int point : polygon)
+      {
+        this->Polygon.push_back(points[point]);
+      }
+      this->Faces.AddPolygon(this->Polygon.data(), this->Polygon.size());
+    }
+    if (type.MiddlePoint >= 0)
+    {
+      this->Faces.ConeFrom(points[type.MiddlePoint], this->Tets);
+    }
+    else if (!type.ApexAtCorner ||
+      !this->Faces.ConeFromSmallestId(this->Context.Coordinates, this->Tets))
+    {
+      this->Faces.ConeFrom(this->AddPoint(points, type.MiddleWeights), this->Tets);
+    }
+  }
+
+  void SplitPolyhedron()
+  {
+    this->Faces.OrientOutward(this->Context.Coordinates);
+    if (!this->Faces.ConeFromSmallestId(this->Context.Coordinates, this->Tets))
+    {
+      const std::vector<std::int64_t>& points = this->Faces.GetPoints();
+      const std::vector<double> weights(points.size(), 1.0 / points.size());
+      this->Faces.ConeFrom(this->AddPoint(points, weights), this->Tets);
+    }
+  }
+
+  void SplitConvexPointSet(vtkIdType cellId)
+  {
+    if (!this->AnyCell)
+    {
+      this->AnyCell = vtkSmartPointer<vtkGenericCell>::New();
+    }
+    vtkNew<vtkIdList> ids;
+    vtkNew<vtkPoints> coordinates;
+    this->Context.Block.DataSet->GetCell(cellId, this->AnyCell);
+    this->AnyCell->Triangulate(0, ids, coordinates);
+    for (vtkIdType id : *ids)
+    {
+      this->Tets.push_back(id + this->Context.Block.FirstPoint);
+    }
+  }
+
+  std::int64_t AddPoint(const std::vector<std::int64_t>& points, const std::vector<double>& weights)
+  {
+    double x[3] = { 0, 0, 0 };
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      if (weights[i] != 0)
+      {
+        this->Output.AddedSources.push_back(points[i]);
+        this->Output.AddedWeights.push_back(weights[i]);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          x[axis] += weights[i] * this->Context.Coordinates[3 * points[i] + axis];
+        }
+      }
+    }
+    this->Output.AddedOffsets.push_back(
+      static_cast<std::int64_t>(this->Output.AddedSources.size()));
+    this->Output.AddedCoordinates.insert(this->Output.AddedCoordinates.end(), x, x + 3);
+    return -static_cast<std::int64_t>(this->Output.AddedCoordinates.size() / 3);
+  }
+
+  const SourceT& Source;
+  const BlockContext& Context;
+  IntakeChunk& Output;
+  SourceCell Current;
+  FacetedCellSplitter Faces;
+  std::vector<std::int64_t> Polygon;
+  std::vector<std::int64_t> Tets;
+  vtkSmartPointer<vtkGenericCell> AnyCell;
+};
+
+} // namespace tetralux
+
+#endif
