@@ -2,6 +2,8 @@
 #ifndef tetralux_TransferFunction_h
 #define tetralux_TransferFunction_h
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace tetralux
@@ -30,6 +32,20 @@ struct TransferFunction
   /// Strictly ascending in Scalar; at least one.
   std::vector<Node> Nodes;
 };
+
+/// The largest channel of a colour of any node, absolute.
+inline double GetLargestColor(const TransferFunction& function)
+{
+  double largest = 0;
+  for (const TransferFunction::Node& node : function.Nodes)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      largest = std::max({ largest, std::abs(node.Left.Color[c]), std::abs(node.Right.Color[c]) });
+    }
+  }
+  return largest;
+}
 
 } // namespace tetralux
 

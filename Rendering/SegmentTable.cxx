@@ -2,6 +2,7 @@
 #include "SegmentTable.h"
 
 #include "PreIntegrationBuilder.h"
+#include "PreIntegrationError.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -2,8 +2,8 @@
 #ifndef tetralux_SegmentTable_h
 #define tetralux_SegmentTable_h
 
-#include "PreIntegrationError.h"
 #include "PreIntegrationTable.h"
+#include "TableChoice.h"
 #include "TransferFunction.h"
 
 #include <memory>

@@ -8,6 +8,7 @@
 #include "PreIntegrationError.h"
 #include "RayIntegral.h"
 #include "SegmentIntegral.h"
+#include "TableChoice.h"
 
 #include "vtkCellArray.h"
 #include "vtkColorTransferFunction.h"

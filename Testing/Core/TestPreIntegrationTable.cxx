@@ -3,6 +3,7 @@
 #include "PreIntegrationError.h"
 #include "PreIntegrationTable.h"
 #include "ReferenceIntegral.h"
+#include "TableChoice.h"
 #include "TexelFormats.h"
 #include "ThreadCounts.h"
 

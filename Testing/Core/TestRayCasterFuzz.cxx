@@ -365,19 +365,6 @@ private:
   double ScalarSize = 1;
 };
 
-double GetLargestColor(const TransferFunction& function)
-{
-  double largest = 0;
-  for (const TransferFunction::Node& node : function.Nodes)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      largest = std::max({ largest, node.Left.Color[c], node.Right.Color[c] });
-    }
-  }
-  return largest;
-}
-
 /// Casts the scene and checks what came out; returns the number of pixels that show anything.
 int CheckScene(const RayScene& scene, const RayCastOptions& options)
 {

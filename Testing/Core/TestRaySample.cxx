@@ -9,6 +9,7 @@
 #include "PreIntegrationBuilder.h"
 #include "PreIntegrationError.h"
 #include "RayScene.h"
+#include "TableChoice.h"
 #include "ThreadCounts.h"
 
 #include <gtest/gtest.h>
