@@ -13,20 +13,18 @@ timed.
 
 import argparse
 import json
-import os
 import sys
-import time
 
 import tetralux
 import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401, VTK's mappers come from factories
-from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
-from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
-from vtkmodules.vtkIOParallel import vtkMultiBlockPLOT3DReader
-from vtkmodules.vtkRenderingCore import (
-    vtkColorTransferFunction,
-    vtkRenderer,
-    vtkVolume,
-    vtkVolumeProperty,
+from benchmark_meshes import read_blunt_fin, split_by_vtk
+from benchmark_scene import (
+    BLUNT_FIN_FOCUS,
+    BLUNT_FIN_NODES,
+    BLUNT_FIN_POSITION,
+    VolumeWindow,
+    make_property,
+    time_frames,
 )
 from vtkmodules.vtkRenderingVolume import (
     vtkProjectedTetrahedraMapper,
@@ -34,70 +32,14 @@ from vtkmodules.vtkRenderingVolume import (
 )
 
 
-def read_blunt_fin():
-    folder = os.environ.get("TETRALUX_DATA")
-    if not folder:
-        sys.exit("frame_time.py: TETRALUX_DATA must name the folder with bluntfinxyz.bin")
-    reader = vtkMultiBlockPLOT3DReader()
-    reader.SetXYZFileName(os.path.join(folder, "bluntfinxyz.bin"))
-    reader.SetQFileName(os.path.join(folder, "bluntfinq.bin"))
-    reader.SetScalarFunctionNumber(100)
-    reader.Update()
-    grid = reader.GetOutput().GetBlock(0)
-    grid.GetPointData().SetActiveScalars("Density")
-    tetrahedra = vtkDataSetTriangleFilter()
-    tetrahedra.SetInputData(grid)
-    tetrahedra.TetrahedraOnlyOn()
-    tetrahedra.Update()
-    return tetrahedra.GetOutput()
-
-
-def make_property():
-    color = vtkColorTransferFunction()
-    opacity = vtkPiecewiseFunction()
-    for scalar, rgb, alpha in (
-        (0.19, (0, 0, 1), 0),
-        (0.8, (0, 1, 1), 0.02),
-        (1.2, (0, 1, 0), 0.3),
-        (2.0, (1, 1, 0), 0.05),
-        (4.98, (1, 0, 0), 1),
-    ):
-        color.AddRGBPoint(scalar, *rgb)
-        opacity.AddPoint(scalar, alpha)
-    volume_property = vtkVolumeProperty()
-    volume_property.SetColor(color)
-    volume_property.SetScalarOpacity(opacity)
-    volume_property.SetInterpolationTypeToLinear()
-    return volume_property
-
-
 def time_mapper(mapper, options):
-    """Best time of a frame, seconds; the camera is touched before each."""
-    volume = vtkVolume()
-    volume.SetMapper(mapper)
-    volume.SetProperty(make_property())
-    renderer = vtkRenderer()
-    renderer.AddVolume(volume)
-    window = tetralux.vtkHeadlessRenderWindow()
-    window.SetMultiSamples(0)  # there is no geometry to smooth
-    window.SetSize(options.size, options.size)
-    window.AddRenderer(renderer)
-    camera = renderer.GetActiveCamera()
-    camera.SetPosition(30, 25, 35)
-    camera.SetFocalPoint(3.3, 4.2, 2.9)
-    camera.SetViewUp(0, 1, 0)
-    camera.SetViewAngle(30)
-    camera.SetParallelProjection(options.parallel)
-    camera.SetParallelScale(9)
-    renderer.ResetCameraClippingRange()
-    window.Render()
-    best = float("inf")
-    for _ in range(options.frames):
-        camera.Modified()
-        start = time.perf_counter()
-        window.Render()
-        best = min(best, time.perf_counter() - start)
-    return best
+    """Best time of a frame, seconds."""
+    scene = VolumeWindow(mapper, make_property(BLUNT_FIN_NODES), options.size, options.size)
+    scene.camera.SetParallelProjection(options.parallel)
+    scene.camera.SetParallelScale(9)
+    scene.look(BLUNT_FIN_POSITION, BLUNT_FIN_FOCUS)
+    (seconds,), _ = time_frames([scene], options.frames)
+    return seconds
 
 
 def main():
@@ -106,7 +48,10 @@ def main():
     parser.add_argument("--frames", type=int, default=5, help="frames timed of each (5)")
     parser.add_argument("--parallel", action="store_true", help="a parallel projection")
     options = parser.parse_args()
-    mesh = read_blunt_fin()
+    fin = read_blunt_fin()
+    if not fin:
+        sys.exit("frame_time.py: TETRALUX_DATA must name the folder with bluntfinxyz.bin")
+    mesh = split_by_vtk(fin)
 
     ours = tetralux.vtkTetrahedraRayCastMapper()
     ours.SetAutoAdjustSampleDistances(False)

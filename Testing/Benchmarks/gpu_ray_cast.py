@@ -23,18 +23,15 @@ import csv
 import json
 import os
 import shutil
-import subprocess
 import sys
-import tempfile
 import time
 
 import numpy
 import tetralux
+from benchmark_meshes import generate, read_blunt_fin
+from benchmark_scene import VolumeWindow, make_property
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPiecewiseFunction
-from vtkmodules.vtkIOParallel import vtkMultiBlockPLOT3DReader
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkRenderer, vtkVolume
+from vtkmodules.vtkCommonDataModel import vtkImageData
 
 REENTRY = {"boundary hierarchy": 1, "imaginary cells": 2, "boundary layers": 3}
 
@@ -54,31 +51,16 @@ GENERATED = {
     "ring": ("ring", []),
 }
 
+# Some opacity everywhere: shares of the scalar range, colours, opacities.
+NODES = (
+    (0, 0.1, 0.2, 0.9, 0.1),
+    (0.3, 0, 0.8, 0.9, 0.6),
+    (0.55, 0.2, 0.9, 0.2, 1),
+    (0.8, 0.9, 0.8, 0.1, 2),
+    (1, 0.9, 0.1, 0.1, 5),
+)
+
 FIGURE_8_STEPS = 8  # a pass; the paper has 1
-
-
-def read_blunt_fin(folder):
-    reader = vtkMultiBlockPLOT3DReader()
-    reader.SetXYZFileName(os.path.join(folder, "bluntfinxyz.bin"))
-    reader.SetQFileName(os.path.join(folder, "bluntfinq.bin"))
-    reader.SetScalarFunctionNumber(100)
-    reader.Update()
-    grid = reader.GetOutput().GetBlock(0)
-    grid.GetPointData().SetActiveScalars("Density")
-    return grid
-
-
-def generate(tool, name, arguments):
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "mesh.vtu")
-        subprocess.run([tool, "generate", name, *arguments, "--output", path], check=True)
-        reader = vtkXMLUnstructuredGridReader()
-        reader.SetFileName(path)
-        reader.Update()
-        grid = reader.GetOutput()
-    if not grid.GetPointData().GetScalars():
-        grid.GetPointData().SetActiveScalars(grid.GetPointData().GetArrayName(0))
-    return grid
 
 
 def make_lattice(tetrahedra):
@@ -98,39 +80,16 @@ def make_lattice(tetrahedra):
     return image
 
 
-class Scene:
-    """A mesh in a window, seen as a whole; some opacity everywhere."""
+class Scene(VolumeWindow):
+    """A mesh seen as a whole."""
 
     def __init__(self, data, mapper, size):
         lower, upper = data.GetPointData().GetScalars().GetRange(0)
-        color = vtkColorTransferFunction()
-        opacity = vtkPiecewiseFunction()
-        for share, rgb, alpha in (
-            (0, (0.1, 0.2, 0.9), 0.1),
-            (0.3, (0, 0.8, 0.9), 0.6),
-            (0.55, (0.2, 0.9, 0.2), 1),
-            (0.8, (0.9, 0.8, 0.1), 2),
-            (1, (0.9, 0.1, 0.1), 5),
-        ):
-            scalar = lower + share * (upper - lower)
-            color.AddRGBPoint(scalar, *rgb)
-            opacity.AddPoint(scalar, alpha)
-        self.mapper = mapper
+        nodes = [(lower + share * (upper - lower), *node) for share, *node in NODES]
         mapper.SetInputData(data)
-        self.volume = vtkVolume()
-        self.volume.SetMapper(mapper)
-        self.volume.GetProperty().SetColor(color)
-        self.volume.GetProperty().SetScalarOpacity(opacity)
-        self.volume.GetProperty().SetScalarOpacityUnitDistance(data.GetLength() / 4)
-        self.renderer = vtkRenderer()
-        self.renderer.AddVolume(self.volume)
-        self.camera = self.renderer.GetActiveCamera()
+        super().__init__(mapper, make_property(nodes, data.GetLength() / 4), size, size)
         self.camera.SetPosition(1, 0.6, 1.8)
         self.camera.SetFocalPoint(0, 0, 0)
-        self.window = tetralux.vtkHeadlessRenderWindow()
-        self.window.SetMultiSamples(0)
-        self.window.SetSize(size, size)
-        self.window.AddRenderer(self.renderer)
         self.renderer.ResetCamera()
         self.camera.Zoom(1.3)
 
@@ -323,11 +282,11 @@ def main():
     os.makedirs(arguments.output, exist_ok=True)
 
     meshes = {}
-    folder = os.environ.get("TETRALUX_DATA")
-    if folder:
-        meshes["blunt fin"] = read_blunt_fin(folder)
+    fin = read_blunt_fin()
+    if fin:
+        meshes["blunt fin"] = fin
     for name, (generator, parameters) in GENERATED.items():
-        meshes[name] = generate(arguments.tool, generator, parameters)
+        meshes[name] = generate(arguments.tool, generator, *parameters)
 
     probe = Scene(meshes["sphere"], tetralux.vtkTetrahedraGPURayCastMapper(), 64)
     probe.render()

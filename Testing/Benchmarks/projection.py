@@ -18,24 +18,23 @@ import html
 import json
 import os
 import shutil
-import subprocess
 import sys
-import tempfile
-import time
 
-import frame_time
 import numpy
 import tetralux
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPiecewiseFunction
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-from vtkmodules.vtkRenderingCore import (
-    vtkColorTransferFunction,
-    vtkRenderer,
-    vtkVolume,
-    vtkVolumeProperty,
+import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401, VTK's mappers come from factories
+from benchmark_meshes import generate, read_blunt_fin, split_by_vtk
+from benchmark_scene import (
+    BLUNT_FIN_FOCUS,
+    BLUNT_FIN_NODES,
+    BLUNT_FIN_POSITION,
+    VolumeWindow,
+    make_property,
+    time_frames,
 )
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingVolume import vtkProjectedTetrahedraMapper
 
 Mapper = tetralux.vtkTetrahedraProjectionMapper
@@ -91,39 +90,14 @@ class Scene:
         self.unit_distance = unit_distance
         self.angle = angle
 
-    def make_property(self):
-        color = vtkColorTransferFunction()
-        opacity = vtkPiecewiseFunction()
-        for scalar, red, green, blue, alpha in self.nodes:
-            color.AddRGBPoint(scalar, red, green, blue)
-            opacity.AddPoint(scalar, alpha)
-        volume_property = vtkVolumeProperty()
-        volume_property.SetColor(color)
-        volume_property.SetScalarOpacity(opacity)
-        volume_property.SetScalarOpacityUnitDistance(self.unit_distance)
-        volume_property.SetInterpolationTypeToLinear()
-        return volume_property
-
     def make_window(self, mapper, width, height):
         mapper.SetInputData(self.grid)
         mapper.SetScalarModeToUsePointFieldData()
         mapper.SelectScalarArray(self.array)
-        volume = vtkVolume()
-        volume.SetMapper(mapper)
-        volume.SetProperty(self.make_property())
-        renderer = vtkRenderer()
-        renderer.AddVolume(volume)
-        window = tetralux.vtkHeadlessRenderWindow()
-        window.SetMultiSamples(0)
-        window.SetSize(width, height)
-        window.AddRenderer(renderer)
-        camera = renderer.GetActiveCamera()
-        camera.SetPosition(*self.position)
-        camera.SetFocalPoint(*self.focus)
-        camera.SetViewUp(0, 1, 0)
-        camera.SetViewAngle(self.angle)
-        renderer.ResetCameraClippingRange()
-        return window, camera
+        volume_property = make_property(self.nodes, self.unit_distance)
+        volume_window = VolumeWindow(mapper, volume_property, width, height)
+        volume_window.look(self.position, self.focus, self.angle)
+        return volume_window
 
 
 def make_mapper(settings):
@@ -139,8 +113,8 @@ def get_picture(mapper, width, height):
 
 
 def render(scene, mapper, width, height):
-    window, _ = scene.make_window(mapper, width, height)
-    window.Render()
+    volume_window = scene.make_window(mapper, width, height)
+    volume_window.window.Render()
     return get_picture(mapper, width, height)
 
 
@@ -151,33 +125,6 @@ def render_reference(scene, width, height):
     mapper.SetIntegrationToClosedForm()
     mapper.SetAutoAdjustSampleDistances(False)
     return render(scene, mapper, width, height)
-
-
-def time_frames(entries, rounds):
-    """Best seconds of a frame of each (window, camera), and best processor seconds of all threads."""
-    for window, _ in entries:
-        window.Render()
-    best = [float("inf")] * len(entries)
-    processor = [float("inf")] * len(entries)
-    for _ in range(rounds):
-        for index, (window, camera) in enumerate(entries):
-            camera.Modified()
-            used = sum(os.times()[:2])
-            start = time.perf_counter()
-            window.Render()
-            best[index] = min(best[index], time.perf_counter() - start)
-            processor[index] = min(processor[index], sum(os.times()[:2]) - used)
-    return best, processor
-
-
-def read_generated(tool, name, *options):
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "mesh.vtu")
-        subprocess.run([tool, "generate", name, *options, "--output", path], check=True)
-        reader = vtkXMLUnstructuredGridReader()
-        reader.SetFileName(path)
-        reader.Update()
-        return reader.GetOutput()
 
 
 def make_scene(grid, density, nodes, direction=(2.1, 1.6, 2.6), angle=30.0, distance=1.0):
@@ -388,17 +335,12 @@ def main():
     os.makedirs(options.output, exist_ok=True)
 
     fin = None
-    if os.environ.get("TETRALUX_DATA"):
-        nodes = (
-            (0.19, 0, 0, 1, 0.0),
-            (0.8, 0, 1, 1, 0.02),
-            (1.2, 0, 1, 0, 0.3),
-            (2.0, 1, 1, 0, 0.05),
-            (4.98, 1, 0, 0, 1.0),
-        )
-        fin = Scene(frame_time.read_blunt_fin(), "Density", (30, 25, 35), (3.3, 4.2, 2.9), nodes)
-    sink = read_generated(options.tetralux, "heat-sink")
-    layer = read_generated(options.tetralux, "boundary-layer")
+    grid = read_blunt_fin()
+    if grid:
+        mesh = split_by_vtk(grid)
+        fin = Scene(mesh, "Density", BLUNT_FIN_POSITION, BLUNT_FIN_FOCUS, BLUNT_FIN_NODES)
+    sink = generate(options.tetralux, "heat-sink")
+    layer = generate(options.tetralux, "boundary-layer")
 
     page = Page(options.output)
     page.add("<h1>Projected tetrahedra without artifacts</h1>")
@@ -412,7 +354,7 @@ def main():
     scenes = [("heat sink", make_scene(sink, 1, SMOOTH))]
     scenes += [("blunt fin", fin)] if fin else []
     for cells in (16, 34, 74) + ((159,) if options.large else ()):
-        ball = read_generated(options.tetralux, "ball", "--cells", str(cells))
+        ball = generate(options.tetralux, "ball", "--cells", str(cells))
         scenes.append((f"ball of {ball.GetNumberOfCells()}", make_scene(ball, 1, SMOOTH)))
     add_speeds(page, scenes, options)
 
@@ -443,7 +385,7 @@ def main():
                 ("perspective interpolation", FLOAT, 2),
             ),
         )
-        ball = read_generated(options.tetralux, "ball", "--cells", "74")
+        ball = generate(options.tetralux, "ball", "--cells", "74")
         thin = make_scene(ball, 0.05, SMOOTH)
         page.add(
             "<p>Alpha dithering (figure 9) keeps what is too thin for 8 bits. What it can't help, as the "

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A volume in a window without a display, and what its frames take, for the benchmarks in Python."""
+
+import os
+import time
+
+import tetralux
+from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
+from vtkmodules.vtkRenderingCore import (
+    vtkColorTransferFunction,
+    vtkRenderer,
+    vtkVolume,
+    vtkVolumeProperty,
+)
+
+# A view of the whole blunt fin, and nodes of the transfer functions of its density.
+BLUNT_FIN_POSITION = (30, 25, 35)
+BLUNT_FIN_FOCUS = (3.3, 4.2, 2.9)
+BLUNT_FIN_NODES = (
+    (0.19, 0, 0, 1, 0.0),
+    (0.8, 0, 1, 1, 0.02),
+    (1.2, 0, 1, 0, 0.3),
+    (2.0, 1, 1, 0, 0.05),
+    (4.98, 1, 0, 0, 1.0),
+)
+
+
+def make_property(nodes, unit_distance=1.0):
+    """nodes: scalar, red, green, blue, opacity in unit_distance."""
+    color = vtkColorTransferFunction()
+    opacity = vtkPiecewiseFunction()
+    for scalar, red, green, blue, alpha in nodes:
+        color.AddRGBPoint(scalar, red, green, blue)
+        opacity.AddPoint(scalar, alpha)
+    volume_property = vtkVolumeProperty()
+    volume_property.SetColor(color)
+    volume_property.SetScalarOpacity(opacity)
+    volume_property.SetScalarOpacityUnitDistance(unit_distance)
+    volume_property.SetInterpolationTypeToLinear()
+    return volume_property
+
+
+class VolumeWindow:
+    """What a mapper draws by a property, alone in a window."""
+
+    def __init__(self, mapper, volume_property, width, height):
+        self.mapper = mapper
+        self.volume = vtkVolume()
+        self.volume.SetMapper(mapper)
+        self.volume.SetProperty(volume_property)
+        self.renderer = vtkRenderer()
+        self.renderer.AddVolume(self.volume)
+        self.camera = self.renderer.GetActiveCamera()
+        self.window = tetralux.vtkHeadlessRenderWindow()
+        self.window.SetMultiSamples(0)  # there is no geometry to smooth
+        self.window.SetSize(width, height)
+        self.window.AddRenderer(self.renderer)
+
+    def look(self, position, focus, angle=30):
+        """From a position at a focus, y upwards, angle degrees from the lower to the upper edge."""
+        self.camera.SetPosition(*position)
+        self.camera.SetFocalPoint(*focus)
+        self.camera.SetViewUp(0, 1, 0)
+        self.camera.SetViewAngle(angle)
+        self.renderer.ResetCameraClippingRange()
+
+
+def time_frames(volume_windows, rounds):
+    """Best seconds of a frame of each, and best processor seconds of all threads: a frame of each is
+    rendered before any is timed, then they take turns."""
+    for entry in volume_windows:
+        entry.window.Render()
+    best = [float("inf")] * len(volume_windows)
+    processor = [float("inf")] * len(volume_windows)
+    for _ in range(rounds):
+        for index, entry in enumerate(volume_windows):
+            entry.camera.Modified()
+            used = sum(os.times()[:2])
+            start = time.perf_counter()
+            entry.window.Render()
+            best[index] = min(best[index], time.perf_counter() - start)
+            processor[index] = min(processor[index], sum(os.times()[:2]) - used)
+    return best, processor
