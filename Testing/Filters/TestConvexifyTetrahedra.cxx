@@ -2,6 +2,8 @@
 #include "vtkConvexifyTetrahedra.h"
 
 #include "GeneratedMeshes.h"
+#include "GhostArray.h"
+#include "MessageObserver.h"
 #include "ReferenceConvexity.h"
 
 #include "vtkCallbackCommand.h"
@@ -37,24 +39,6 @@
 
 namespace
 {
-
-/// Keeps what an object says on its error events instead of printing it.
-class ErrorObserver
-{
-public:
-  explicit ErrorObserver(vtkObject* object)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* message)
-      { static_cast<ErrorObserver*>(self)->Text += static_cast<const char*>(message); });
-    object->AddObserver(vtkCommand::ErrorEvent, this->Command);
-  }
-
-  std::string Text;
-
-private:
-  vtkNew<vtkCallbackCommand> Command;
-};
 
 /// A generated mesh with arrays of several kinds.
 void MakeGrid(const std::string& name, const std::map<std::string, double>& parameters,
@@ -263,15 +247,11 @@ TEST(ConvexifyTetrahedra, OtherCells)
   const vtkIdType numberOfTetrahedra = grid->GetNumberOfCells();
   const vtkIdType ids[6] = { 0, 1, 2, 3, 4, 5 };
   grid->InsertNextCell(VTK_LINE, 2, ids);
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(grid->GetNumberOfCells());
-  ghosts->FillValue(0);
-  ghosts->SetValue(0, vtkDataSetAttributes::HIDDENCELL);
   vtkNew<vtkUnstructuredGrid> blanked;
   blanked->ShallowCopy(grid);
   blanked->GetCellData()->Initialize();
-  blanked->GetCellData()->AddArray(ghosts);
+  blanked->GetCellData()->AddArray(
+    MakeGhostArray(grid->GetNumberOfCells(), { { 0, vtkDataSetAttributes::HIDDENCELL } }));
   vtkNew<vtkConvexifyTetrahedra> filter;
   filter->SetInputData(blanked);
   filter->Update();
@@ -281,8 +261,8 @@ TEST(ConvexifyTetrahedra, OtherCells)
   EXPECT_NEAR(filter->GetHullVolume(), 3, 1e-12);
 
   grid->InsertNextCell(VTK_WEDGE, 6, ids);
-  ErrorObserver filterErrors(filter);
-  ErrorObserver executiveErrors(filter->GetExecutive());
+  MessageObserver filterErrors(filter);
+  MessageObserver executiveErrors(filter->GetExecutive());
   filter->SetInputData(grid);
   filter->Update();
   EXPECT_NE(filterErrors.Text.find("vtkWedge"), std::string::npos) << filterErrors.Text;
@@ -306,8 +286,8 @@ TEST(ConvexifyTetrahedra, SaysWhyNot)
   grid->InsertNextCell(VTK_TETRA, 4, ids);
   grid->InsertNextCell(VTK_TETRA, 4, ids + 4);
   vtkNew<vtkConvexifyTetrahedra> filter;
-  ErrorObserver filterErrors(filter);
-  ErrorObserver executiveErrors(filter->GetExecutive());
+  MessageObserver filterErrors(filter);
+  MessageObserver executiveErrors(filter->GetExecutive());
   filter->SetInputData(grid);
   filter->Update();
   const std::string refusal = filter->GetRefusal();
@@ -353,7 +333,7 @@ TEST(ConvexifyTetrahedra, SubsetsOfDelaunayMeshes)
     }
 
     vtkNew<vtkConvexifyTetrahedra> convexify;
-    ErrorObserver errors(convexify);
+    MessageObserver errors(convexify);
     convexify->SetInputData(subset);
     convexify->Update();
     SCOPED_TRACE("seed " + std::to_string(seed));

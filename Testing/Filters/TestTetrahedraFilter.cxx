@@ -2,6 +2,8 @@
 #include "vtkTetrahedraFilter.h"
 
 #include "CellPatch.h"
+#include "GhostArray.h"
+#include "MessageObserver.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
@@ -16,7 +18,6 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkTable.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
@@ -27,25 +28,6 @@ namespace
 {
 
 CellPatch::Position KeepPosition(const CellPatch::Position& x) { return x; }
-
-/// Keeps what an object says on its error and warning events instead of printing it.
-class MessageObserver
-{
-public:
-  explicit MessageObserver(vtkObject* object)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* message)
-      { static_cast<MessageObserver*>(self)->Text += static_cast<const char*>(message); });
-    object->AddObserver(vtkCommand::ErrorEvent, this->Command);
-    object->AddObserver(vtkCommand::WarningEvent, this->Command);
-  }
-
-  std::string Text;
-
-private:
-  vtkNew<vtkCallbackCommand> Command;
-};
 
 vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(int type)
 {
@@ -127,17 +109,12 @@ TEST(TetrahedraFilter, CountsAndNamesWhatItLeavesOut)
   grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
   grid->InsertNextCell(VTK_TRIANGLE, 3, ids);
   grid->InsertNextCell(VTK_TETRA, 4, beyond);
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(11);
-  ghosts->FillValue(0);
-  ghosts->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
-  ghosts->SetValue(1, vtkDataSetAttributes::HIDDENCELL);
-  grid->GetCellData()->AddArray(ghosts);
+  grid->GetCellData()->AddArray(MakeGhostArray(
+    11, { { 0, vtkDataSetAttributes::DUPLICATECELL }, { 1, vtkDataSetAttributes::HIDDENCELL } }));
   grid->GetCellData()->RemoveArray("Number");
 
   vtkNew<vtkTetrahedraFilter> filter;
-  MessageObserver messages(filter);
+  MessageObserver messages(filter, { vtkCommand::ErrorEvent, vtkCommand::WarningEvent });
   filter->SetInputData(grid);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfSkippedCells(), 1);

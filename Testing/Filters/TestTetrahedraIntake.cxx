@@ -3,6 +3,7 @@
 
 #include "CellPatch.h"
 #include "FaceNeighbors.h"
+#include "GhostArray.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -19,7 +20,6 @@
 #include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
@@ -297,15 +297,12 @@ TEST(TetrahedraIntake, GhostAndBlankedCellsAreCounted)
   CellPatch patch;
   patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 5, 1, 1);
   auto grid = patch.MakeGrid(3, KeepPosition);
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(5);
-  ghosts->FillValue(0);
-  ghosts->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
-  ghosts->SetValue(1, vtkDataSetAttributes::HIDDENCELL);
-  ghosts->SetValue(2, vtkDataSetAttributes::REFINEDCELL);
-  ghosts->SetValue(3, vtkDataSetAttributes::EXTERIORCELL); // says nothing about visibility
-  grid->GetCellData()->AddArray(ghosts);
+  grid->GetCellData()->AddArray(MakeGhostArray(5,
+    {
+      { 0, vtkDataSetAttributes::DUPLICATECELL }, { 1, vtkDataSetAttributes::HIDDENCELL },
+      { 2, vtkDataSetAttributes::REFINEDCELL },
+      { 3, vtkDataSetAttributes::EXTERIORCELL }, // says nothing about visibility
+    }));
   TetrahedraIntake intake = TakeInTetrahedra(grid);
   EXPECT_EQ(intake.Report.GhostCells, 1);
   EXPECT_EQ(intake.Report.BlankedCells, 2);
@@ -316,14 +313,11 @@ TEST(TetrahedraIntake, GhostAndBlankedCellsAreCounted)
 
   // A hidden corner hides the cells around it; a duplicated one does not.
   grid->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  vtkNew<vtkUnsignedCharArray> pointGhosts;
-  pointGhosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  pointGhosts->SetNumberOfValues(grid->GetNumberOfPoints());
-  pointGhosts->FillValue(vtkDataSetAttributes::DUPLICATEPOINT);
   vtkNew<vtkIdList> ids;
   grid->GetCellPoints(0, ids);
-  pointGhosts->SetValue(ids->GetId(0), vtkDataSetAttributes::HIDDENPOINT); // at x = 0
-  grid->GetPointData()->AddArray(pointGhosts);
+  const vtkIdType corner = ids->GetId(0); // at x = 0
+  grid->GetPointData()->AddArray(MakeGhostArray(grid->GetNumberOfPoints(),
+    { { corner, vtkDataSetAttributes::HIDDENPOINT } }, vtkDataSetAttributes::DUPLICATEPOINT));
   intake = TakeInTetrahedra(grid);
   EXPECT_EQ(intake.Report.BlankedCells, 1);
   EXPECT_NEAR(GetVolume(intake.Mesh), 4, 1e-12);
@@ -334,12 +328,7 @@ TEST(TetrahedraIntake, TetrahedraWithGhostsAreLeftOut)
   CellPatch patch;
   patch.AddBoxes(VTK_TETRA, 0, 0, 0, 1, 1, 1);
   auto grid = patch.MakeGrid(3, KeepPosition);
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(12);
-  ghosts->FillValue(0);
-  ghosts->SetValue(4, vtkDataSetAttributes::DUPLICATECELL);
-  grid->GetCellData()->AddArray(ghosts);
+  grid->GetCellData()->AddArray(MakeGhostArray(12, { { 4, vtkDataSetAttributes::DUPLICATECELL } }));
   const TetrahedraIntake intake = TakeInTetrahedra(grid);
   EXPECT_EQ(intake.Mesh.GetNumberOfCells(), 11u);
   EXPECT_EQ(intake.Mesh.OriginalCells[4], 5);

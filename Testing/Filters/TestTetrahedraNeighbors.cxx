@@ -2,6 +2,8 @@
 #include "vtkTetrahedraNeighbors.h"
 
 #include "CellPatch.h"
+#include "GhostArray.h"
+#include "MessageObserver.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -23,7 +25,6 @@
 #include "vtkSignedCharArray.h"
 #include "vtkTable.h"
 #include "vtkTetra.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
@@ -42,24 +43,6 @@ namespace
 
 using Face = std::array<vtkIdType, 3>;
 using Cell = std::array<vtkIdType, 4>;
-
-/// Keeps what an object says on its error events instead of printing it.
-class ErrorObserver
-{
-public:
-  explicit ErrorObserver(vtkObject* object)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* message)
-      { static_cast<ErrorObserver*>(self)->Text += static_cast<const char*>(message); });
-    object->AddObserver(vtkCommand::ErrorEvent, this->Command);
-  }
-
-  std::string Text;
-
-private:
-  vtkNew<vtkCallbackCommand> Command;
-};
 
 Cell GetPoints(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
@@ -170,14 +153,9 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeSingleCell()
   return grid;
 }
 
-void AddGhosts(vtkUnstructuredGrid* grid, vtkIdType cell, unsigned char bits)
+void MarkCell(vtkUnstructuredGrid* grid, vtkIdType cell, unsigned char bits)
 {
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(grid->GetNumberOfCells());
-  ghosts->FillValue(0);
-  ghosts->SetValue(cell, bits);
-  grid->GetCellData()->AddArray(ghosts);
+  grid->GetCellData()->AddArray(MakeGhostArray(grid->GetNumberOfCells(), { { cell, bits } }));
 }
 
 } // namespace
@@ -337,7 +315,7 @@ TEST(TetrahedraNeighbors, CountsDefectsAndLeavesUnusableCellsOut)
   add(VTK_TETRA, { 0, 1, 2, 99 }); // 7: no such point
   add(VTK_TETRA, { 0, 1, 7, 2 });  // 8: flat, behind face 3 of cell 0
   add(VTK_TETRA, { 0, 1, 2, 8 });  // 9: blanked
-  AddGhosts(grid, 9, vtkDataSetAttributes::HIDDENCELL);
+  MarkCell(grid, 9, vtkDataSetAttributes::HIDDENCELL);
 
   vtkNew<vtkTetrahedraNeighbors> filter;
   filter->SetInputData(grid);
@@ -381,7 +359,7 @@ TEST(TetrahedraNeighbors, GhostCellsAreNeighborsWithoutTriangles)
   grid->GetPoints()->InsertNextPoint(1, 1, 1);
   const vtkIdType ids[4] = { 1, 2, 3, 4 };
   grid->InsertNextCell(VTK_TETRA, 4, ids);
-  AddGhosts(grid, 1, vtkDataSetAttributes::DUPLICATECELL);
+  MarkCell(grid, 1, vtkDataSetAttributes::DUPLICATECELL);
   vtkNew<vtkTetrahedraNeighbors> filter;
   filter->SetInputData(grid);
   filter->Update();
@@ -396,12 +374,7 @@ TEST(TetrahedraNeighbors, GhostCellsAreNeighborsWithoutTriangles)
 TEST(TetrahedraNeighbors, HiddenPointsBlankTheirCells)
 {
   auto grid = MakeSingleCell();
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(4);
-  ghosts->FillValue(0);
-  ghosts->SetValue(2, vtkDataSetAttributes::HIDDENPOINT);
-  grid->GetPointData()->AddArray(ghosts);
+  grid->GetPointData()->AddArray(MakeGhostArray(4, { { 2, vtkDataSetAttributes::HIDDENPOINT } }));
   vtkNew<vtkTetrahedraNeighbors> filter;
   filter->SetInputData(grid);
   filter->Update();
@@ -508,8 +481,8 @@ TEST(TetrahedraNeighbors, RefusesOtherCellsAndGrids)
     filter->SetInputData(MakeSingleCell());
     filter->Update();
     EXPECT_EQ(filter->GetNumberOfBoundaryFaces(), 4);
-    ErrorObserver errors(filter);
-    ErrorObserver executiveErrors(filter->GetExecutive());
+    MessageObserver errors(filter);
+    MessageObserver executiveErrors(filter->GetExecutive());
     filter->SetInputDataObject(example.Input);
     filter->Update();
     EXPECT_NE(errors.Text.find(example.Name), std::string::npos) << errors.Text;

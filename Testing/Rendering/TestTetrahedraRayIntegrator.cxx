@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayIntegrator.h"
 
+#include "Observer.h"
 #include "ReferenceIntegral.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 
 #include "vtkAutoInit.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCellData.h"
 #include "vtkColorTransferFunction.h"
+#include "vtkCommand.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkHeadlessRenderWindow.h"
@@ -123,23 +124,6 @@ void AddReference(const TransferFunction& function, const Segments& segments, do
 
 /// Single precision colours, twice rounded.
 constexpr double ColorRounding = 1.2e-7;
-
-class ErrorObserver
-{
-public:
-  explicit ErrorObserver(vtkObject* object)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* message)
-      { static_cast<ErrorObserver*>(self)->Text += static_cast<const char*>(message); });
-    object->AddObserver(vtkCommand::ErrorEvent, this->Command);
-  }
-
-  std::string Text;
-
-private:
-  vtkNew<vtkCallbackCommand> Command;
-};
 
 } // namespace
 
@@ -322,13 +306,15 @@ TEST(TetrahedraRayIntegrator, RefusesWhatThePropertyDoesNotDescribe)
     functions.Property->SetIndependentComponents(example.Independent);
     functions.Property->SetScalarOpacityUnitDistance(example.UnitDistance);
     vtkNew<vtkTetrahedraRayIntegrator> integrator;
-    ErrorObserver errors(integrator);
+    std::string errors;
+    const Observer observer(
+      integrator, vtkCommand::ErrorEvent, [&](const char* text) { errors += text; });
     Segments segments(example.Components);
     const std::vector<double> scalars(example.Components, 0.5);
     segments.Add(scalars, scalars, 1);
     float color[4] = { 0, 0, 0, 0 };
     segments.Integrate(integrator, functions.Property, color);
-    EXPECT_NE(errors.Text.find(example.Message), std::string::npos) << errors.Text;
+    EXPECT_NE(errors.find(example.Message), std::string::npos) << errors;
     EXPECT_EQ(color[3], 0);
   }
 }
