@@ -108,6 +108,16 @@ void LookAtAll(Scene& scene, int size = ImageSize)
   scene.Grid = MakePerspectiveGrid(position, center, { 0, 1, 0 }, 30, size, size);
 }
 
+/// Sees the whole mesh by the transfer function of its scalars.
+void ShowAll(Scene& scene, double density)
+{
+  Vector center;
+  double radius;
+  GetBall(scene.Mesh, center, radius);
+  scene.Function = MakeFunction(scene.Scalars, radius, density);
+  LookAtAll(scene);
+}
+
 void CompareScene(const std::string& name, const Scene& scene)
 {
   // Without the ids of the input, the tables lead back to the scene's own points and tetrahedra.
@@ -180,11 +190,7 @@ Scene MakeGenerated(
   Scene scene;
   scene.Mesh = std::move(generated.Mesh);
   scene.Scalars = std::move(generated.Scalars);
-  Vector center;
-  double radius;
-  GetBall(scene.Mesh, center, radius);
-  scene.Function = MakeFunction(scene.Scalars, radius, density);
-  LookAtAll(scene);
+  ShowAll(scene, density);
   return scene;
 }
 
@@ -216,11 +222,7 @@ protected:
     scene.Mesh = std::move(intake.Mesh);
     scene.Scalars = std::move(scalars.Values);
     scene.CellScalars = cellData;
-    Vector center;
-    double radius;
-    GetBall(scene.Mesh, center, radius);
-    scene.Function = MakeFunction(scene.Scalars, radius, density);
-    LookAtAll(scene);
+    ShowAll(scene, density);
     return scene;
   }
 

@@ -98,6 +98,17 @@ INSTANTIATE_TEST_SUITE_P(RayCaster, Reentries,
     return name;
   });
 
+/// Asked for imaginary cells, rays enter by the boundary all the same.
+void ExpectNoImaginaryCells(VolumeScene& volume, const RayScene& scene)
+{
+  RayCastOptions options;
+  const RayPicture boundary = Cast(volume, scene, options);
+  options.ReentryBy = Reentry::Imaginary;
+  const RayPicture imaginary = Cast(volume, scene, options);
+  EXPECT_FALSE(imaginary.Statistics.ImaginaryCells);
+  EXPECT_EQ(boundary.Colors, imaginary.Colors);
+}
+
 TEST(RayCasterReentry, AConvexMeshNeedsNoImaginaryCells)
 {
   RayScene scene;
@@ -107,13 +118,8 @@ TEST(RayCasterReentry, AConvexMeshNeedsNoImaginaryCells)
   scene.Grid =
     MakePerspectiveGrid({ 3.1, 2.2, 2.7 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0.2 }, 30, 32, 32);
   VolumeScene volume = scene.MakeVolumeScene();
-  RayCastOptions options;
-  const RayPicture boundary = Cast(volume, scene, options);
-  options.ReentryBy = Reentry::Imaginary;
-  const RayPicture imaginary = Cast(volume, scene, options);
-  EXPECT_FALSE(imaginary.Statistics.ImaginaryCells);
+  ExpectNoImaginaryCells(volume, scene);
   EXPECT_TRUE(volume.GetMesh()->GetConvexification()->Convex);
-  EXPECT_EQ(boundary.Colors, imaginary.Colors);
 }
 
 TEST(RayCasterReentry, AMeshThatCannotBeMadeConvexIsEnteredByItsBoundary)
@@ -132,13 +138,8 @@ TEST(RayCasterReentry, AMeshThatCannotBeMadeConvexIsEnteredByItsBoundary)
   scene.Function = MakeColorfulFunction(15);
   scene.Grid = MakePerspectiveGrid({ 3.1, 2.2, 2.7 }, { 1, 1, 1 }, { 0.1, 1, 0.2 }, 40, 32, 32);
   VolumeScene volume = scene.MakeVolumeScene();
-  RayCastOptions options;
-  const RayPicture boundary = Cast(volume, scene, options);
-  options.ReentryBy = Reentry::Imaginary;
-  const RayPicture imaginary = Cast(volume, scene, options);
-  EXPECT_FALSE(imaginary.Statistics.ImaginaryCells);
+  ExpectNoImaginaryCells(volume, scene);
   EXPECT_NE(volume.GetMesh()->GetConvexification()->Refusal, "");
-  EXPECT_EQ(boundary.Colors, imaginary.Colors);
 }
 
 TEST(RayCasterReentry, AbortsWhileImaginaryCellsAreMade)

@@ -162,17 +162,6 @@ double CheckSegment(const TransferFunction& function, double s0, double s1, doub
   return error;
 }
 
-TransferFunction MakeStepFunction()
-{
-  TransferFunction function;
-  function.Nodes = {
-    { 0.0, { { 0.1, 0.9, 0.3 }, 0.5 }, { { 0.8, 0.2, 0.4 }, 0.0 } },
-    { 0.4, { { 0.7, 0.1, 0.0 }, 0.0 }, { { 0.2, 0.6, 1.0 }, 7.0 } },
-    { 1.0, { { 0.0, 1.0, 0.5 }, 2.0 }, { { 0.9, 0.9, 0.2 }, 11.0 } },
-  };
-  return function;
-}
-
 TEST(ReferenceIntegral, AgreesWithFiftyDigitsAtEveryOpticalDepthAndSlope)
 {
   const double slopes[][2] = { { 1, 1 }, { 0, 1 }, { 1, 0 }, { 1, 1.0000001 }, { 1.0000001, 1 },
@@ -210,7 +199,7 @@ TEST(ReferenceIntegral, AgreesWithFiftyDigitsAcrossNeedles)
 
 TEST(ReferenceIntegral, AgreesWithFiftyDigitsForNearlyEqualScalars)
 {
-  const TransferFunction function = MakeStepFunction();
+  const TransferFunction function = MakeFunctionWithSteps();
   for (const double s : { 0.0, 0.1, 0.4, 0.7, 1.0, 1e5 })
   {
     for (const double difference : { 1e-16, 1e-15, 1e-12, 1e-8, 1e-4 })
@@ -252,14 +241,14 @@ TEST(ReferenceIntegral, AgreesWithFiftyDigitsForRandomFunctions)
 
 TEST(ReferenceIntegral, ConstantScalarAtAStepTakesTheRightValue)
 {
-  const ReferenceSegment segment = IntegrateReference(MakeStepFunction(), 0.4, 0.4, 0.5);
+  const ReferenceSegment segment = IntegrateReference(MakeFunctionWithSteps(), 0.4, 0.4, 0.5);
   EXPECT_NEAR(segment.Alpha, 1 - std::exp(-3.5), 1e-15);
   EXPECT_NEAR(segment.Color[1], 0.6 * (1 - std::exp(-3.5)), 1e-15);
 }
 
 TEST(ReferenceIntegral, FindsTheFirstContribution)
 {
-  const TransferFunction function = MakeStepFunction();
+  const TransferFunction function = MakeFunctionWithSteps();
   EXPECT_DOUBLE_EQ(IntegrateReference(function, 0.1, 0.5, 1).FirstContribution, 0.75);
   EXPECT_DOUBLE_EQ(IntegrateReference(function, 0.5, 0.1, 1).FirstContribution, 0);
   EXPECT_EQ(IntegrateReference(function, 0.1, 0.3, 1).FirstContribution, -1);

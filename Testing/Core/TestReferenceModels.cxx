@@ -32,18 +32,6 @@ Vector Normalize(const Vector& v)
 // Integrals over one segment
 //------------------------------------------------------------------------------------------------
 
-/// Colour and attenuation vary and step.
-TransferFunction MakeStepFunction()
-{
-  TransferFunction function;
-  function.Nodes = {
-    { 0.0, { { 0.1, 0.9, 0.3 }, 0.5 }, { { 0.8, 0.2, 0.4 }, 0.0 } },
-    { 0.4, { { 0.7, 0.1, 0.0 }, 0.0 }, { { 0.2, 0.6, 1.0 }, 7.0 } },
-    { 1.0, { { 0.0, 1.0, 0.5 }, 2.0 }, { { 0.9, 0.9, 0.2 }, 11.0 } },
-  };
-  return function;
-}
-
 /// The integral of tau c over the scalar from far below to s.
 long double EmissionUpTo(const TransferFunction& function, long double s, int channel)
 {
@@ -75,7 +63,7 @@ long double EmissionUpTo(const TransferFunction& function, long double s, int ch
 
 TEST(ReferenceModels, EmissionIsTheDifferenceOfItsAntiderivative)
 {
-  const TransferFunction function = MakeStepFunction();
+  const TransferFunction function = MakeFunctionWithSteps();
   std::mt19937_64 generator(41);
   std::uniform_real_distribution<double> scalar(-0.5, 1.5);
   for (int trial = 0; trial < 1000; ++trial)
@@ -102,7 +90,7 @@ TEST(ReferenceModels, EmissionIsTheDifferenceOfItsAntiderivative)
 
 TEST(ReferenceModels, AbsorptionHasTheOpacityOfBoth)
 {
-  const TransferFunction function = MakeStepFunction();
+  const TransferFunction function = MakeFunctionWithSteps();
   for (const double length : { 1e-9, 0.3, 20.0 })
   {
     const ReferenceSegment both = IntegrateReference(function, -0.2, 1.3, length);
@@ -117,7 +105,7 @@ TEST(ReferenceModels, AbsorptionHasTheOpacityOfBoth)
 
 TEST(ReferenceModels, EvaluatesWithStepsToTheRight)
 {
-  const TransferFunction function = MakeStepFunction();
+  const TransferFunction function = MakeFunctionWithSteps();
   EXPECT_EQ(EvaluateReference(function, -1).Attenuation, 0.5);
   EXPECT_EQ(EvaluateReference(function, 0).Attenuation, 0);
   EXPECT_EQ(EvaluateReference(function, 0.4).Attenuation, 7);
@@ -128,7 +116,7 @@ TEST(ReferenceModels, EvaluatesWithStepsToTheRight)
 
 TEST(ReferenceModels, RefusesWhatIsNoIntegral)
 {
-  const TransferFunction function = MakeStepFunction();
+  const TransferFunction function = MakeFunctionWithSteps();
   EXPECT_THROW(
     IntegrateReference(function, 0, 1, 1, OpticalModel::MaximumIntensity), std::invalid_argument);
   EXPECT_THROW(

@@ -55,12 +55,9 @@ void SpreadPixels(const Frame& frame, double halfHeight, int width, int height, 
   }
 }
 
-} // namespace
-
-RayGrid MakePerspectiveGrid(const Vector& position, const Vector& focalPoint, const Vector& viewUp,
-  double viewAngle, int width, int height)
+/// A grid whose rays all are that of the window's middle.
+RayGrid MakeGridOfCentralRay(const Frame& frame, const Vector& position, int width, int height)
 {
-  const Frame frame(position, focalPoint, viewUp);
   RayGrid grid;
   grid.Width = width;
   grid.Height = height;
@@ -69,6 +66,16 @@ RayGrid MakePerspectiveGrid(const Vector& position, const Vector& focalPoint, co
     grid.Origin[axis] = position[axis];
     grid.Direction[axis] = frame.Forward[axis];
   }
+  return grid;
+}
+
+} // namespace
+
+RayGrid MakePerspectiveGrid(const Vector& position, const Vector& focalPoint, const Vector& viewUp,
+  double viewAngle, int width, int height)
+{
+  const Frame frame(position, focalPoint, viewUp);
+  RayGrid grid = MakeGridOfCentralRay(frame, position, width, height);
   const double degree = std::acos(-1.0) / 180;
   SpreadPixels(frame, std::tan(0.5 * viewAngle * degree), width, height, grid.Direction,
     grid.DirectionStepX, grid.DirectionStepY);
@@ -79,14 +86,7 @@ RayGrid MakeParallelGrid(const Vector& position, const Vector& focalPoint, const
   double parallelScale, int width, int height)
 {
   const Frame frame(position, focalPoint, viewUp);
-  RayGrid grid;
-  grid.Width = width;
-  grid.Height = height;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    grid.Origin[axis] = position[axis];
-    grid.Direction[axis] = frame.Forward[axis];
-  }
+  RayGrid grid = MakeGridOfCentralRay(frame, position, width, height);
   SpreadPixels(
     frame, parallelScale, width, height, grid.Origin, grid.OriginStepX, grid.OriginStepY);
   return grid;
@@ -157,6 +157,17 @@ TransferFunction MakeLinearFunction(const std::vector<std::array<double, 5>>& po
     const TransferFunction::Value value{ { point[1], point[2], point[3] }, point[4] };
     function.Nodes.push_back({ point[0], value, value });
   }
+  return function;
+}
+
+TransferFunction MakeFunctionWithSteps()
+{
+  TransferFunction function;
+  function.Nodes = {
+    { 0.0, { { 0.1, 0.9, 0.3 }, 0.5 }, { { 0.8, 0.2, 0.4 }, 0.0 } },
+    { 0.4, { { 0.7, 0.1, 0.0 }, 0.0 }, { { 0.2, 0.6, 1.0 }, 7.0 } },
+    { 1.0, { { 0.0, 1.0, 0.5 }, 2.0 }, { { 0.9, 0.9, 0.2 }, 11.0 } },
+  };
   return function;
 }
 

@@ -47,6 +47,9 @@ TransferFunction MakeConstantFunction(double attenuation, const std::array<doubl
 /// A function without steps. Each of points: scalar, red, green, blue, attenuation per world unit.
 TransferFunction MakeLinearFunction(const std::vector<std::array<double, 5>>& points);
 
+/// A function whose colour and attenuation vary between its nodes at 0, 0.4 and 1, and step there.
+TransferFunction MakeFunctionWithSteps();
+
 /// A box of nx x ny x nz hexahedra, each split into five tetrahedra, points in rows along x, then
 /// y, then z. Inner points are displaced at random by up to jitter times the spacing along each
 /// axis; 0.15 keeps every volume positive. The hull stays a box.

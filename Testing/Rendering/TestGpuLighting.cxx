@@ -85,9 +85,17 @@ public:
     return result;
   }
 
-  /// Points of the world near the mesh and directions of length 1.
-  void MakeCases(std::vector<Vector>& points, std::vector<Vector>& directions)
+  /// Points of the world near the mesh, directions of length 1, and both as a shader gets them.
+  struct LightCases
   {
+    std::vector<Vector> Points;
+    std::vector<Vector> Directions;
+    std::vector<Arguments> InMesh;
+  };
+
+  LightCases MakeCases() const
+  {
+    LightCases cases;
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     for (int i = 0; i < 300; ++i)
@@ -98,9 +106,11 @@ public:
       {
         x /= length;
       }
-      directions.push_back(direction);
-      points.push_back({ 13 + normal(random), -5 + normal(random), 15 + normal(random) });
+      cases.Directions.push_back(direction);
+      cases.Points.push_back({ 13 + normal(random), -5 + normal(random), 15 + normal(random) });
+      cases.InMesh.push_back(this->MakeArguments(cases.Points.back(), direction));
     }
+    return cases;
   }
 
   Arguments MakeArguments(const Vector& point, const Vector& direction) const
@@ -118,13 +128,7 @@ public:
 
   void ExpectFactors()
   {
-    std::vector<Vector> points, directions;
-    this->MakeCases(points, directions);
-    std::vector<Arguments> cases;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      cases.push_back(this->MakeArguments(points[i], directions[i]));
-    }
+    const LightCases cases = this->MakeCases();
     tetralux::GpuLighting lighting;
     lighting.Update(
       this->Shading.Lights, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
@@ -135,11 +139,11 @@ public:
     {
       const std::vector<Result> results = this->Evaluator.Evaluate(lighting.GetDeclarations(),
         "vec4(FindLight(a.xyz, " + gradient + ", b.xyz)." + (add ? "Add" : "Scale") + ", 0.0)",
-        cases, [&](vtkShaderProgram* program) { lighting.Set(program); });
-      for (std::size_t i = 0; i < cases.size(); ++i)
+        cases.InMesh, [&](vtkShaderProgram* program) { lighting.Set(program); });
+      for (std::size_t i = 0; i < cases.InMesh.size(); ++i)
       {
         const LightFactors expected =
-          tetralux::FindLight(this->Shading, 0, points[i].data(), directions[i].data());
+          tetralux::FindLight(this->Shading, 0, cases.Points[i].data(), cases.Directions[i].data());
         for (int c = 0; c < 3; ++c)
         {
           worst = std::max<double>(
@@ -149,6 +153,24 @@ public:
     }
     std::cout << "error " << worst << "\n";
     EXPECT_LE(worst, FactorError);
+  }
+
+  /// What a call in GLSL gives of lit segments.
+  std::vector<Result> EvaluateSegments(const tetralux::GpuLighting& lighting,
+    const tetralux::SegmentSource& source, const LightCases& cases, const std::string& call)
+  {
+    tetralux::GpuSegmentIntegral integral;
+    integral.Update(this->Evaluator.Window, source);
+    const std::vector<Result> results = this->Evaluator.Evaluate(
+      lighting.GetDeclarations() + integral.GetDeclarations(), call, cases.InMesh,
+      [&](vtkShaderProgram* program)
+      {
+        lighting.Set(program);
+        integral.Activate(program);
+      },
+      [&] { integral.Deactivate(); });
+    integral.ReleaseGraphicsResources(this->Evaluator.Window);
+    return results;
   }
 
   GlslEvaluator Evaluator;
@@ -212,13 +234,7 @@ TEST_F(GpuLightingTest, LitSegments)
   const tetralux::IntervalTable table = tetralux::MakeIntervalTable(function);
   const std::vector<tetralux::Isosurface> surfaces = { { -0.25, { 1, 0.5f, 0 }, 0.5f },
     { 0.5, { 0, 0.5f, 1 }, 0.75f } };
-  std::vector<Vector> points, directions;
-  this->MakeCases(points, directions);
-  std::vector<Arguments> cases;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    cases.push_back(this->MakeArguments(points[i], directions[i]));
-  }
+  const LightCases cases = this->MakeCases();
   constexpr double Front = 0.75;
   constexpr double Back = -0.5;
   constexpr double Length = 1.5;
@@ -231,26 +247,16 @@ TEST_F(GpuLightingTest, LitSegments)
     source.Intervals = &table;
     source.Surfaces = surfaces;
     source.Shaded = true;
-    tetralux::GpuSegmentIntegral integral;
-    integral.Update(this->Evaluator.Window, source);
-    const std::vector<Result> results = this->Evaluator.Evaluate(
-      lighting.GetDeclarations() + integral.GetDeclarations(),
+    const std::vector<Result> results = this->EvaluateSegments(lighting, source, cases,
       "IntegrateShadedSegment(0.75, -0.5, 1.5, vec3(0.5, -1.0, 2.0), vec3(0.5, -1.0, 2.0), "
-      "a.xyz, a.xyz + 1.5 * b.xyz, b.xyz)",
-      cases,
-      [&](vtkShaderProgram* program)
-      {
-        lighting.Set(program);
-        integral.Activate(program);
-      },
-      [&] { integral.Deactivate(); });
+      "a.xyz, a.xyz + 1.5 * b.xyz, b.xyz)");
     const tetralux::SegmentRadiance flat =
       tetralux::IntegrateEmissionAbsorption(function, Front, Back, Length);
-    for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::size_t i = 0; i < cases.InMesh.size(); ++i)
     {
       // A place does not change the light of a distant light.
       const LightFactors light =
-        tetralux::FindLight(this->Shading, 0, points[i].data(), directions[i].data());
+        tetralux::FindLight(this->Shading, 0, cases.Points[i].data(), cases.Directions[i].data());
       double expected[4] = { 0, 0, 0, volume ? flat.Opacity : 1 - 0.25 * 0.5 };
       for (int c = 0; c < 3; ++c)
       {
@@ -264,7 +270,6 @@ TEST_F(GpuLightingTest, LitSegments)
         EXPECT_NEAR(results[i][c], expected[c], FactorError);
       }
     }
-    integral.ReleaseGraphicsResources(this->Evaluator.Window);
   }
 }
 
@@ -276,45 +281,29 @@ TEST_F(GpuLightingTest, GradientsAndPlacesRunAlongASegment)
   tetralux::GpuLighting lighting;
   lighting.Update(
     this->Shading.Lights, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
-  std::vector<Vector> points, directions;
-  this->MakeCases(points, directions);
-  std::vector<Arguments> cases;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    cases.push_back(this->MakeArguments(points[i], directions[i]));
-  }
+  const LightCases cases = this->MakeCases();
   const std::vector<tetralux::Isosurface> surfaces = { { 0.25, { 1, 0.5f, 0.25f }, 1 } };
   tetralux::SegmentSource source;
   source.Model = tetralux::OpticalModel::Isosurfaces;
   source.Surfaces = surfaces;
   source.Shaded = true;
-  tetralux::GpuSegmentIntegral integral;
-  integral.Update(this->Evaluator.Window, source);
-  const std::vector<Result> results = this->Evaluator.Evaluate(
-    lighting.GetDeclarations() + integral.GetDeclarations(),
+  const std::vector<Result> results = this->EvaluateSegments(lighting, source, cases,
     "IntegrateShadedSegment(0.0, 1.0, 1.0, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.5), "
-    "a.xyz, a.xyz + b.xyz, b.xyz)",
-    cases,
-    [&](vtkShaderProgram* program)
-    {
-      lighting.Set(program);
-      integral.Activate(program);
-    },
-    [&] { integral.Deactivate(); });
+    "a.xyz, a.xyz + b.xyz, b.xyz)");
   this->SetGradient({ 0.75, 0.25, 0.125 });
-  for (std::size_t i = 0; i < cases.size(); ++i)
+  for (std::size_t i = 0; i < cases.InMesh.size(); ++i)
   {
-    const Vector place = { points[i][0] + 0.25 * directions[i][0],
-      points[i][1] + 0.25 * directions[i][1], points[i][2] + 0.25 * directions[i][2] };
+    const Vector place = { cases.Points[i][0] + 0.25 * cases.Directions[i][0],
+      cases.Points[i][1] + 0.25 * cases.Directions[i][1],
+      cases.Points[i][2] + 0.25 * cases.Directions[i][2] };
     const LightFactors light =
-      tetralux::FindLight(this->Shading, 0, place.data(), directions[i].data());
+      tetralux::FindLight(this->Shading, 0, place.data(), cases.Directions[i].data());
     for (int c = 0; c < 3; ++c)
     {
       EXPECT_NEAR(
         results[i][c], std::clamp(light.Apply(c, surfaces[0].Color[c]), 0.f, 1.f), FactorError);
     }
   }
-  integral.ReleaseGraphicsResources(this->Evaluator.Window);
 }
 
 } // namespace
