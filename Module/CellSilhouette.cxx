@@ -39,8 +39,9 @@ bool Widen(Place* corners, int n, double margin)
     {
       return false;
     }
-    corners[k].X += margin * (before.X + after.X) / sum;
-    corners[k].Y += margin * (before.Y + after.Y) / sum;
+    const double miter = margin / sum;
+    corners[k].X += miter * (before.X + after.X);
+    corners[k].Y += miter * (before.Y + after.Y);
   }
   return true;
 }
