@@ -54,7 +54,55 @@ struct PacketCrossings
   int Count[Width];
 };
 
-/// False where the buffer was too small; it is larger then.
+/// Adds where rays cross a face of the boundary. False where the buffer was too small; it is larger
+/// then.
+template <class Real>
+TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 active,
+  std::int32_t entryId, CrossingBuffer& buffer, PacketCrossings& crossings)
+{
+  const WalkEntry& entry = in.Entries[entryId];
+  const auto* points = static_cast<const WalkPoint<Real>*>(in.Points);
+  Corner<Real> corners[3];
+  for (int c = 0; c < 3; ++c)
+  {
+    const WalkPoint<Real>& p = points[entry.Points[c]];
+    corners[c] = Project(rays, p.X, p.Y, p.Z, p.S, Int8(entry.Points[c]));
+  }
+  const TriangleHit<Real> t = TestTriangle(corners[0], corners[1], corners[2]);
+  const Mask8 hit = t.Hit & active;
+  unsigned bits = Bits(hit);
+  if (bits == 0)
+  {
+    return true;
+  }
+  Real z[Width];
+  const auto scale = typename LanesOf<Real>::Type(Real(1)) / (t.BC + t.CA + t.AB);
+  Store(z, Blend(t.CA * scale, t.AB * scale, corners[0].Z, corners[1].Z, corners[2].Z));
+  for (int lane = 0; bits != 0; ++lane, bits >>= 1)
+  {
+    if (!(bits & 1u))
+    {
+      continue;
+    }
+    int& count = crossings.Count[lane];
+    if (count == buffer.Capacity)
+    {
+      buffer.Grow(buffer);
+      return false;
+    }
+    // Insertion keeps the list ascending; lists are short.
+    Crossing* list = buffer.Crossings + static_cast<std::int64_t>(lane) * buffer.Capacity;
+    int k = count++;
+    for (; k > 0 && list[k - 1].Distance > z[lane]; --k)
+    {
+      list[k] = list[k - 1];
+    }
+    list[k] = { z[lane], entryId };
+  }
+  return true;
+}
+
+/// Finds where rays cross the boundary. False where the buffer was too small; it is larger then.
 template <class Real>
 inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 active,
   CrossingBuffer& buffer, PacketCrossings& crossings)
@@ -104,45 +152,9 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
     }
     for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
     {
-      const std::int32_t entryId = in.Triangles[i];
-      const WalkEntry& entry = in.Entries[entryId];
-      const auto* points = static_cast<const WalkPoint<Real>*>(in.Points);
-      Corner<Real> corners[3];
-      for (int c = 0; c < 3; ++c)
+      if (!AddCrossings(in, rays, active, in.Triangles[i], buffer, crossings))
       {
-        const WalkPoint<Real>& p = points[entry.Points[c]];
-        corners[c] = Project(rays, p.X, p.Y, p.Z, p.S, Int8(entry.Points[c]));
-      }
-      const TriangleHit<Real> t = TestTriangle(corners[0], corners[1], corners[2]);
-      const Mask8 hit = t.Hit & active;
-      unsigned bits = Bits(hit);
-      if (bits == 0)
-      {
-        continue;
-      }
-      Real z[Width];
-      const auto scale = typename LanesOf<Real>::Type(Real(1)) / (t.BC + t.CA + t.AB);
-      Store(z, Blend(t.CA * scale, t.AB * scale, corners[0].Z, corners[1].Z, corners[2].Z));
-      for (int lane = 0; bits != 0; ++lane, bits >>= 1)
-      {
-        if (!(bits & 1u))
-        {
-          continue;
-        }
-        int& count = crossings.Count[lane];
-        if (count == buffer.Capacity)
-        {
-          buffer.Grow(buffer);
-          return false;
-        }
-        // Insertion keeps the list ascending; lists are short.
-        Crossing* list = buffer.Crossings + static_cast<std::int64_t>(lane) * buffer.Capacity;
-        int k = count++;
-        for (; k > 0 && list[k - 1].Distance > z[lane]; --k)
-        {
-          list[k] = list[k - 1];
-        }
-        list[k] = { z[lane], entryId };
+        return false;
       }
     }
   }

@@ -214,55 +214,13 @@ private:
         for (int x = x0; x <= x1; ++x)
         {
           const int packet = y * PacketsAcross + x;
-          if (!this->Test(rays[packet], entry, this->Crossings[packet], this->Buffers[packet]))
+          if (!AddCrossings(this->In, rays[packet], MaskFromBits(0xff), entry,
+                this->Buffers[packet], this->Crossings[packet]))
           {
             return false;
           }
         }
       }
-    }
-    return true;
-  }
-
-  /// As a leaf of FindCrossings.
-  bool Test(const Rays<float>& rays, std::int32_t entryId, PacketCrossings& crossings,
-    CrossingBuffer& buffer) const
-  {
-    const WalkEntry& entry = this->Mesh.GetEntries()[entryId];
-    Corner<float> c[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      const WalkPoint<float>& p = this->Mesh.GetPoints<float>()[entry.Points[k]];
-      c[k] = Project(rays, p.X, p.Y, p.Z, p.S, Int8(entry.Points[k]));
-    }
-    const TriangleHit<float> t = TestTriangle(c[0], c[1], c[2]);
-    unsigned bits = Bits(t.Hit);
-    if (bits == 0)
-    {
-      return true;
-    }
-    float z[Width];
-    const Float8 scale = Float8(1.f) / (t.BC + t.CA + t.AB);
-    Store(z, Blend(t.CA * scale, t.AB * scale, c[0].Z, c[1].Z, c[2].Z));
-    for (int lane = 0; bits != 0; ++lane, bits >>= 1)
-    {
-      if (!(bits & 1u))
-      {
-        continue;
-      }
-      int& count = crossings.Count[lane];
-      if (count == buffer.Capacity)
-      {
-        buffer.Grow(buffer);
-        return false;
-      }
-      Crossing* list = buffer.Crossings + static_cast<std::int64_t>(lane) * buffer.Capacity;
-      int k = count++;
-      for (; k > 0 && list[k - 1].Distance > z[lane]; --k)
-      {
-        list[k] = list[k - 1];
-      }
-      list[k] = { z[lane], entryId };
     }
     return true;
   }
