@@ -17,7 +17,7 @@
 //
 // It grows with the number of segments, which is why a table has to be more accurate than the picture
 // (Kraus et al. 2004, section 3), and it is reached only by rays whose every segment is the worst
-// one. What to expect is measured on a sample of rays: of the mesh, or of a model of one (RaySample.h).
+// one. What to expect is measured on a sample of rays through the mesh (RaySample.h).
 
 #include "PreIntegrationTable.h"
 #include "RaySample.h"

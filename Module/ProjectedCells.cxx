@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ProjectedCells.h"
 
+#include "CellGradient.h"
 #include "CellProjector.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace tetralux
 {
@@ -61,30 +63,21 @@ InterpolatedCell FindValues(const ProjectedCell& cell)
 void FindGradient(Span<const double> coordinates, Span<const ScreenPoint> points,
   const std::int32_t* cell, double gradient[3])
 {
-  const auto subtract = [&](int i)
-  {
-    const double* p = &coordinates[3 * static_cast<std::size_t>(cell[i])];
-    const double* q = &coordinates[3 * static_cast<std::size_t>(cell[0])];
-    return Vector{ p[0] - q[0], p[1] - q[1], p[2] - q[2] };
-  };
-  const Vector a = subtract(1);
-  const Vector b = subtract(2);
-  const Vector c = subtract(3);
-  const Vector normals[3] = { Cross(b, c), Cross(c, a), Cross(a, b) };
-  const double sign = Dot(normals[0], a) < 0 ? -1 : 1;
-  Vector sum = { 0, 0, 0 };
+  double edges[3][3];
+  double rises[3];
+  const double* first = &coordinates[3 * static_cast<std::size_t>(cell[0])];
   for (int i = 0; i < 3; ++i)
   {
-    const double change = sign * (points[cell[i + 1]].Scalar - points[cell[0]].Scalar);
-    sum = { sum.X + change * normals[i].X, sum.Y + change * normals[i].Y,
-      sum.Z + change * normals[i].Z };
+    const double* p = &coordinates[3 * static_cast<std::size_t>(cell[i + 1])];
+    std::transform(p, p + 3, first, edges[i], std::minus<double>());
+    rises[i] = points[cell[i + 1]].Scalar - points[cell[0]].Scalar;
   }
+  const CellGradient found(edges, rises);
   // A length of 1 keeps it in the range of single precision.
-  const double length = std::max({ std::abs(sum.X), std::abs(sum.Y), std::abs(sum.Z) });
+  const double* g = found.Weighted;
+  const double length = std::max({ std::abs(g[0]), std::abs(g[1]), std::abs(g[2]) });
   const double scale = length > 0 ? 1 / length : 0;
-  gradient[0] = scale * sum.X;
-  gradient[1] = scale * sum.Y;
-  gradient[2] = scale * sum.Z;
+  std::transform(g, g + 3, gradient, [scale](double x) { return scale * x; });
 }
 
 /// Gradients at the points of a cell as they are asked for.

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace tetralux
@@ -196,16 +198,23 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
       [&table](double front, double back, double length, float rgba[4])
       { table.LookUp(front, back, length, rgba); });
   };
-  PreIntegrationTable table;
-  const auto isRight = [&](const PreIntegrationSettings& settings, double allowed)
+  // Makes a table the choice where its error is at most what is allowed.
+  const auto choose = [&](const PreIntegrationSettings& settings, double allowed)
   {
     if (!mayBeRight(settings, allowed))
     {
       return false;
     }
-    BuildPreIntegrationTable(function, settings, table);
-    choice.PictureError = rays.Estimate(table, allowed);
-    return choice.PictureError <= allowed;
+    auto table = std::make_shared<PreIntegrationTable>();
+    BuildPreIntegrationTable(function, settings, *table);
+    const double error = rays.Estimate(*table, allowed);
+    if (error > allowed)
+    {
+      return false;
+    }
+    choice.Table = std::move(table);
+    choice.PictureError = error;
+    return true;
   };
   std::vector<PreIntegrationSettings> candidates = GetCandidates(goal);
   for (PreIntegrationSettings& settings : candidates)
@@ -223,16 +232,13 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
       settings.Format = format;
       const bool isFree =
         goal.AnyFormat ? !IsInteger(format) || integersHold : format == goal.Format;
-      if (isFree && fits(format) && isRight(settings, goal.MaximumError))
+      if (isFree && fits(format) && choose(settings, goal.MaximumError))
       {
-        choice.ClosedForm = false;
-        choice.Settings = settings;
         choice.Reason = "table: the smallest that is right enough";
         return choice;
       }
     }
   }
-  choice.PictureError = 0;
   choice.Reason = "closed form: no table within the limits is right enough";
   if (!goal.AlwaysTable)
   {
@@ -242,15 +248,12 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
   for (PreIntegrationSettings& settings : candidates)
   {
     settings.Format = goal.AnyFormat ? TexelFormat::Float : goal.Format;
-    if (Fits(settings, settings.Format, goal) && isRight(settings, least))
+    if (Fits(settings, settings.Format, goal) && choose(settings, least))
     {
       least = choice.PictureError;
-      choice.ClosedForm = false;
-      choice.Settings = settings;
       choice.Reason = "table: asked for; none is right enough, this is the most exact one";
     }
   }
-  choice.PictureError = choice.ClosedForm ? 0 : least;
   return choice;
 }
 

@@ -49,12 +49,11 @@ struct TableGoal
 
 struct TableChoice
 {
-  /// No table: the closed form is as fast, or no table within the limits is right enough.
-  bool ClosedForm = true;
-  PreIntegrationSettings Settings; ///< of the table
-  double PictureError = 0;         ///< what EstimatePictureError will find; 0 where ClosedForm
-  double PiecesPerSegment = 1;     ///< of the rays, on average
-  std::string Reason;              ///< one line
+  /// nullptr, no table: the closed form is as fast, or no table within the limits is right enough.
+  std::shared_ptr<PreIntegrationTable> Table;
+  double PictureError = 0;     ///< EstimatePictureError of the table; 0 without one
+  double PiecesPerSegment = 1; ///< of the rays, on average
+  std::string Reason;          ///< one line
 };
 
 /// The smallest table whose EstimatePictureError is at most what is asked for; else none, or with

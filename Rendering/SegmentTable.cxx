@@ -5,7 +5,9 @@
 #include "PreIntegrationError.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
+#include <utility>
 
 namespace tetralux
 {
@@ -14,6 +16,16 @@ namespace
 
 /// A table for the time of an interaction: built in a few milliseconds.
 constexpr std::size_t CoarseBytes = std::size_t{ 1 } << 20;
+
+/// A few milliseconds for the estimate, too.
+constexpr std::size_t RaysForCoarse = 64;
+
+/// The first rays of a sample, which are as random as all of them.
+RaySample TakeFew(const RaySample& sample)
+{
+  const auto end = static_cast<std::ptrdiff_t>(std::min(RaysForCoarse, sample.Rays.size()));
+  return { { sample.Rays.begin(), sample.Rays.begin() + end } };
+}
 
 bool operator==(const TransferFunction::Value& a, const TransferFunction::Value& b)
 {
@@ -66,28 +78,21 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
     settings.LongestSegment = request.Goal.LongestSegment;
     this->Coarse = true;
     this->Build(function, GetCoarseSettings(settings, CoarseBytes));
-    this->PictureError = EstimatePictureError(function, *this->Table, *request.Goal.Rays);
+    this->PictureError = EstimatePictureError(function, *this->Table, TakeFew(*request.Goal.Rays));
     this->Reason = "a coarse table during interaction";
   }
   else
   {
-    const TableChoice choice = ChoosePreIntegrationTable(function, request.Goal);
-    this->Coarse = false;
-    this->Reason = choice.Reason;
-    this->PictureError = choice.PictureError;
-    if (choice.ClosedForm && request.Goal.AlwaysTable)
+    TableChoice choice = ChoosePreIntegrationTable(function, request.Goal);
+    if (!choice.Table && request.Goal.AlwaysTable)
     {
       throw std::invalid_argument(
         "no table of the sizes that are asked for fits into TableMaximumBytes");
     }
-    if (choice.ClosedForm)
-    {
-      this->Table.reset();
-    }
-    else
-    {
-      this->Build(function, choice.Settings);
-    }
+    this->Coarse = false;
+    this->Reason = choice.Reason;
+    this->PictureError = choice.PictureError;
+    this->Table = std::move(choice.Table);
   }
   this->Function = function;
   this->Last = request;

@@ -4,6 +4,7 @@
 // computing each entry by itself and beside writing the memory; how wrong they are for each byte, by
 // axis, scale and format; and what a lookup costs beside the closed form.
 
+#include "ModelRays.h"
 #include "PreIntegrationBuilder.h"
 #include "PreIntegrationError.h"
 #include "RayIntegral.h"
@@ -477,17 +478,16 @@ void CompareChoices()
       TableChoice choice;
       const double time =
         Time(1, [&]() { choice = ChoosePreIntegrationTable(functions[k].Nodes, goal); });
-      const PreIntegrationSettings& s = choice.Settings;
       const char* formats[] = { "8 bits", "16 bits", "half", "float" };
       char text[64] = "closed form";
       double size = 0;
-      if (!choice.ClosedForm)
+      if (choice.Table)
       {
+        const PreIntegrationSettings& s = choice.Table->Settings;
         std::snprintf(text, sizeof(text), "%d^2 x %d%s, %s, %s", s.ScalarSize, s.LengthSize,
           s.Scale == LengthScale::Logarithmic ? " log" : "",
           s.Axis == ScalarAxis::Nodes ? "nodes" : "uniform", formats[static_cast<int>(s.Format)]);
-        size = 1e-6 *
-          static_cast<double>(GetTexelSize(s.Format) * s.ScalarSize * s.ScalarSize * s.LengthSize);
+        size = 1e-6 * static_cast<double>(choice.Table->GetNumberOfBytes());
       }
       std::printf("%-14s %8.0e %-34s %8.2f %9.1e %6.0f\n", functions[k].Name, maximumError, text,
         size, choice.PictureError, time);

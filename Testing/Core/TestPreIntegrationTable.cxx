@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ModelRays.h"
 #include "PreIntegrationBuilder.h"
 #include "PreIntegrationError.h"
 #include "PreIntegrationTable.h"
 #include "ReferenceIntegral.h"
-#include "TableChoice.h"
+#include "SampleFunctions.h"
 #include "TexelFormats.h"
 #include "ThreadCounts.h"
 
@@ -26,40 +27,6 @@ namespace
 {
 
 using Value = TransferFunction::Value;
-
-/// Bends of all sizes, colours that change, steps at some nodes.
-TransferFunction MakeRandomFunction(
-  std::mt19937_64& generator, int nodes, double attenuation, bool steps)
-{
-  std::uniform_real_distribution<double> unit(0, 1);
-  const auto value = [&]()
-  {
-    const double tau = unit(generator) < 0.3 ? 0 : attenuation * unit(generator);
-    return Value{ { unit(generator), unit(generator), unit(generator) }, tau };
-  };
-  TransferFunction function;
-  double s = 0;
-  for (int k = 0; k < nodes; ++k)
-  {
-    const Value left = value();
-    const bool step = steps && unit(generator) < 0.5;
-    function.Nodes.push_back({ s, left, step ? value() : left });
-    s += 0.02 + unit(generator);
-  }
-  for (TransferFunction::Node& node : function.Nodes)
-  {
-    node.Scalar /= function.Nodes.back().Scalar;
-  }
-  return function;
-}
-
-TransferFunction MakeNeedle(double center, double halfWidth, double attenuation)
-{
-  const auto value = [](double tau) { return Value{ { 1, 0.5, 0.2 }, tau }; };
-  return { { { 0, value(0), value(0) }, { center - halfWidth, value(0), value(0) },
-    { center, value(attenuation), value(attenuation) }, { center + halfWidth, value(0), value(0) },
-    { 1, value(0), value(0) } } };
-}
 
 /// Scalars of a function of 0..1 mapped to lo..hi.
 TransferFunction Stretch(TransferFunction function, double lo, double hi)
@@ -818,72 +785,6 @@ TEST(PreIntegrationTable, ThreadsDoNotMatter)
         });
     }
   }
-}
-
-// ------------------------------------------------------------------------------------------------
-// Choice
-
-TEST(PreIntegrationTable, ChosenTablesMeetTheirGoal)
-{
-  std::mt19937_64 generator(15);
-  const TransferFunction functions[] = { MakeNeedle(0.4, 0.02, 30),
-    MakeRandomFunction(generator, 12, 2, false) };
-  int tables = 0;
-  for (const TransferFunction& function : functions)
-  {
-    std::size_t bytes = 0;
-    for (const double maximumError : { 1e-1, 1e-2, 1e-3, 1e-4 })
-    {
-      TableGoal goal;
-      goal.MaximumError = maximumError;
-      goal.MaximumBytes = std::size_t{ 1 } << 23;
-      goal.LookupCost = 0.1;
-      RayModel model;
-      model.PathLength = 5;
-      model.LongestSegment = goal.LongestSegment = 0.5;
-      goal.Rays = std::make_shared<RaySample>(DrawModelRays(model));
-      const TableChoice choice = ChoosePreIntegrationTable(function, goal);
-      EXPECT_FALSE(choice.Reason.empty());
-      EXPECT_GT(choice.PiecesPerSegment, 1);
-      if (choice.ClosedForm)
-      {
-        EXPECT_LE(maximumError, 1e-2); // only where it is hard
-        continue;
-      }
-      ++tables;
-      const PreIntegrationTable table = Build(function, choice.Settings);
-      EXPECT_LE(table.GetNumberOfBytes(), goal.MaximumBytes);
-      EXPECT_GE(table.GetNumberOfBytes(), bytes);
-      bytes = table.GetNumberOfBytes();
-      EXPECT_NEAR(EstimatePictureError(function, table, *goal.Rays), choice.PictureError, 2e-5);
-      EXPECT_LE(choice.PictureError, maximumError);
-    }
-  }
-  EXPECT_GE(tables, 3);
-}
-
-TEST(PreIntegrationTable, ChoiceKeepsToWhatIsGiven)
-{
-  const TransferFunction function = MakeNeedle(0.4, 0.1, 5);
-  TableGoal goal;
-  goal.MaximumError = 1; // any table is right enough
-  goal.LookupCost = 0;
-  goal.Rays = std::make_shared<RaySample>(DrawModelRays({}));
-  goal.ScalarSize = 50;
-  goal.LengthSize = 20;
-  goal.AnyScale = goal.AnyAxis = goal.AnyFormat = false;
-  goal.Scale = LengthScale::Linear;
-  goal.Axis = ScalarAxis::Uniform;
-  goal.Format = TexelFormat::UNorm8;
-  const TableChoice choice = ChoosePreIntegrationTable(function, goal);
-  EXPECT_FALSE(choice.ClosedForm);
-  EXPECT_EQ(choice.Settings.ScalarSize, 50);
-  EXPECT_EQ(choice.Settings.LengthSize, 20);
-  EXPECT_EQ(choice.Settings.Axis, ScalarAxis::Uniform);
-  EXPECT_EQ(choice.Settings.Format, TexelFormat::UNorm8);
-  // One ramp is one piece: never worth a table.
-  goal.LookupCost = 3;
-  EXPECT_TRUE(ChoosePreIntegrationTable({ { function.Nodes[0] } }, goal).ClosedForm);
 }
 
 // ------------------------------------------------------------------------------------------------
