@@ -6,7 +6,7 @@
 #include "BenchTransferFunctions.h"
 #include "CommandErrors.h"
 #include "GeneratedGrid.h"
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "OptionValues.h"
 #include "ReadMesh.h"
 #include "TransferFunctionFile.h"

@@ -4,7 +4,7 @@
 #include "AtomicFile.h"
 #include "CommandErrors.h"
 #include "GeneratedGrid.h"
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "OptionValues.h"
 #include "ProgressLine.h"
 #include "WriteData.h"

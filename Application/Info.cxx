@@ -2,12 +2,12 @@
 #include "Info.h"
 
 #include "Arrays.h"
-#include "CellVolumes.h"
+#include "Mesh/CellVolumes.h"
 #include "CommandErrors.h"
 #include "OptionValues.h"
 #include "ProgressLine.h"
 #include "ReadMesh.h"
-#include "WalkMesh.h"
+#include "Walk/WalkMesh.h"
 #include "vtkTetrahedraIntake.h"
 
 #include "vtkDataArray.h"

@@ -4,7 +4,7 @@
 
 #include "CellKind.h"
 #include "CellSources.h"
-#include "CellSplit.h"
+#include "Mesh/CellSplit.h"
 #include "FacetedCells.h"
 #include "IntakeChunk.h"
 #include "vtkTetrahedraIntake.h"

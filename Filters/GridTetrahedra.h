@@ -2,7 +2,7 @@
 #ifndef tetralux_GridTetrahedra_h
 #define tetralux_GridTetrahedra_h
 
-#include "TetrahedralMesh.h"
+#include "Mesh/TetrahedralMesh.h"
 
 #include <string>
 

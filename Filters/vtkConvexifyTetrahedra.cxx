@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkConvexifyTetrahedra.h"
 
-#include "Convexification.h"
-#include "FaceNeighbors.h"
+#include "Convexify/Convexification.h"
+#include "Mesh/FaceNeighbors.h"
 #include "GridTetrahedra.h"
-#include "MeshCleaning.h"
+#include "Mesh/MeshCleaning.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

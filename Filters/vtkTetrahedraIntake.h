@@ -2,7 +2,7 @@
 #ifndef vtkTetrahedraIntake_h
 #define vtkTetrahedraIntake_h
 
-#include "TetrahedralMesh.h"
+#include "Mesh/TetrahedralMesh.h"
 #include "TetraluxFiltersModule.h"
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraNeighbors.h"
 
-#include "CellVolumes.h"
-#include "FaceNeighbors.h"
-#include "MeshCleaning.h"
+#include "Mesh/CellVolumes.h"
+#include "Mesh/FaceNeighbors.h"
+#include "Mesh/MeshCleaning.h"
 #include "MeshLimits.h"
 #include "vtkTetrahedraIntake.h"
 

@@ -2,7 +2,7 @@
 #ifndef vtkTetrahedraScalars_h
 #define vtkTetrahedraScalars_h
 
-#include "TetrahedralMesh.h"
+#include "Mesh/TetrahedralMesh.h"
 #include "TetraluxFiltersModule.h"
 
 #include <string>

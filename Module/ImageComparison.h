@@ -2,7 +2,7 @@
 #ifndef tetralux_ImageComparison_h
 #define tetralux_ImageComparison_h
 
-#include "Span.h"
+#include "Base/Span.h"
 #include "TetraluxCoreModule.h"
 
 #include <cstddef>

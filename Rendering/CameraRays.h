@@ -2,8 +2,8 @@
 #ifndef tetralux_CameraRays_h
 #define tetralux_CameraRays_h
 
-#include "RayGrid.h"
-#include "RayLimits.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
 #include "TetraluxRenderingModule.h"
 
 #include <array>

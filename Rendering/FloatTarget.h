@@ -2,7 +2,7 @@
 #ifndef tetralux_FloatTarget_h
 #define tetralux_FloatTarget_h
 
-#include "Span.h"
+#include "Base/Span.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"

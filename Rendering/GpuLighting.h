@@ -2,9 +2,9 @@
 #ifndef tetralux_GpuLighting_h
 #define tetralux_GpuLighting_h
 
-#include "OpticalModel.h"
-#include "RayGrid.h"
-#include "Span.h"
+#include "Optics/OpticalModel.h"
+#include "View/RayGrid.h"
+#include "Base/Span.h"
 #include "TetraluxRenderingModule.h"
 
 #include <array>

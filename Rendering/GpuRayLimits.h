@@ -3,9 +3,9 @@
 #define tetralux_GpuRayLimits_h
 
 #include "OpaqueDepth.h"
-#include "RayGrid.h"
+#include "View/RayGrid.h"
 #include "RayGridUniforms.h"
-#include "RayLimits.h"
+#include "View/RayLimits.h"
 #include "TetraluxRenderingModule.h"
 
 #include <cstddef>

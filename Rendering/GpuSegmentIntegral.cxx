@@ -17,7 +17,7 @@
 #include "ScalarBucketsDec.h"
 #include "SegmentWeightsDec.h"
 #include "TransferIntervalsDec.h"
-#include "VolumeScene.h"
+#include "Scene/VolumeScene.h"
 
 #include "vtkShaderProgram.h"
 

@@ -6,9 +6,9 @@
 // read, and their uniforms. For both mappers that draw on the graphics card.
 
 #include "GpuSegmentTable.h"
-#include "IntervalTable.h"
-#include "OpticalModel.h"
-#include "Span.h"
+#include "Optics/IntervalTable.h"
+#include "Optics/OpticalModel.h"
+#include "Base/Span.h"
 #include "TetraluxRenderingModule.h"
 #include "TextureBuffer.h"
 

@@ -2,7 +2,7 @@
 #ifndef tetralux_GpuSegmentTable_h
 #define tetralux_GpuSegmentTable_h
 
-#include "PreIntegrationTable.h"
+#include "PreIntegration/PreIntegrationTable.h"
 #include "TextureBuffer.h"
 
 #include "vtkNew.h"

@@ -3,7 +3,7 @@
 #define tetralux_GraphicsCard_h
 
 #include "TetraluxRenderingModule.h"
-#include "WalkTexels.h"
+#include "Walk/WalkTexels.h"
 
 #include <string>
 

@@ -4,10 +4,10 @@
 
 #include "CameraRays.h"
 #include "JsonObject.h"
-#include "OpticalModel.h"
-#include "RayGrid.h"
-#include "RayLimits.h"
-#include "Span.h"
+#include "Optics/OpticalModel.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
+#include "Base/Span.h"
 
 #include <functional>
 #include <string>

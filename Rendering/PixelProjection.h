@@ -2,7 +2,7 @@
 #ifndef tetralux_PixelProjection_h
 #define tetralux_PixelProjection_h
 
-#include "RayGrid.h"
+#include "View/RayGrid.h"
 #include "TetraluxRenderingModule.h"
 
 namespace tetralux

@@ -2,7 +2,7 @@
 #ifndef tetralux_ProjectedCellDrawer_h
 #define tetralux_ProjectedCellDrawer_h
 
-#include "ProjectedCells.h"
+#include "Projection/ProjectedCells.h"
 #include "TextureBuffer.h"
 
 #include "vtkNew.h"

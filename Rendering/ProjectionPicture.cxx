@@ -6,9 +6,9 @@
 #include "FirstSurfaceDec.h"
 #include "LargestPictureFS.h"
 #include "RayGridDec.h"
-#include "RayLimits.h"
+#include "View/RayLimits.h"
 #include "Stopwatch.h"
-#include "VolumeScene.h"
+#include "Scene/VolumeScene.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"

@@ -6,12 +6,12 @@
 #include "GpuLighting.h"
 #include "GpuSegmentIntegral.h"
 #include "ProjectedCellDrawer.h"
-#include "ProjectedCells.h"
-#include "RayGrid.h"
+#include "Projection/ProjectedCells.h"
+#include "View/RayGrid.h"
 #include "RayGridUniforms.h"
-#include "ScreenFrame.h"
+#include "Projection/ScreenFrame.h"
 #include "ScreenProgram.h"
-#include "Span.h"
+#include "Base/Span.h"
 
 #include "vtkWeakPointer.h"
 

@@ -2,8 +2,8 @@
 #ifndef tetralux_RayGridUniforms_h
 #define tetralux_RayGridUniforms_h
 
-#include "RayGrid.h"
-#include "RayLimits.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef tetralux_RendererLights_h
 #define tetralux_RendererLights_h
 
-#include "OpticalModel.h"
+#include "Optics/OpticalModel.h"
 
 #include <vector>
 

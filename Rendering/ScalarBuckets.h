@@ -2,7 +2,7 @@
 #ifndef tetralux_ScalarBuckets_h
 #define tetralux_ScalarBuckets_h
 
-#include "Span.h"
+#include "Base/Span.h"
 #include "TetraluxRenderingModule.h"
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include "JsonObject.h"
 #include "OnceWarning.h"
 #include "SegmentTable.h"
-#include "VolumeScene.h"
+#include "Scene/VolumeScene.h"
 #include "vtkTetrahedraIntake.h"
 
 #include <functional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentTable.h"
 
-#include "PreIntegrationBuilder.h"
-#include "PreIntegrationError.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "PreIntegration/PreIntegrationError.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 #ifndef tetralux_TexelTextureFormat_h
 #define tetralux_TexelTextureFormat_h
 
-#include "PreIntegrationTable.h"
+#include "PreIntegration/PreIntegrationTable.h"
 
 #include "vtk_glew.h"
 

@@ -2,7 +2,7 @@
 #ifndef tetralux_TextureFilterError_h
 #define tetralux_TextureFilterError_h
 
-#include "PreIntegrationTable.h"
+#include "PreIntegration/PreIntegrationTable.h"
 #include "TetraluxRenderingModule.h"
 
 class vtkOpenGLRenderWindow;

@@ -3,7 +3,7 @@
 #define tetralux_TransferFunctionFromProperty_h
 
 #include "TetraluxRenderingModule.h"
-#include "TransferFunction.h"
+#include "Optics/TransferFunction.h"
 
 class vtkVolumeProperty;
 

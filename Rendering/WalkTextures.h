@@ -2,11 +2,11 @@
 #ifndef tetralux_WalkTextures_h
 #define tetralux_WalkTextures_h
 
-#include "PointGradients.h"
+#include "Mesh/PointGradients.h"
 #include "TetraluxRenderingModule.h"
 #include "TextureBuffer.h"
-#include "WalkMesh.h"
-#include "WalkTexels.h"
+#include "Walk/WalkMesh.h"
+#include "Walk/WalkTexels.h"
 
 #include <cstddef>
 #include <cstdint>

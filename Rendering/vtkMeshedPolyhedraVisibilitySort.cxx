@@ -2,8 +2,8 @@
 #include "vtkMeshedPolyhedraVisibilitySort.h"
 
 #include "CameraRays.h"
-#include "VisibilityOrder.h"
-#include "WalkMesh.h"
+#include "Visibility/VisibilityOrder.h"
+#include "Walk/WalkMesh.h"
 #include "vtkTetrahedraIntake.h"
 
 #include "vtkCamera.h"

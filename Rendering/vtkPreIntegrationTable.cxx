@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPreIntegrationTable.h"
 
-#include "IntegrationPlan.h"
-#include "IntervalTable.h"
-#include "PreIntegrationBuilder.h"
-#include "PreIntegrationError.h"
+#include "Integral/IntegrationPlan.h"
+#include "Optics/IntervalTable.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "PreIntegration/PreIntegrationError.h"
 #include "TransferFunctionFromProperty.h"
 
 #include "vtkContourValues.h"

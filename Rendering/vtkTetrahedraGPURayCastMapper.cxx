@@ -2,7 +2,7 @@
 #include "vtkTetrahedraGPURayCastMapper.h"
 
 #include "CameraRays.h"
-#include "CellOrientation.h"
+#include "Walk/CellOrientation.h"
 #include "GpuLighting.h"
 #include "GpuRayCaster.h"
 #include "GpuRayLimits.h"
@@ -14,7 +14,7 @@
 #include "OnceWarning.h"
 #include "PixelProjection.h"
 #include "Stopwatch.h"
-#include "VolumeScene.h"
+#include "Scene/VolumeScene.h"
 #include "WalkTextures.h"
 
 #include "vtkDataSet.h"

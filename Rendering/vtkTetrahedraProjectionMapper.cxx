@@ -8,10 +8,10 @@
 #include "OnceWarning.h"
 #include "OpaqueDepth.h"
 #include "ProjectionPicture.h"
-#include "ScreenFrame.h"
+#include "Projection/ScreenFrame.h"
 #include "Stopwatch.h"
-#include "VisibilityOrder.h"
-#include "VolumeScene.h"
+#include "Visibility/VisibilityOrder.h"
+#include "Scene/VolumeScene.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"

@@ -7,7 +7,7 @@
 #include "MapperFrame.h"
 #include "OnceWarning.h"
 #include "OpaqueDistances.h"
-#include "RayCaster.h"
+#include "RayCast/RayCaster.h"
 #include "Stopwatch.h"
 
 #include "vtkImageData.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayIntegrator.h"
 
-#include "IntervalTable.h"
-#include "RayIntegral.h"
+#include "Optics/IntervalTable.h"
+#include "Integral/RayIntegral.h"
 #include "TransferFunctionFromProperty.h"
 
 #include "vtkAbstractVolumeMapper.h"

@@ -5,7 +5,7 @@
 // The integral over a segment of a ray by quadrature in a type of number that has more digits than
 // double: what every form of it is compared with. It shares no code and no formula with them.
 
-#include "TransferFunction.h"
+#include "Optics/TransferFunction.h"
 
 #include <array>
 #include <cfloat>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Compiled once for each instruction set, with the options that the kernels are compiled with.
-#include "SegmentIntegral.h"
+#include "Integral/SegmentIntegral.h"
 #include "SegmentLanes.h"
 
 namespace tetralux

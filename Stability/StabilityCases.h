@@ -2,7 +2,7 @@
 #ifndef tetralux_StabilityCases_h
 #define tetralux_StabilityCases_h
 
-#include "TransferFunction.h"
+#include "Optics/TransferFunction.h"
 
 #include <cstdint>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StabilityForms.h"
 
-#include "PreIntegrationBuilder.h"
-#include "PreIntegrationTable.h"
-#include "RayCaster.h"
-#include "SegmentIntegral.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "PreIntegration/PreIntegrationTable.h"
+#include "RayCast/RayCaster.h"
+#include "Integral/SegmentIntegral.h"
 #include "SegmentLanes.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #define tetralux_StabilityForms_h
 
 #include "ExtendedIntegral.h"
-#include "RayIntegral.h"
+#include "Integral/RayIntegral.h"
 #include "StabilityCases.h"
 
 #include <functional>

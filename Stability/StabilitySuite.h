@@ -2,7 +2,7 @@
 #ifndef tetralux_StabilitySuite_h
 #define tetralux_StabilitySuite_h
 
-#include "Span.h"
+#include "Base/Span.h"
 #include "StabilityCases.h"
 #include "StabilityForms.h"
 

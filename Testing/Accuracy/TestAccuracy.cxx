@@ -3,12 +3,12 @@
 // Whole pictures against the brute-force reference: within 1e-4 in at least 99.9 % of the covered
 // pixels, and nowhere off by more than 1/255 but where a silhouette is grazed.
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "ImageComparison.h"
-#include "RayCaster.h"
+#include "RayCast/RayCaster.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
-#include "WalkMesh.h"
+#include "Walk/WalkMesh.h"
 #include "vtkTetrahedraIntake.h"
 #include "vtkTetrahedraScalars.h"
 

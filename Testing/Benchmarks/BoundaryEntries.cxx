@@ -11,7 +11,7 @@
 
 #include "ComparisonMeshes.h"
 #include "OwnedCrossings.h"
-#include "RayCastKernel.inl"
+#include "RayCast/RayCastKernel.inl"
 
 #include <algorithm>
 #include <cstdio>

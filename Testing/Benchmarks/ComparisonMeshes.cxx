@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ComparisonMeshes.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "vtkTetrahedraIntake.h"
 
 #include "vtkDataArray.h"

@@ -6,9 +6,9 @@
 // Real meshes take part where the environment variable TETRALUX_DATA names their folder.
 
 #include "ComparisonMeshes.h"
-#include "Convexification.h"
-#include "FaceNeighbors.h"
-#include "MeshCleaning.h"
+#include "Convexify/Convexification.h"
+#include "Mesh/FaceNeighbors.h"
+#include "Mesh/MeshCleaning.h"
 #include "ReferenceConvexity.h"
 #include "vtkTetrahedraIntake.h"
 

@@ -7,8 +7,8 @@
 
 #include "FloatTarget.h"
 #include "GpuSegmentIntegral.h"
-#include "IntervalTable.h"
-#include "PreIntegrationBuilder.h"
+#include "Optics/IntervalTable.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
 
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkNew.h"

@@ -6,12 +6,12 @@
 // through), one thread.
 
 #include "ComparisonMeshes.h"
-#include "FaceNeighbors.h"
-#include "MeshCleaning.h"
+#include "Mesh/FaceNeighbors.h"
+#include "Mesh/MeshCleaning.h"
 #include "OwnedCrossings.h"
-#include "RayCastKernel.inl"
-#include "SpatialOrder.h"
-#include "WalkTables.h"
+#include "RayCast/RayCastKernel.inl"
+#include "Mesh/SpatialOrder.h"
+#include "Walk/WalkTables.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #ifndef tetralux_OwnedCrossings_h
 #define tetralux_OwnedCrossings_h
 
-#include "RayCastKernel.h"
+#include "RayCast/RayCastKernel.h"
 
 #include <vector>
 

@@ -5,11 +5,11 @@
 // axis, scale and format; and what a lookup costs beside the closed form.
 
 #include "ModelRays.h"
-#include "PreIntegrationBuilder.h"
-#include "PreIntegrationError.h"
-#include "RayIntegral.h"
-#include "SegmentIntegral.h"
-#include "TableChoice.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "PreIntegration/PreIntegrationError.h"
+#include "Integral/RayIntegral.h"
+#include "Integral/SegmentIntegral.h"
+#include "PreIntegration/TableChoice.h"
 
 #include "vtkCellArray.h"
 #include "vtkColorTransferFunction.h"

@@ -3,7 +3,7 @@
 // The integral over a segment of a ray, eight at a time: nanoseconds for eight of them. Compiled as
 // the fastest kernels are.
 
-#include "SegmentIntegral.h"
+#include "Integral/SegmentIntegral.h"
 
 #include <benchmark/benchmark.h>
 

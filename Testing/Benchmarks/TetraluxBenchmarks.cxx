@@ -10,12 +10,12 @@
 //   Prepare/...      what is done once for a mesh, by stage; Wall and Cpu: nanoseconds a tetrahedron.
 //   Integral/...     SegmentIntegralBenchmark.cxx.
 
-#include "FaceNeighbors.h"
-#include "GeneratedMeshes.h"
-#include "MeshCleaning.h"
-#include "RayCaster.h"
-#include "SpatialOrder.h"
-#include "WalkMesh.h"
+#include "Mesh/FaceNeighbors.h"
+#include "Generate/GeneratedMeshes.h"
+#include "Mesh/MeshCleaning.h"
+#include "RayCast/RayCaster.h"
+#include "Mesh/SpatialOrder.h"
+#include "Walk/WalkMesh.h"
 
 #include <benchmark/benchmark.h>
 

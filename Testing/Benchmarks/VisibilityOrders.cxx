@@ -6,8 +6,8 @@
 
 #include "ComparisonMeshes.h"
 #include "ReferenceOcclusion.h"
-#include "VisibilityOrder.h"
-#include "WalkMesh.h"
+#include "Visibility/VisibilityOrder.h"
+#include "Walk/WalkMesh.h"
 
 #include "vtkCamera.h"
 #include "vtkCellCenterDepthSort.h"

@@ -11,7 +11,7 @@
 // Prints how many rays go wrong and the nanoseconds of a step.
 
 #include "ComparisonMeshes.h"
-#include "WalkMesh.h"
+#include "Walk/WalkMesh.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #ifndef tetralux_ModelRays_h
 #define tetralux_ModelRays_h
 
-#include "RaySample.h"
+#include "Walk/MeshRays.h"
 
 namespace tetralux
 {

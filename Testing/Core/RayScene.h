@@ -2,7 +2,7 @@
 #ifndef tetralux_RayScene_h
 #define tetralux_RayScene_h
 
-#include "RayCaster.h"
+#include "RayCast/RayCaster.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 

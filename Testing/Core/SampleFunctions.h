@@ -4,7 +4,7 @@
 
 // Transfer functions over scalars of 0..1 that are hard for tables.
 
-#include "TransferFunction.h"
+#include "Optics/TransferFunction.h"
 
 #include <random>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryBvh.h"
+#include "Hierarchy/BoundaryBvh.h"
 
 #include <gtest/gtest.h>
 

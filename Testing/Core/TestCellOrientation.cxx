@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CellOrientation.h"
+#include "Walk/CellOrientation.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "ReferenceScenes.h"
-#include "WalkMesh.h"
+#include "Walk/WalkMesh.h"
 
 #include <gtest/gtest.h>
 

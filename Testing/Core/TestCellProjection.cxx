@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Projected cells against rays cut with the cell's faces one by one in double precision.
-#include "ProjectedCells.h"
+#include "Projection/ProjectedCells.h"
 
 #include "ReferenceScenes.h"
 

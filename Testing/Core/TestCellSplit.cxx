@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CellSplit.h"
+#include "Mesh/CellSplit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CellVolumes.h"
+#include "Mesh/CellVolumes.h"
 
 #include "ThreadCounts.h"
 

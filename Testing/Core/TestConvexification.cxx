@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Convexification.h"
+#include "Convexify/Convexification.h"
 
-#include "FaceNeighbors.h"
-#include "GeneratedMeshes.h"
-#include "MeshCleaning.h"
+#include "Mesh/FaceNeighbors.h"
+#include "Generate/GeneratedMeshes.h"
+#include "Mesh/MeshCleaning.h"
 #include "ReferenceConvexity.h"
 #include "ThreadCounts.h"
 

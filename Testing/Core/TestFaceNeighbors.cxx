@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FaceNeighbors.h"
+#include "Mesh/FaceNeighbors.h"
 
 #include "ThreadCounts.h"
 

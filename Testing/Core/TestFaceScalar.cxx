@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scalars on faces: the same for the cells on both sides, and right.
-#include "FaceScalar.h"
+#include "Projection/FaceScalar.h"
 
-#include "ProjectedCells.h"
+#include "Projection/ProjectedCells.h"
 #include "ReferenceScenes.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 
-#include "CellVolumes.h"
-#include "FaceNeighbors.h"
+#include "Mesh/CellVolumes.h"
+#include "Mesh/FaceNeighbors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IntegrationPlan.h"
+#include "Integral/IntegrationPlan.h"
 #include "ReferenceIntegral.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IntervalTable.h"
+#include "Optics/IntervalTable.h"
 
 #include "ReferenceScenes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MeshCleaning.h"
+#include "Mesh/MeshCleaning.h"
 
 #include "ThreadCounts.h"
 

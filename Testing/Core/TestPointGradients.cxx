@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PointGradients.h"
+#include "Mesh/PointGradients.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "ThreadCounts.h"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ModelRays.h"
-#include "PreIntegrationBuilder.h"
-#include "PreIntegrationError.h"
-#include "PreIntegrationTable.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "PreIntegration/PreIntegrationError.h"
+#include "PreIntegration/PreIntegrationTable.h"
 #include "ReferenceIntegral.h"
 #include "SampleFunctions.h"
-#include "TexelFormats.h"
+#include "PreIntegration/TexelFormats.h"
 #include "ThreadCounts.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include "RayScene.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "RayScene.h"
 
-#include "PreIntegrationBuilder.h"
-#include "PreIntegrationError.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "PreIntegration/PreIntegrationError.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RayIntegral.h"
-#include "SpecialFunctions.h"
+#include "Integral/RayIntegral.h"
+#include "Integral/SpecialFunctions.h"
 
 #include "ReferenceScenes.h"
 

@@ -3,13 +3,13 @@
 // Rays drawn through meshes, and what tables are estimated to be wrong by on them against whole
 // pictures.
 
-#include "RaySample.h"
+#include "Walk/MeshRays.h"
 
-#include "GeneratedMeshes.h"
-#include "PreIntegrationBuilder.h"
-#include "PreIntegrationError.h"
+#include "Generate/GeneratedMeshes.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "PreIntegration/PreIntegrationError.h"
 #include "RayScene.h"
-#include "TableChoice.h"
+#include "PreIntegration/TableChoice.h"
 #include "ThreadCounts.h"
 
 #include <gtest/gtest.h>

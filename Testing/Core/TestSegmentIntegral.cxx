@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentIntegral.h"
+#include "Integral/SegmentIntegral.h"
 
 #include "ReferenceIntegral.h"
 #include "ReferenceScenes.h"

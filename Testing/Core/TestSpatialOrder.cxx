@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SpatialOrder.h"
+#include "Mesh/SpatialOrder.h"
 
 #include "ThreadCounts.h"
 

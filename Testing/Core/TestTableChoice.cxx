@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables that are chosen: right enough, small, and of what is given.
 #include "ModelRays.h"
-#include "PreIntegrationError.h"
+#include "PreIntegration/PreIntegrationError.h"
 #include "SampleFunctions.h"
-#include "TableChoice.h"
+#include "PreIntegration/TableChoice.h"
 
 #include <gtest/gtest.h>
 

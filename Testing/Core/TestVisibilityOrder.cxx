@@ -2,14 +2,14 @@
 
 // Visibility orders against brute force: no ray may meet two cells in another order.
 
-#include "VisibilityOrder.h"
+#include "Visibility/VisibilityOrder.h"
 
-#include "GeneratedMeshes.h"
-#include "RadixSort.h"
+#include "Generate/GeneratedMeshes.h"
+#include "Base/RadixSort.h"
 #include "ReferenceOcclusion.h"
 #include "ReferenceScenes.h"
 #include "ThreadCounts.h"
-#include "WalkMesh.h"
+#include "Walk/WalkMesh.h"
 
 #include <gtest/gtest.h>
 

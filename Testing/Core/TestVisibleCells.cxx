@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IntervalTable.h"
-#include "RayCaster.h"
+#include "Optics/IntervalTable.h"
+#include "RayCast/RayCaster.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
-#include "VisibleCells.h"
-#include "WalkMesh.h"
+#include "Scene/VisibleCells.h"
+#include "Walk/WalkMesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "VolumeScene.h"
+#include "Scene/VolumeScene.h"
 
 #include <gtest/gtest.h>
 

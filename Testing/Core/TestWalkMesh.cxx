@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "WalkMesh.h"
+#include "Walk/WalkMesh.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "ReferenceScenes.h"
 
 #include <gtest/gtest.h>

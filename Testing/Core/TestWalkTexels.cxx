@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "WalkTexels.h"
+#include "Walk/WalkTexels.h"
 
-#include "CellOrientation.h"
-#include "GeneratedMeshes.h"
-#include "WalkMesh.h"
+#include "Walk/CellOrientation.h"
+#include "Generate/GeneratedMeshes.h"
+#include "Walk/WalkMesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellPatch.h"
 
-#include "FaceNeighbors.h"
+#include "Mesh/FaceNeighbors.h"
 
 #include "vtkCell.h"
 #include "vtkCellType.h"

@@ -2,7 +2,7 @@
 #ifndef CellPatch_h
 #define CellPatch_h
 
-#include "TetrahedralMesh.h"
+#include "Mesh/TetrahedralMesh.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"

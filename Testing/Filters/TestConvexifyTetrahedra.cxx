@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkConvexifyTetrahedra.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "GhostArray.h"
 #include "MessageObserver.h"
 #include "ReferenceConvexity.h"

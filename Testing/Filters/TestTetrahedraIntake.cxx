@@ -2,7 +2,7 @@
 #include "vtkTetrahedraIntake.h"
 
 #include "CellPatch.h"
-#include "FaceNeighbors.h"
+#include "Mesh/FaceNeighbors.h"
 #include "GhostArray.h"
 
 #include "vtkCellArray.h"

@@ -2,8 +2,8 @@
 #include "vtkTetrahedraScalars.h"
 
 #include "CellPatch.h"
-#include "MeshCleaning.h"
-#include "SpatialOrder.h"
+#include "Mesh/MeshCleaning.h"
+#include "Mesh/SpatialOrder.h"
 #include "vtkTetrahedraIntake.h"
 
 #include "vtkCellData.h"

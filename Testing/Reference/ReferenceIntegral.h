@@ -2,8 +2,8 @@
 #ifndef tetralux_ReferenceIntegral_h
 #define tetralux_ReferenceIntegral_h
 
-#include "OpticalModel.h"
-#include "TransferFunction.h"
+#include "Optics/OpticalModel.h"
+#include "Optics/TransferFunction.h"
 
 namespace tetralux
 {

@@ -2,9 +2,9 @@
 #ifndef tetralux_ReferenceOcclusion_h
 #define tetralux_ReferenceOcclusion_h
 
-#include "Span.h"
-#include "TetrahedralMesh.h"
-#include "VisibilityView.h"
+#include "Base/Span.h"
+#include "Mesh/TetrahedralMesh.h"
+#include "Visibility/VisibilityView.h"
 
 #include <cstdint>
 #include <vector>

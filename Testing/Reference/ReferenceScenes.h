@@ -2,10 +2,10 @@
 #ifndef tetralux_ReferenceScenes_h
 #define tetralux_ReferenceScenes_h
 
-#include "RayGrid.h"
-#include "RayLimits.h"
-#include "TetrahedralMesh.h"
-#include "TransferFunction.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
+#include "Mesh/TetrahedralMesh.h"
+#include "Optics/TransferFunction.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #ifndef tetralux_ReferenceShading_h
 #define tetralux_ReferenceShading_h
 
-#include "OpticalModel.h"
+#include "Optics/OpticalModel.h"
 
 #include <array>
 #include <vector>

@@ -3,10 +3,10 @@
 #define RayCastScene_h
 
 #include "ImageComparison.h"
-#include "RayGrid.h"
-#include "RayLimits.h"
-#include "TetrahedralMesh.h"
-#include "TransferFunction.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
+#include "Mesh/TetrahedralMesh.h"
+#include "Optics/TransferFunction.h"
 
 #include "vtkCamera.h"
 #include "vtkColorTransferFunction.h"

@@ -5,7 +5,7 @@
 #include "GlslEvaluator.h"
 #include "GpuSegmentIntegral.h"
 #include "ImageCompositor.h"
-#include "IntervalTable.h"
+#include "Optics/IntervalTable.h"
 #include "OpenGLSnapshot.h"
 
 #include "vtkOpenGLFramebufferObject.h"

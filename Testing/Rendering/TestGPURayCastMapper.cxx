@@ -6,7 +6,7 @@
 #include "OpenGLSnapshot.h"
 #include "RayCastScene.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "ReferenceScenes.h"
 
 #include "vtkActor.h"

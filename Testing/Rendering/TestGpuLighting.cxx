@@ -4,9 +4,9 @@
 #include "GlslEvaluator.h"
 #include "GpuLighting.h"
 #include "GpuSegmentIntegral.h"
-#include "IntervalTable.h"
-#include "RayIntegral.h"
-#include "SurfaceShading.h"
+#include "Optics/IntervalTable.h"
+#include "Integral/RayIntegral.h"
+#include "Optics/SurfaceShading.h"
 
 #include "vtkShaderProgram.h"
 

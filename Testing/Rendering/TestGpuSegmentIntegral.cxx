@@ -3,12 +3,12 @@
 
 #include "GlslEvaluator.h"
 #include "GpuSegmentIntegral.h"
-#include "IntervalTable.h"
+#include "Optics/IntervalTable.h"
 #include "OpenGLSnapshot.h"
-#include "PreIntegrationBuilder.h"
-#include "RayIntegral.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "Integral/RayIntegral.h"
 #include "ScalarBuckets.h"
-#include "SegmentIntegral.h"
+#include "Integral/SegmentIntegral.h"
 #include "StabilityCases.h"
 #include "TextureFilterError.h"
 

@@ -4,7 +4,7 @@
 
 #include "vtkMeshedPolyhedraVisibilitySort.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "RayCastScene.h"
 #include "ReferenceOcclusion.h"
 #include "ReferenceRenderer.h"

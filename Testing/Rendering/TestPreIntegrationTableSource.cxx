@@ -2,7 +2,7 @@
 // vtkPreIntegrationTable: what is in the image, and where.
 #include "vtkPreIntegrationTable.h"
 
-#include "RayIntegral.h"
+#include "Integral/RayIntegral.h"
 #include "TransferFunctionFromProperty.h"
 
 #include "vtkColorTransferFunction.h"

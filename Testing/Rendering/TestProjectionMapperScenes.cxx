@@ -4,7 +4,7 @@
 // of that; but where cells hide each other in a cycle, which have no right order.
 #include "RayCastScene.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 #include "ReferenceScenes.h"
 
 #include "vtkCell.h"

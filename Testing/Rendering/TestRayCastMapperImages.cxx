@@ -3,7 +3,7 @@
 #include "BaselineImage.h"
 #include "RayCastScene.h"
 
-#include "GeneratedMeshes.h"
+#include "Generate/GeneratedMeshes.h"
 
 #include "vtkActor.h"
 #include "vtkCellData.h"

@@ -2,7 +2,7 @@
 // A property's functions become nodes that agree with VTK's own evaluation at any scalar.
 #include "TransferFunctionFromProperty.h"
 
-#include "IntervalTable.h"
+#include "Optics/IntervalTable.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkNew.h"

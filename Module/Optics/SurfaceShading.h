@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_SurfaceShading_h
+#define tetralux_SurfaceShading_h
+
+#include "Optics/OpticalModel.h"
+#include "Mesh/PointGradients.h"
+#include "Mesh/TetrahedralMesh.h"
+#include "TetraluxCoreModule.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tetralux
+{
+
+/// What is shaded, and by what.
+struct SurfaceShading
+{
+  const TetrahedralMesh* Mesh;
+  const double* Scalars;            ///< one a point
+  const PointGradient* Gradients;   ///< one a point; nullptr: those of the cells
+  const double (*MeshFromWorld)[4]; ///< three rows, as in RayGrid
+  std::vector<Light> Lights;
+  Material Surface;
+};
+
+/// What lights make of a colour: color Scale + Add.
+struct LightFactors
+{
+  float Scale[3]; ///< ambient and diffuse light
+  float Add[3];   ///< specular light
+
+  float Apply(int channel, float color) const
+  {
+    return color * this->Scale[channel] + this->Add[channel];
+  }
+};
+
+/// Light at a position in the world, which is in the cell, for a viewer who looks along direction, of
+/// length 1. The normal is the gradient of the scalar, of the cell or interpolated between those of its
+/// points, turned to the viewer; what has no gradient faces the viewer. Ambient and diffuse light times the colour, and Blinn's
+/// specular light, as in VTK's mappers of volumes.
+TETRALUXCORE_EXPORT LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell,
+  const double position[3], const double direction[3]);
+
+} // namespace tetralux
+
+#endif

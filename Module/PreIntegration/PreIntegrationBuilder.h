@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_PreIntegrationBuilder_h
+#define tetralux_PreIntegrationBuilder_h
+
+#include "PreIntegration/PreIntegrationTable.h"
+
+#include <cstdint>
+
+namespace tetralux
+{
+
+/// Fills a table, in all threads of OpenMP; the same to the last bit for any number of them. Memory
+/// of the table is used again where its size stays the same.
+///
+/// With PreIntegrationMethod::ClosedForm the time goes with the texels (at the speed of memory), and
+/// with their number along a scalar squared times the nodes between two scalars.
+///
+/// Throws std::invalid_argument, with one line that says what is wrong: a transfer function that
+/// MakeIntervalTable does not take, settings out of their ranges, colours outside of 0..1 for a
+/// format that can't hold them, a scalar range or lengths beyond what single precision tells apart.
+TETRALUXCORE_EXPORT void BuildPreIntegrationTable(const TransferFunction& function,
+  const PreIntegrationSettings& settings, PreIntegrationTable& table);
+
+/// Changes a table that was built from before to what BuildPreIntegrationTable makes of after, and
+/// rebuilds only texels whose segments meet a scalar at which the two functions differ. All of them
+/// where the axes change (nodes that come, go or move with ScalarAxis::Nodes; other bends, which move
+/// texels) or the largest attenuation passes a power of 2 on a long segment.
+///
+/// Returns the number of texels that were rebuilt. Throws as BuildPreIntegrationTable does; the table
+/// is unchanged then.
+TETRALUXCORE_EXPORT std::int64_t UpdatePreIntegrationTable(
+  const TransferFunction& before, const TransferFunction& after, PreIntegrationTable& table);
+
+/// Settings of a table for the time of an interaction: of the same range, lengths, scale and format,
+/// in at most so many bytes; at most the size asked for, and at least 16 x 16 texels of 8 lengths.
+TETRALUXCORE_EXPORT PreIntegrationSettings GetCoarseSettings(
+  const PreIntegrationSettings& settings, std::size_t bytes);
+
+/// The axes of a table; throw as BuildPreIntegrationTable does.
+TETRALUXCORE_EXPORT ScalarAxisMap MakeScalarAxis(
+  const TransferFunction& function, const PreIntegrationSettings& settings);
+TETRALUXCORE_EXPORT LengthAxisMap MakeLengthAxis(const PreIntegrationSettings& settings);
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "PreIntegration/PreIntegrationKernel.h"
+#include "Integral/SegmentIntegral.h"
+#include "PreIntegration/TexelFormats.h"
+
+#include <cstring>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+void IntegrateLengths(const SegmentPiece* pieces, int numberOfPieces, const float* lengths,
+  int count, float* values, int stride)
+{
+  for (int k = 0; k < count; k += Width)
+  {
+    const Float8 length = LoadFloat8(lengths + k);
+    Float8 transmittance = 1.f;
+    Float8 channels[4] = { 0.f, 0.f, 0.f, 0.f };
+    for (int p = 0; p < numberOfPieces; ++p)
+    {
+      const SegmentPiece& piece = pieces[p];
+      const SegmentWeights w =
+        IntegrateSegment(Float8(piece.Depth[0]) * length, Float8(piece.Depth[1]) * length);
+      const Float8 front = transmittance * w.Front;
+      const Float8 back = transmittance * w.Back;
+      for (int c = 0; c < 3; ++c)
+      {
+        channels[c] =
+          Fma(front, Float8(piece.Color[0][c]), Fma(back, Float8(piece.Color[1][c]), channels[c]));
+      }
+      channels[3] = channels[3] + (front + back);
+      transmittance = transmittance * w.Transmittance;
+    }
+    channels[3] = Min(channels[3], Float8(1.f));
+    alignas(32) float lanes[4][Width];
+    for (int c = 0; c < 4; ++c)
+    {
+      Store(lanes[c], channels[c]);
+    }
+    for (int i = 0; i < Width; ++i)
+    {
+      float* value = values + static_cast<long long>(k + i) * stride;
+      for (int c = 0; c < 4; ++c)
+      {
+        value[c] = lanes[c][i];
+      }
+    }
+  }
+}
+
+/// Rows, and registers of each, whose sums are made together: enough for no sum to wait for its last
+/// term, and each number that is loaded serves several.
+constexpr int RowsAtOnce = 4;
+constexpr int RegistersAtOnce = 2;
+
+template <int Rows, int Registers>
+TETRALUX_INLINE void CombineRegisters(const float* values, int stride, int numberOfValues,
+  const float* weights, Float8 least, Float8 most, float* result, long long resultStride)
+{
+  Float8 sums[Rows][Registers];
+  for (int r = 0; r < Rows; ++r)
+  {
+    for (int j = 0; j < Registers; ++j)
+    {
+      sums[r][j] = 0.f;
+    }
+  }
+  for (int k = 0; k < numberOfValues; ++k)
+  {
+    const float* row = values + static_cast<long long>(k) * stride;
+    Float8 value[Registers];
+    for (int j = 0; j < Registers; ++j)
+    {
+      value[j] = LoadFloat8(row + j * Width);
+    }
+    for (int r = 0; r < Rows; ++r)
+    {
+      const Float8 weight = weights[r * numberOfValues + k];
+      for (int j = 0; j < Registers; ++j)
+      {
+        sums[r][j] = Fma(weight, value[j], sums[r][j]);
+      }
+    }
+  }
+  for (int r = 0; r < Rows; ++r)
+  {
+    for (int j = 0; j < Registers; ++j)
+    {
+      Store(result + r * resultStride + j * Width, Min(Max(sums[r][j], least), most));
+    }
+  }
+}
+
+template <int Rows>
+TETRALUX_INLINE void Combine(const float* values, int stride, int numberOfValues,
+  const float* weights, Float8 least, float* result, long long resultStride, int size)
+{
+  alignas(32) static constexpr float largest[Width] = { 3e38f, 3e38f, 3e38f, 1.f, 3e38f, 3e38f,
+    3e38f, 1.f };
+  const Float8 most = LoadFloat8(largest);
+  int i = 0;
+  for (; i + RegistersAtOnce * Width <= size; i += RegistersAtOnce * Width)
+  {
+    CombineRegisters<Rows, RegistersAtOnce>(
+      values + i, stride, numberOfValues, weights, least, most, result + i, resultStride);
+  }
+  for (; i + Width <= size; i += Width)
+  {
+    CombineRegisters<Rows, 1>(
+      values + i, stride, numberOfValues, weights, least, most, result + i, resultStride);
+  }
+  // Half a register is left where the number of texels is odd.
+  for (; i < size; ++i)
+  {
+    for (int r = 0; r < Rows; ++r)
+    {
+      Float8 sum = 0.f;
+      for (int k = 0; k < numberOfValues; ++k)
+      {
+        sum = Fma(Float8(weights[r * numberOfValues + k]),
+          Float8(values[static_cast<long long>(k) * stride + i]), sum);
+      }
+      result[r * resultStride + i] = Lane(Min(Max(sum, least), Float8(largest[i % 4])), 0);
+    }
+  }
+}
+
+void CombineRows(const float* values, int stride, int numberOfValues, const float* weights,
+  int numberOfRows, bool keepNegative, float* result, long long resultStride, int size)
+{
+  const Float8 least = keepNegative ? -3e38f : 0.f;
+  int row = 0;
+  for (; row + RowsAtOnce <= numberOfRows; row += RowsAtOnce)
+  {
+    Combine<RowsAtOnce>(values, stride, numberOfValues, weights + row * numberOfValues, least,
+      result + row * resultStride, resultStride, size);
+  }
+  for (; row < numberOfRows; ++row)
+  {
+    Combine<1>(values, stride, numberOfValues, weights + row * numberOfValues, least,
+      result + row * resultStride, resultStride, size);
+  }
+}
+
+void JoinSegments(const float* front, const float* back, int n, const int* indices,
+  const float* shares, int begin, int end, float* result)
+{
+  for (int f = begin; f < end; ++f)
+  {
+    const float t = shares[f];
+    const float* f0 = front + 4 * (static_cast<long long>(indices[f]) * n + f);
+    const float* f1 = f0 + 4 * static_cast<long long>(n);
+    const float* b0 = back + 4 * static_cast<long long>(indices[f]);
+    float* sum = result + 4 * static_cast<long long>(f);
+    float first[4];
+    for (int c = 0; c < 4; ++c)
+    {
+      first[c] = f0[c] + t * (f1[c] - f0[c]);
+    }
+    const float behind = 1.f - first[3];
+    for (int c = 0; c < 4; ++c)
+    {
+      const float second = b0[c] + t * (b0[4 + c] - b0[c]);
+      sum[c] = first[c] + behind * second;
+    }
+    sum[3] = sum[3] < 1.f ? sum[3] : 1.f;
+  }
+}
+
+template <class Channel>
+void Encode(const float* values, std::size_t count, std::uint8_t* texels)
+{
+  auto* channels = reinterpret_cast<typename Channel::Type*>(texels);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    channels[i] = Channel::Encode(values[i]);
+  }
+}
+
+void EncodeChannels(
+  TexelFormat format, const float* values, std::size_t count, std::uint8_t* texels)
+{
+  switch (format)
+  {
+    case TexelFormat::UNorm8:
+      return Encode<UNorm8Channel>(values, count, texels);
+    case TexelFormat::UNorm16:
+      return Encode<UNorm16Channel>(values, count, texels);
+    case TexelFormat::Half:
+      return Encode<HalfChannel>(values, count, texels);
+    case TexelFormat::Float:
+      std::memcpy(texels, values, count * sizeof(float));
+  }
+}
+
+PreIntegrationKernels MakePreIntegrationKernels()
+{
+  return { IntegrateLengths, CombineRows, JoinSegments, EncodeChannels };
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PreIntegration/TableChoice.h"
+
+#include "PreIntegration/TableRays.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "Integral/RayIntegral.h"
+#include "PreIntegration/TexelFormats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Nodes between two scalars, on average over all segments of the rays, plus one.
+double CountPieces(const TransferFunction& function, const RaySample& sample)
+{
+  const auto rank = [&function](double s)
+  {
+    return std::upper_bound(function.Nodes.begin(), function.Nodes.end(), s,
+             [](double scalar, const TransferFunction::Node& node)
+             { return scalar < node.Scalar; }) -
+      function.Nodes.begin();
+  };
+  double pieces = 0;
+  double segments = 0;
+  for (const std::vector<RaySegment>& ray : sample.Rays)
+  {
+    for (const RaySegment& segment : ray)
+    {
+      pieces += 1 + static_cast<double>(std::abs(rank(segment.Front) - rank(segment.Back)));
+    }
+    segments += static_cast<double>(ray.size());
+  }
+  return segments > 0 ? pieces / segments : 1;
+}
+
+/// Sizes and scales in the order of their costs: scalars, lengths, steps for each doubling (0:
+/// linear). 256 x 256 x 16 with one step, and 128 x 128 x 256, are those of the papers.
+struct Sizes
+{
+  int Scalars, Lengths, Steps;
+};
+
+constexpr Sizes Ladder[] = { { 32, 16, 0 }, { 32, 25, 2 }, { 64, 32, 0 }, { 64, 49, 4 },
+  { 128, 32, 0 }, { 128, 49, 4 }, { 256, 16, 1 }, { 256, 32, 0 }, { 256, 49, 4 }, { 128, 193, 16 },
+  { 128, 256, 0 }, { 256, 97, 8 }, { 512, 32, 0 }, { 512, 49, 4 }, { 256, 256, 0 },
+  { 512, 193, 16 } };
+
+/// All tables that a goal leaves free to choose, in single precision, in the order of their costs.
+std::vector<PreIntegrationSettings> GetCandidates(const TableGoal& goal)
+{
+  std::vector<PreIntegrationSettings> candidates;
+  for (const Sizes& sizes : Ladder)
+  {
+    for (const ScalarAxis axis : { ScalarAxis::Nodes, ScalarAxis::Uniform })
+    {
+      PreIntegrationSettings settings;
+      settings.ScalarSize = goal.ScalarSize > 0 ? goal.ScalarSize : sizes.Scalars;
+      settings.LengthSize = goal.LengthSize > 0 ? goal.LengthSize : sizes.Lengths;
+      settings.Scale = sizes.Steps > 0 ? LengthScale::Logarithmic : LengthScale::Linear;
+      settings.StepsPerDoubling = std::max(sizes.Steps, 1);
+      settings.Axis = axis;
+      std::copy_n(goal.ScalarRange, 2, settings.ScalarRange);
+      settings.LongestSegment = goal.LongestSegment;
+      // Sizes that are given make some steps of the ladder the same.
+      const bool again = std::any_of(candidates.begin(), candidates.end(),
+        [&](const PreIntegrationSettings& other)
+        {
+          return other.ScalarSize == settings.ScalarSize &&
+            other.LengthSize == settings.LengthSize && other.Scale == settings.Scale &&
+            other.StepsPerDoubling == settings.StepsPerDoubling && other.Axis == settings.Axis;
+        });
+      if ((goal.AnyScale || settings.Scale == goal.Scale) &&
+        (goal.AnyAxis || settings.Axis == goal.Axis) &&
+        settings.StepsPerDoubling < settings.LengthSize && !again)
+      {
+        candidates.push_back(settings);
+      }
+    }
+  }
+  return candidates;
+}
+
+/// A table whose texels are computed when they are looked up: for a few thousand lookups, much less
+/// work than to fill it.
+class VirtualTable
+{
+public:
+  VirtualTable(const TransferFunction& function, const PreIntegrationSettings& settings)
+    : Function(function)
+    , Format(settings.Format)
+  {
+    this->Axes.Scalars = MakeScalarAxis(function, settings);
+    this->Axes.Lengths = MakeLengthAxis(settings);
+  }
+
+  void LookUp(double front, double back, double length, float rgba[4]) const
+  {
+    this->Axes.Interpolate(front, back, length, rgba,
+      [this](int f, int b, int r, float texel[4]) { this->GetTexel(f, b, r, texel); });
+  }
+
+private:
+  void GetTexel(int f, int b, int r, float texel[4]) const
+  {
+    const SegmentRadiance exact = IntegrateEmissionAbsorption(
+      this->Function, this->GetScalar(f), this->GetScalar(b), this->Axes.Lengths.GetLength(r));
+    for (int c = 0; c < 4; ++c)
+    {
+      texel[c] = this->Round(static_cast<float>(c < 3 ? exact.Color[c] : exact.Opacity));
+    }
+  }
+
+  /// The two texels of a step are just beside it.
+  double GetScalar(int texel) const
+  {
+    const std::vector<double>& texels = this->Axes.Scalars.Texels;
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    const double s = texels[texel];
+    if (texel + 1 < this->Axes.Scalars.GetSize() && texels[texel + 1] == s)
+    {
+      return std::nextafter(s, -Infinity);
+    }
+    return texel > 0 && texels[texel - 1] == s ? std::nextafter(s, Infinity) : s;
+  }
+
+  float Round(float value) const
+  {
+    switch (this->Format)
+    {
+      case TexelFormat::UNorm8:
+        return UNorm8Channel::Decode(UNorm8Channel::Encode(value));
+      case TexelFormat::UNorm16:
+        return UNorm16Channel::Decode(UNorm16Channel::Encode(value));
+      case TexelFormat::Half:
+        return HalfChannel::Decode(HalfChannel::Encode(value));
+      case TexelFormat::Float:
+        break;
+    }
+    return value;
+  }
+
+  const TransferFunction& Function;
+  TexelFormat Format;
+  PreIntegrationTable Axes; ///< without texels
+};
+
+/// Whether a table is within the limit of bytes.
+bool Fits(const PreIntegrationSettings& settings, TexelFormat format, const TableGoal& goal)
+{
+  return GetTexelSize(format) * settings.ScalarSize * settings.ScalarSize * settings.LengthSize <=
+    goal.MaximumBytes;
+}
+
+bool IsInteger(TexelFormat format)
+{
+  return format == TexelFormat::UNorm8 || format == TexelFormat::UNorm16;
+}
+
+/// Whether all colours are in 0..1.
+bool HasColorsUpToOne(const TransferFunction& function)
+{
+  const auto isInside = [](double c) { return 0 <= c && c <= 1; };
+  return std::all_of(function.Nodes.begin(), function.Nodes.end(),
+    [&](const TransferFunction::Node& node)
+    {
+      return std::all_of(node.Left.Color, node.Left.Color + 3, isInside) &&
+        std::all_of(node.Right.Color, node.Right.Color + 3, isInside);
+    });
+}
+
+} // namespace
+
+TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const TableGoal& goal)
+{
+  TableChoice choice;
+  choice.PiecesPerSegment = CountPieces(function, *goal.Rays);
+  if (choice.PiecesPerSegment <= goal.LookupCost && !goal.AlwaysTable)
+  {
+    choice.Reason = "closed form: a segment has few pieces, a lookup takes longer";
+    return choice;
+  }
+
+  const ExactRays rays(function, *goal.Rays);
+  const bool integersHold = HasColorsUpToOne(function);
+  // A few rays tell most tables that are not right, for much less than it takes to fill them.
+  const auto mayBeRight = [&](const PreIntegrationSettings& settings, double allowed)
+  {
+    const VirtualTable table(function, settings);
+    return rays.MayBeRight(allowed,
+      [&table](double front, double back, double length, float rgba[4])
+      { table.LookUp(front, back, length, rgba); });
+  };
+  // Makes a table the choice where its error is at most what is allowed.
+  const auto choose = [&](const PreIntegrationSettings& settings, double allowed)
+  {
+    if (!mayBeRight(settings, allowed))
+    {
+      return false;
+    }
+    auto table = std::make_shared<PreIntegrationTable>();
+    BuildPreIntegrationTable(function, settings, *table);
+    const double error = rays.Estimate(*table, allowed);
+    if (error > allowed)
+    {
+      return false;
+    }
+    choice.Table = std::move(table);
+    choice.PictureError = error;
+    return true;
+  };
+  std::vector<PreIntegrationSettings> candidates = GetCandidates(goal);
+  for (PreIntegrationSettings& settings : candidates)
+  {
+    const auto fits = [&](TexelFormat format) { return Fits(settings, format, goal); };
+    // In single precision first: what that can't do, no other format can.
+    if (!fits(goal.AnyFormat ? TexelFormat::UNorm8 : goal.Format) ||
+      !mayBeRight(settings, goal.MaximumError))
+    {
+      continue;
+    }
+    for (const TexelFormat format :
+      { TexelFormat::UNorm8, TexelFormat::UNorm16, TexelFormat::Half, TexelFormat::Float })
+    {
+      settings.Format = format;
+      const bool isFree =
+        goal.AnyFormat ? !IsInteger(format) || integersHold : format == goal.Format;
+      if (isFree && fits(format) && choose(settings, goal.MaximumError))
+      {
+        choice.Reason = "table: the smallest that is right enough";
+        return choice;
+      }
+    }
+  }
+  choice.Reason = "closed form: no table within the limits is right enough";
+  if (!goal.AlwaysTable)
+  {
+    return choice;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (PreIntegrationSettings& settings : candidates)
+  {
+    settings.Format = goal.AnyFormat ? TexelFormat::Float : goal.Format;
+    if (Fits(settings, settings.Format, goal) && choose(settings, least))
+    {
+      least = choice.PictureError;
+      choice.Reason = "table: asked for; none is right enough, this is the most exact one";
+    }
+  }
+  return choice;
+}
+
+} // namespace tetralux

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_TableChoice_h
+#define tetralux_TableChoice_h
+
+// Which pre-integration table is right enough for pictures, see PreIntegrationError.h.
+
+#include "PreIntegration/PreIntegrationTable.h"
+#include "Walk/MeshRays.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+namespace tetralux
+{
+
+/// What a table is chosen for.
+struct TableGoal
+{
+  double MaximumError = 1. / 255; ///< of a picture's channel, absolute, more than 0
+  std::size_t MaximumBytes = std::size_t{ 64 } << 20;
+
+  /// What the table has to be right for; not nullptr.
+  std::shared_ptr<const RaySample> Rays;
+
+  // What the axes of the table reach to: no scalar or segment of a picture is beyond.
+  double ScalarRange[2] = { 0, 1 };
+  double LongestSegment = 1; ///< world units
+
+  /// Time of a lookup in units of that of the closed form on one piece. Segments with more pieces
+  /// are faster by table. A processor takes about as long for a lookup of eight rays as for
+  /// LookupCost pieces, see Module/Notes.md; a GPU's texture units make it a fraction.
+  double LookupCost = 3;
+
+  /// A table also where the closed form would be chosen: the most exact one within the limits, where
+  /// none is right enough.
+  bool AlwaysTable = false;
+
+  // What is not to be chosen: sizes of 0 are free.
+  int ScalarSize = 0;
+  int LengthSize = 0;
+  bool AnyScale = true;
+  LengthScale Scale = LengthScale::Linear;
+  bool AnyAxis = true;
+  ScalarAxis Axis = ScalarAxis::Nodes;
+  bool AnyFormat = true;
+  TexelFormat Format = TexelFormat::Float;
+};
+
+struct TableChoice
+{
+  /// nullptr, no table: the closed form is as fast, or no table within the limits is right enough.
+  std::shared_ptr<PreIntegrationTable> Table;
+  double PictureError = 0;     ///< EstimatePictureError of the table; 0 without one
+  double PiecesPerSegment = 1; ///< of the rays, on average
+  std::string Reason;          ///< one line
+};
+
+/// The smallest table whose EstimatePictureError is at most what is asked for; else none, or with
+/// AlwaysTable the one of the least error.
+/// Tables of growing size are tried until one is right. A few rays rule most of them out, for which
+/// only the texels they look up are computed; what is left is built and measured on all rays. Some 100
+/// milliseconds of one thread, and up to a second where no table is right. Throws as
+/// BuildPreIntegrationTable does.
+TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(
+  const TransferFunction& function, const TableGoal& goal);
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RayCastCrossings_h
+#define tetralux_RayCastCrossings_h
+
+// Where the rays of a packet cross the boundary.
+
+#include "RayCast/RayCastFrame.h"
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+/// Which rays go through a triangle, and where.
+template <class Real>
+struct TriangleHit
+{
+  using V = typename LanesOf<Real>::Type;
+  Mask8 Hit;
+  Mask8 Clockwise; ///< all three determinants negative
+  V BC, CA, AB;    ///< det(b, c), det(c, a), det(a, b)
+};
+
+template <class Real>
+TETRALUX_INLINE TriangleHit<Real> TestTriangle(
+  const Corner<Real>& a, const Corner<Real>& b, const Corner<Real>& c)
+{
+  TriangleHit<Real> t;
+  t.BC = Det(b, c);
+  t.CA = Det(c, a);
+  t.AB = Det(a, b);
+  using V = typename LanesOf<Real>::Type;
+  const V zero = Real(0);
+  Mask8 p = zero < t.BC;
+  Mask8 q = zero < t.CA;
+  Mask8 r = zero < t.AB;
+  if (Any((t.BC == zero) | (t.CA == zero) | (t.AB == zero)))
+  {
+    p = IsPositive(t.BC, b, c);
+    q = IsPositive(t.CA, c, a);
+    r = IsPositive(t.AB, a, b);
+  }
+  const Mask8 all = MaskFromBits(0xff);
+  t.Clockwise = AndNot(all, p | q | r);
+  t.Hit = (p & q & r) | t.Clockwise;
+  return t;
+}
+
+/// The crossings of eight rays with the boundary, each ray's in ascending distance.
+struct PacketCrossings
+{
+  int Count[Width];
+};
+
+/// Adds where rays cross a face of the boundary. False where the buffer was too small; it is larger
+/// then.
+template <class Real>
+TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 active,
+  std::int32_t entryId, CrossingBuffer& buffer, PacketCrossings& crossings)
+{
+  const WalkEntry& entry = in.Entries[entryId];
+  const auto* points = static_cast<const WalkPoint<Real>*>(in.Points);
+  Corner<Real> corners[3];
+  for (int c = 0; c < 3; ++c)
+  {
+    const WalkPoint<Real>& p = points[entry.Points[c]];
+    corners[c] = Project(rays, p.X, p.Y, p.Z, p.S, Int8(entry.Points[c]));
+  }
+  const TriangleHit<Real> t = TestTriangle(corners[0], corners[1], corners[2]);
+  const Mask8 hit = t.Hit & active;
+  unsigned bits = Bits(hit);
+  if (bits == 0)
+  {
+    return true;
+  }
+  Real z[Width];
+  const auto scale = typename LanesOf<Real>::Type(Real(1)) / (t.BC + t.CA + t.AB);
+  Store(z, Blend(t.CA * scale, t.AB * scale, corners[0].Z, corners[1].Z, corners[2].Z));
+  for (int lane = 0; bits != 0; ++lane, bits >>= 1)
+  {
+    if (!(bits & 1u))
+    {
+      continue;
+    }
+    int& count = crossings.Count[lane];
+    if (count == buffer.Capacity)
+    {
+      buffer.Grow(buffer);
+      return false;
+    }
+    // Insertion keeps the list ascending; lists are short.
+    Crossing* list = buffer.Crossings + static_cast<std::int64_t>(lane) * buffer.Capacity;
+    int k = count++;
+    for (; k > 0 && list[k - 1].Distance > z[lane]; --k)
+    {
+      list[k] = list[k - 1];
+    }
+    list[k] = { z[lane], entryId };
+  }
+  return true;
+}
+
+/// Finds where rays cross the boundary. False where the buffer was too small; it is larger then.
+template <class Real>
+inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 active,
+  CrossingBuffer& buffer, PacketCrossings& crossings)
+{
+  for (int& n : crossings.Count)
+  {
+    n = 0;
+  }
+  if (!in.Nodes)
+  {
+    return true;
+  }
+  Float8 u[4], v[4], absU[3], absV[3];
+  for (int a = 0; a < 4; ++a)
+  {
+    u[a] = ToFloat(rays.U[a]);
+    v[a] = ToFloat(rays.V_[a]);
+  }
+  for (int a = 0; a < 3; ++a)
+  {
+    absU[a] = Abs(u[a]);
+    absV[a] = Abs(v[a]);
+  }
+  // One child waits for each level above.
+  std::int32_t stack[BoundaryBvh::MaximumDepth + 1];
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0)
+  {
+    const std::int32_t nodeId = stack[--top];
+    const BoundaryBvh::Node& node = in.Nodes[nodeId];
+    // The box projected to the bounds of its shadow: no divisions, no special directions.
+    const Float8 cx = node.Center[0], cy = node.Center[1], cz = node.Center[2];
+    const Float8 hx = node.Half[0], hy = node.Half[1], hz = node.Half[2];
+    const Float8 x = Fma(u[0], cx, Fma(u[1], cy, Fma(u[2], cz, u[3])));
+    const Float8 y = Fma(v[0], cx, Fma(v[1], cy, Fma(v[2], cz, v[3])));
+    const Mask8 near = (Abs(x) <= Dot(absU, hx, hy, hz)) & (Abs(y) <= Dot(absV, hx, hy, hz));
+    if (!Any(near & active))
+    {
+      continue;
+    }
+    if (node.Count == 0)
+    {
+      stack[top++] = node.First;
+      stack[top++] = nodeId + 1;
+      continue;
+    }
+    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+    {
+      if (!AddCrossings(in, rays, active, in.Triangles[i], buffer, crossings))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RayCastKernel_h
+#define tetralux_RayCastKernel_h
+
+// What the kernels of the ray caster read and write: plain pointers, filled by CastRays. The
+// kernels themselves (RayCastKernel.inl) are compiled once for each instruction set.
+
+#include "Hierarchy/BoundaryBvh.h"
+#include "Optics/IntervalTable.h"
+#include "Optics/OpticalModel.h"
+#include "PreIntegration/PreIntegrationTable.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
+#include "Optics/SurfaceShading.h"
+#include "Walk/WalkMesh.h"
+
+#include <array>
+#include <cstdint>
+
+namespace tetralux
+{
+
+/// A pre-integration table with texels in single precision.
+struct KernelTable
+{
+  const float* Texels; ///< four each, in the order of PreIntegrationTable
+  const ScalarAxisMap::Interval* Axis;
+  int AxisSize; ///< number of intervals
+  int ScalarSize;
+  int LengthSize;
+  bool Logarithmic;
+  int StepsPerDoubling;
+  float InverseDelta;
+};
+
+struct KernelInput
+{
+  // The mesh. Points: WalkPoint<Real> of the kernel's Real.
+  const void* Points;
+  const WalkFace* Faces;
+  const WalkEntry* Entries;
+  const BoundaryBvh::Node* Nodes; ///< nullptr: no boundary, an empty mesh
+  const std::int32_t* Triangles;
+  std::int32_t NumberOfCells; ///< of the mesh; those behind are imaginary
+  double Center[3];
+  double Radius;
+
+  // What is integrated. Intervals for scalars at points, CellValues for scalars at cells; of the
+  // largest scalar these hold the scalar, as the intervals map it, for an attenuation.
+  const IntervalTable::Interval* Intervals;
+  int NumberOfIntervals;
+  const CellValue* CellValues;
+  float Color[3]; ///< OpticalDepth: where the colour is constant
+  /// Values of surfaces i - 1 and i, for i from 0 up to their number.
+  const std::array<float, 2>* SurfaceNeighbors;
+  const float* SurfaceColors;    ///< red, green, blue, opacity of each surface, ascending in value
+  const KernelTable* Table;      ///< of Integrator::Table
+  const SurfaceShading* Shading; ///< of lit integrators; of isosurfaces nullptr where they are flat
+  double DistanceRounding;       ///< what distances along rays may be off by, in world units
+
+  // The scene.
+  const RayGrid* Grid;
+  const std::array<double, 4>* Planes;
+  int NumberOfPlanes;
+  const double* CroppingPlanes; ///< nullptr: no cropping
+  std::uint32_t CroppingFlags;
+  const float* MaximumDistances; ///< nullptr: none
+
+  /// A ray ends where it is this opaque: too little of the light behind would reach the eye.
+  float MaximumOpacity;
+  float MaximumDepth; ///< the same as an optical depth
+
+  float* Colors; ///< four a pixel, premultiplied
+  float* Depths; ///< one a pixel
+};
+
+/// Where a ray crosses the boundary of the mesh.
+struct Crossing
+{
+  double Distance;
+  std::int32_t Entry; ///< index into KernelInput::Entries, or -1 once it was walked from or to
+};
+
+/// Room for the crossings of a packet's rays, owned by one thread and grown on demand.
+struct CrossingBuffer
+{
+  Crossing* Crossings; ///< Capacity for each lane, lane after lane
+  int Capacity;
+  void (*Grow)(CrossingBuffer&); ///< at least doubles Capacity; contents are lost
+};
+
+struct KernelCounts
+{
+  std::int64_t Segments = 0; ///< cells walked through, over all rays
+  std::int64_t Steps = 0;    ///< steps of packets; Segments / (8 Steps) is the share of busy lanes
+  std::int64_t Paths = 0;    ///< entries into the mesh
+};
+
+/// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1).
+using RayCastKernel = void (*)(
+  const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
+
+/// The ways of integrating that there are kernels for, see RayCastModels.h.
+enum class Integrator
+{
+  ClosedForm,    ///< emission and absorption
+  LitClosedForm, ///< emission and absorption, lit; scalars at points only
+  Table,         ///< emission and absorption, scalars at points only
+  LitTable,      ///< emission and absorption, lit; scalars at points only
+  OpticalDepth,  ///< emission and absorption of a constant colour, or absorption alone
+  Emission,      ///< emission alone
+  Maximum,       ///< the largest scalar
+  Isosurfaces,   ///< scalars at points only
+  Count
+};
+
+/// The kernels of one instruction set.
+struct RayCastKernels
+{
+  struct Pair
+  {
+    RayCastKernel Single = nullptr;
+    RayCastKernel Double = nullptr;
+  };
+  Pair Points[static_cast<int>(Integrator::Count)];
+  Pair Cells[static_cast<int>(Integrator::Count)];
+};
+
+RayCastKernels GetRayCastKernelsGeneric();
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+RayCastKernels GetRayCastKernelsAvx2();
+#endif
+
+} // namespace tetralux
+
+#endif

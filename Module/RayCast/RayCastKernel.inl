@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Cell-to-cell ray casting of packets of eight rays (Garrity 1990; Weiler et al. 2003, section 3),
+// by two-dimensional edge tests that carry the entry face along.
+//
+// Each ray sees the mesh in a frame of its own: x and y across the ray, z along it, the ray at
+// x = y = 0. A cell is entered through the triangle a b c, whose projections surround the origin.
+// The cell's fourth point p replaces one of them: the ray leaves through the one triangle of p and
+// two of a, b, c that surrounds the origin, and the signs of the three determinants det(p, a),
+// det(p, b), det(p, c) tell which. The next cell is then known together with its fourth point
+// (WalkFace), so that a step reads 8 bytes of topology and one point.
+//
+// Why no ray is lost or counted twice, in single precision too:
+// * A projection is rounded, but it is the same whichever cell asks: it moves points of the mesh by
+//   an ulp, the same way for all cells around them.
+// * The determinants of the rounded projections have exact signs (DifferenceOfProducts). A
+//   determinant of exactly zero, a ray through an edge or a vertex, is decided as if the ray were
+//   displaced by (e, e^2), e infinitely small (simulation of simplicity, Edelsbrunner and Muecke
+//   1990). So each edge passes each ray on one side, for every cell that has the edge.
+// * Whatever a tetrahedron became in the projection - flat, inverted - the origin is inside none or
+//   two of its four triangles. Steps are thus a pairing of faces: a walk that starts at a boundary
+//   face visits no cell twice and ends at another boundary face.
+//
+// Boundary crossings are found by the same determinants, so they come in pairs, too: walking from
+// the nearest one strikes off the one where the walk ends, and the next one left is a re-entry.
+
+#include "RayCast/RayCastCrossings.h"
+#include "RayCast/RayCastLimits.h"
+#include "RayCast/RayCastModels.h"
+#include "RayCast/RayCastTable.h"
+
+#include <limits>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+/// Eight rays of neighbouring pixels on their way through the mesh.
+///
+/// The rays that are in the mesh take one cell each in every step.
+template <class Real, class Model, bool CellData>
+class Packet
+{
+public:
+  using V = typename LanesOf<Real>::Type;
+
+  /// The rays of the pixels from (x, y), those of them below (x1, y1).
+  Packet(const KernelInput& in, int x, int y, int x1, int y1, CrossingBuffer& buffer,
+    KernelCounts& counts)
+    : In(in)
+    , Buffer(buffer)
+    , Counts(counts)
+    , PixelX(x)
+    , PixelY(y)
+    , World(MakeWorldRays(*in.Grid, x, y))
+    , Ray(MakeRays<Real>(in, World))
+    , Limits(LimitRays(in, x, y, World, Ray.Start))
+    , Gathered(World, Ray.Start)
+  {
+    for (int i = 0; i < Width; ++i)
+    {
+      this->Inside |= static_cast<unsigned>(x + i % 4 < x1 && y + i / 4 < y1) << i;
+    }
+  }
+
+  void Cast()
+  {
+    this->BeginPart();
+    while (this->Running)
+    {
+      this->Walk();
+      this->Integrate();
+    }
+    this->WritePixels();
+  }
+
+private:
+  /// From the face a b c of each ray's cell to the one that the fourth point makes with two of them.
+  TETRALUX_INLINE void Walk()
+  {
+    const Corner<Real> p = LoadCorner<Real>(this->Ray, this->In.Points, this->Point);
+    const V pa = Det(p, this->A);
+    const V pb = Det(p, this->B);
+    const V pc = Det(p, this->C);
+    const V zero = Real(0);
+    Mask8 aSide = zero < pa;
+    Mask8 bSide = zero < pb;
+    Mask8 cSide = zero < pc;
+    if (Any((pa == zero) | (pb == zero) | (pc == zero)))
+    {
+      aSide = IsPositive(pa, p, this->A);
+      bSide = IsPositive(pb, p, this->B);
+      cSide = IsPositive(pc, p, this->C);
+    }
+    const Mask8 dropA = AndNot(bSide, cSide);
+    const Mask8 dropB = AndNot(cSide, aSide);
+    const Mask8 keepC = dropA | dropB;
+
+    // The exit face is opposite to the dropped point, whose place among the cell's ascending ids
+    // is the number of smaller ones.
+    const Int8 dropped = Select(dropA, this->A.Id, Select(dropB, this->B.Id, this->C.Id));
+    this->A.Id = Select(dropA, p.Id, this->A.Id);
+    this->B.Id = Select(dropB, p.Id, this->B.Id);
+    this->C.Id = Select(keepC, this->C.Id, p.Id);
+    const Int8 face =
+      Ones(dropped > this->A.Id) + Ones(dropped > this->B.Id) + Ones(dropped > this->C.Id);
+    this->CellBefore = this->Cell;
+    GatherPairs(reinterpret_cast<const std::int32_t*>(this->In.Faces),
+      ShiftLeft(this->Cell, 2) + face, this->Cell, this->Point);
+
+    // det(p, x) is the weight of the corner across; the replaced corner keeps its weight for p.
+    const V wa = Select(dropA, this->WA, Abs(Select(dropB, pc, pb)));
+    const V wb = Select(dropB, this->WB, Abs(Select(dropA, pc, pa)));
+    this->WC = Select(keepC, Abs(Select(dropA, pb, pa)), this->WC);
+    this->WA = wa;
+    this->WB = wb;
+    Replace(this->A, dropA, p);
+    Replace(this->B, dropB, p);
+    Replace(this->C, AndNot(MaskFromBits(0xff), keepC), p);
+  }
+
+  /// The integral over the cells of the last Walk, and what follows for rays at their end.
+  TETRALUX_INLINE void Integrate()
+  {
+    const V z0 = this->Z;
+    const V s0 = this->S;
+    this->Interpolate();
+    const V z1 = this->Z;
+    const V s1 = this->S;
+    const Mask8 running = MaskFromBits(this->Running);
+    Mask8 valid = running & this->IsReal();
+    if constexpr (Model::NeedsLength)
+    {
+      valid = AndNot(valid, z0 == z1);
+    }
+    V zFrom = z0;
+    V zTo = z1;
+    V sFrom = s0;
+    V sTo = s1;
+    const Mask8 backward = z1 < z0;
+    if (Any(running & (backward | (z0 < this->Near) | (this->Far < z1))))
+    {
+      // An inverted cell among others is walked from its far side to its near one; it is seen as
+      // any other cell.
+      const V zNear = Min(z0, z1);
+      const V zFar = Max(z0, z1);
+      zFrom = Max(zNear, this->Near);
+      zTo = Min(zFar, this->Far);
+      valid = valid & (Model::NeedsLength ? zFrom < zTo : zFrom <= zTo);
+      if constexpr (!CellData)
+      {
+        const V sNear = Select(backward, s1, s0);
+        const V sFar = Select(backward, s0, s1);
+        // By shares of the cell: a slope may overflow.
+        const V ds = sFar - sNear;
+        const V dz = zFar - zNear;
+        sFrom = Select(zNear < this->Near, Fma((zFrom - zNear) / dz, ds, sNear), sNear);
+        sTo = Select(this->Far < zFar, Fma((zTo - zNear) / dz, ds, sNear), sFar);
+      }
+    }
+    if constexpr (CellData)
+    {
+      this->Gathered.AddCell(this->In, valid, this->CellBefore, zFrom, zTo);
+    }
+    else
+    {
+      this->Gathered.AddPoints(this->In, valid, this->CellBefore, zFrom, sFrom, zTo, sTo);
+    }
+    ++this->Counts.Steps;
+    this->Counts.Segments += __builtin_popcount(this->Running);
+
+    // Rays that are opaque or past their end are done; rays that left the mesh may enter again.
+    const Mask8 done = this->Gathered.IsDone(this->In) | (this->Far <= z1);
+    const Mask8 outside = Int8(0) > this->Cell;
+    const unsigned doneBits = Bits(done) & this->Running;
+    const unsigned outsideBits = Bits(outside);
+    if ((doneBits | outsideBits) != 0)
+    {
+      this->Leave(outside, outsideBits, doneBits);
+    }
+  }
+
+  /// Imaginary cells come after those of the mesh, and contribute nothing.
+  TETRALUX_INLINE Mask8 IsReal() const { return Int8(this->In.NumberOfCells) > this->CellBefore; }
+
+  static TETRALUX_INLINE void Replace(Corner<Real>& corner, Mask8 m, const Corner<Real>& p)
+  {
+    corner.X = Select(m, p.X, corner.X);
+    corner.Y = Select(m, p.Y, corner.Y);
+    corner.Z = Select(m, p.Z, corner.Z);
+    corner.S = Select(m, p.S, corner.S);
+  }
+
+  /// Distance and scalar where each ray goes through its triangle.
+  TETRALUX_INLINE void Interpolate()
+  {
+    // Weights are areas as large as 2^84: made shares first, so that no product overflows.
+    const V scale = V(Real(1)) / (this->WA + this->WB + this->WC);
+    const V b = this->WB * scale;
+    const V c = this->WC * scale;
+    this->Z = Blend(b, c, this->A.Z, this->B.Z, this->C.Z);
+    if constexpr (!CellData)
+    {
+      this->S = Blend(b, c, this->A.S, this->B.S, this->C.S);
+    }
+  }
+
+  Crossing* GetCrossings(int lane) const
+  {
+    return this->Buffer.Crossings + static_cast<std::int64_t>(lane) * this->Buffer.Capacity;
+  }
+
+  /// Starts the next part of the rays that has anything in it, if there is one.
+  void BeginPart()
+  {
+    for (; this->Part < this->Limits.Count; ++this->Part)
+    {
+      const Double8 begin = this->Limits.Begin[this->Part];
+      const Double8 end = this->Limits.End[this->Part];
+      const unsigned active =
+        this->Inside & Bits(begin < end) & ~Bits(this->Gathered.IsDone(this->In));
+      // Walking strikes crossings off, so each part of the rays finds them anew.
+      while (
+        !FindCrossings(this->In, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings))
+      {
+      }
+      unsigned hit = 0;
+      for (int i = 0; i < Width; ++i)
+      {
+        this->Cursor[i] = 0;
+        hit |= static_cast<unsigned>(this->Crossings.Count[i] > 0) << i;
+      }
+      Store(this->FarOf, end);
+      if constexpr (sizeof(Real) == sizeof(float))
+      {
+        this->Near = ToFloat(begin);
+        this->Far = ToFloat(end);
+      }
+      else
+      {
+        this->Near = begin;
+        this->Far = end;
+      }
+      // Lanes without a ray rest in any cell; lanes with one are put where they start.
+      this->Cell = 0;
+      this->Point = 0;
+      this->Running = 0;
+      if (active & hit)
+      {
+        this->A = this->B = this->C = LoadCorner<Real>(this->Ray, this->In.Points, Int8(0));
+        this->WA = this->WB = this->WC = Real(1);
+        this->Z = this->S = Real(0);
+        this->Enter(active & hit);
+      }
+      if (this->Running)
+      {
+        return;
+      }
+    }
+  }
+
+  /// The nearest crossing of a ray that was not walked from or to yet; -1 where there is none.
+  std::int32_t TakeEntry(int lane)
+  {
+    Crossing* list = this->GetCrossings(lane);
+    int& k = this->Cursor[lane];
+    const int n = this->Crossings.Count[lane];
+    while (k < n && list[k].Entry < 0)
+    {
+      ++k;
+    }
+    if (k == n || list[k].Distance > this->FarOf[lane])
+    {
+      return -1;
+    }
+    const std::int32_t entry = list[k].Entry;
+    list[k].Entry = -1;
+    return entry;
+  }
+
+  /// Puts the rays of some lanes at their next entry into the mesh, if they have one.
+  void Enter(unsigned lanes)
+  {
+    std::int32_t cells[Width] = {}, opposites[Width] = {}, corners[3][Width] = {};
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      if (!((lanes >> lane) & 1u))
+      {
+        continue;
+      }
+      const std::int32_t entryId = this->TakeEntry(lane);
+      if (entryId < 0)
+      {
+        lanes &= ~(1u << lane);
+        continue;
+      }
+      const WalkEntry& entry = this->In.Entries[entryId];
+      for (int k = 0; k < 3; ++k)
+      {
+        corners[k][lane] = entry.Points[k];
+      }
+      cells[lane] = entry.Cell;
+      opposites[lane] = entry.Opposite;
+      ++this->Counts.Paths;
+    }
+    if (lanes == 0)
+    {
+      return;
+    }
+    const Mask8 start = MaskFromBits(lanes);
+    const Corner<Real> p = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[0]));
+    const Corner<Real> q = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[1]));
+    const Corner<Real> r = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[2]));
+    const TriangleHit<Real> t = TestTriangle(p, q, r);
+    // Counter-clockwise from here on: a step replaces one corner and keeps the others' places.
+    this->A = Select(start, p, this->A);
+    this->B = Select(start, Select(t.Clockwise, r, q), this->B);
+    this->C = Select(start, Select(t.Clockwise, q, r), this->C);
+    this->WA = Select(start, Abs(t.BC), this->WA);
+    this->WB = Select(start, Abs(Select(t.Clockwise, t.AB, t.CA)), this->WB);
+    this->WC = Select(start, Abs(Select(t.Clockwise, t.CA, t.AB)), this->WC);
+    this->Cell = Select(start, LoadInt8(cells), this->Cell);
+    this->Point = Select(start, LoadInt8(opposites), this->Point);
+    this->Interpolate();
+    this->Running |= lanes;
+  }
+
+  /// Ends or re-enters the rays that left the mesh, ends those that are done.
+  void Leave(Mask8 outside, unsigned outsideBits, unsigned doneBits)
+  {
+    const unsigned leaving = this->Running & outsideBits & ~doneBits;
+    this->Running &= ~(doneBits | outsideBits);
+    std::int32_t exits[Width];
+    Store(exits, this->Cell);
+    // Lanes at rest go on from cell to cell without effect; what they load must exist.
+    this->Cell = Select(outside, Int8(0), this->Cell);
+    this->Point = Select(outside, Int8(0), this->Point);
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      if (!((leaving >> lane) & 1u))
+      {
+        continue;
+      }
+      Crossing* list = this->GetCrossings(lane);
+      for (int k = this->Cursor[lane]; k < this->Crossings.Count[lane]; ++k)
+      {
+        if (list[k].Entry == ~exits[lane])
+        {
+          list[k].Entry = -1;
+          break;
+        }
+      }
+    }
+    if (leaving)
+    {
+      this->Enter(leaving);
+    }
+    if (this->Running == 0)
+    {
+      ++this->Part;
+      this->BeginPart();
+    }
+  }
+
+  void WritePixels()
+  {
+    ColorsOfLanes colors;
+    Real first[Width];
+    double start[Width];
+    this->Gathered.GetColors(this->In, colors);
+    Store(first, this->Gathered.First.Distance);
+    Store(start, this->Ray.Start);
+    for (int i = 0; i < Width; ++i)
+    {
+      if (!((this->Inside >> i) & 1u))
+      {
+        continue;
+      }
+      const std::int64_t pixel =
+        static_cast<std::int64_t>(this->PixelY + i / 4) * this->In.Grid->Width + this->PixelX +
+        i % 4;
+      float* color = this->In.Colors + 4 * pixel;
+      for (int c = 0; c < 4; ++c)
+      {
+        color[c] = colors[c][i];
+      }
+      const bool contributed = first[i] < std::numeric_limits<Real>::infinity();
+      this->In.Depths[pixel] =
+        contributed ? static_cast<float>(start[i] + static_cast<double>(first[i])) : -1.f;
+    }
+  }
+
+  const KernelInput& In;
+  CrossingBuffer& Buffer;
+  KernelCounts& Counts;
+
+  // The rays and what is left to do for them.
+  int PixelX, PixelY;
+  unsigned Inside = 0;  ///< lanes with a pixel
+  unsigned Running = 0; ///< lanes whose ray is in the mesh
+  WorldRays World;
+  Rays<Real> Ray;
+  Intervals Limits;
+  int Part = 0; ///< of the limits
+  double FarOf[Width];
+  PacketCrossings Crossings;
+  int Cursor[Width]; ///< first crossing of each ray that may still be an entry
+
+  // Where the rays are: in a cell, on the triangle A B C through which they entered it.
+  V Near, Far; ///< ends of the part
+  Corner<Real> A, B, C;
+  V WA, WB, WC; ///< weights of the corners at the ray, twice the areas across; not normalised
+  V Z, S;       ///< distance and scalar there
+  Int8 Cell, CellBefore;
+  Int8 Point; ///< the cell's fourth point
+
+  Model Gathered;
+};
+
+template <class Real, class Model, bool CellData>
+void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuffer& buffer,
+  KernelCounts& counts)
+{
+  for (int y = y0; y < y1; y += 2)
+  {
+    for (int x = x0; x < x1; x += 4)
+    {
+      Packet<Real, Model, CellData>(in, x, y, x1, y1, buffer, counts).Cast();
+    }
+  }
+}
+
+template <template <class Real> class Model, bool CellData>
+constexpr RayCastKernels::Pair MakePair()
+{
+  return { &CastRays<float, Model<float>, CellData>, &CastRays<double, Model<double>, CellData> };
+}
+
+RayCastKernels MakeRayCastKernels()
+{
+  RayCastKernels kernels;
+  const auto set = [&kernels](
+                     Integrator integrator, RayCastKernels::Pair points, RayCastKernels::Pair cells)
+  {
+    kernels.Points[static_cast<int>(integrator)] = points;
+    kernels.Cells[static_cast<int>(integrator)] = cells;
+  };
+  set(Integrator::ClosedForm, MakePair<ClosedForm, false>(), MakePair<ClosedForm, true>());
+  set(Integrator::LitClosedForm, MakePair<LitClosedForm, false>(), {});
+  set(Integrator::Table, MakePair<Table, false>(), {});
+  set(Integrator::LitTable, MakePair<LitTable, false>(), {});
+  set(Integrator::OpticalDepth, MakePair<OpticalDepth, false>(), MakePair<OpticalDepth, true>());
+  set(Integrator::Emission, MakePair<Emission, false>(), MakePair<Emission, true>());
+  set(Integrator::Maximum, MakePair<Maximum, false>(), MakePair<Maximum, true>());
+  set(Integrator::Isosurfaces, MakePair<Isosurfaces, false>(), {});
+  return kernels;
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux

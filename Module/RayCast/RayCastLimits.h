@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RayCastLimits_h
+#define tetralux_RayCastLimits_h
+
+// Which part of each ray of a packet counts: planes, opaque geometry, cropping.
+
+#include "RayCast/RayCastFrame.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+/// The most intervals that six cropping planes can leave of a ray.
+constexpr int MaximumIntervals = 4;
+
+/// Which part of each ray counts, by distance from the point nearest to the centre; several parts
+/// with cropping.
+struct Intervals
+{
+  int Count;
+  Double8 Begin[MaximumIntervals], End[MaximumIntervals];
+};
+
+/// The parts of one ray that the cropping regions keep: intersects [begin, end] with them.
+inline int CropRay(const KernelInput& in, const double origin[3], const double direction[3],
+  double begin, double end, double (&begins)[MaximumIntervals], double (&ends)[MaximumIntervals])
+{
+  // Where the ray crosses the planes, ascending.
+  double cuts[8];
+  int n = 0;
+  cuts[n++] = begin;
+  for (int p = 0; p < 6; ++p)
+  {
+    const int a = p / 2;
+    const double t = (in.CroppingPlanes[p] - origin[a]) / direction[a];
+    if (begin < t && t < end)
+    {
+      int i = n++;
+      for (; i > 1 && cuts[i - 1] > t; --i)
+      {
+        cuts[i] = cuts[i - 1];
+      }
+      cuts[i] = t;
+    }
+  }
+  cuts[n] = end;
+  int count = 0;
+  bool open = false;
+  for (int i = 0; i < n; ++i)
+  {
+    if (!(cuts[i] < cuts[i + 1]))
+    {
+      continue;
+    }
+    // The region of the middle; beyond the largest number there is no middle, but also no mesh.
+    constexpr double Far = 1e150;
+    const double lo = cuts[i] > -Far ? cuts[i] : -Far;
+    const double hi = cuts[i + 1] < Far ? cuts[i + 1] : Far;
+    const double t = lo + 0.5 * (hi - lo);
+    int region = 0;
+    int weight = 1;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double x = origin[a] + t * direction[a];
+      region += weight * ((x >= in.CroppingPlanes[2 * a]) + (x >= in.CroppingPlanes[2 * a + 1]));
+      weight *= 3;
+    }
+    if (!((in.CroppingFlags >> region) & 1u))
+    {
+      open = false;
+    }
+    else if (open)
+    {
+      ends[count - 1] = cuts[i + 1];
+    }
+    else if (count < MaximumIntervals)
+    {
+      open = true;
+      begins[count] = cuts[i];
+      ends[count++] = cuts[i + 1];
+    }
+  }
+  return count;
+}
+
+/// start: distance of z = 0 along the rays.
+TETRALUX_INLINE Intervals LimitRays(
+  const KernelInput& in, int px, int py, const WorldRays& rays, Double8 start)
+{
+  const Double8(&origin)[3] = rays.Origin;
+  const Double8(&direction)[3] = rays.Direction;
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  Intervals result;
+  Double8 begin = -Infinity;
+  Double8 end = Infinity;
+  const Double8 zero = 0.;
+  for (int p = 0; p < in.NumberOfPlanes; ++p)
+  {
+    const double* plane = in.Planes[p].data();
+    const Double8 n[3] = { plane[0], plane[1], plane[2] };
+    const Double8 height = Dot(n, origin[0], origin[1], origin[2]) + Double8(plane[3]);
+    const Double8 slope = Dot(n, direction[0], direction[1], direction[2]);
+    const Double8 t = (zero - height) / slope;
+    begin = Select(zero < slope, Max(begin, t), begin);
+    end = Select(slope < zero, Min(end, t), end);
+    // Parallel to the plane: all or nothing.
+    end = Select((slope == zero) & (height < zero), Double8(-Infinity), end);
+  }
+  if (in.MaximumDistances)
+  {
+    double farthest[Width];
+    for (int i = 0; i < Width; ++i)
+    {
+      const int x = px + i % 4;
+      const int y = py + i / 4;
+      farthest[i] = x < in.Grid->Width && y < in.Grid->Height
+        ? static_cast<double>(
+            in.MaximumDistances[static_cast<std::int64_t>(y) * in.Grid->Width + x])
+        : -Infinity;
+    }
+    end = Min(end, LoadDouble8(farthest));
+  }
+  result.Count = 1;
+  if (in.CroppingPlanes)
+  {
+    double o[3][Width], d[3][Width], b[Width], e[Width];
+    for (int a = 0; a < 3; ++a)
+    {
+      const double* row = in.Grid->MeshFromWorld[a];
+      const Double8 m[3] = { row[0], row[1], row[2] };
+      Store(o[a], Dot(m, origin[0], origin[1], origin[2]) + Double8(row[3]));
+      Store(d[a], Dot(m, direction[0], direction[1], direction[2]));
+    }
+    Store(b, begin);
+    Store(e, end);
+    double begins[MaximumIntervals][Width], ends[MaximumIntervals][Width];
+    result.Count = 0;
+    for (int i = 0; i < Width; ++i)
+    {
+      const double origin1[3] = { o[0][i], o[1][i], o[2][i] };
+      const double direction1[3] = { d[0][i], d[1][i], d[2][i] };
+      double begins1[MaximumIntervals], ends1[MaximumIntervals];
+      const int count = CropRay(in, origin1, direction1, b[i], e[i], begins1, ends1);
+      for (int k = 0; k < MaximumIntervals; ++k)
+      {
+        begins[k][i] = k < count ? begins1[k] : Infinity;
+        ends[k][i] = k < count ? ends1[k] : -Infinity;
+      }
+      result.Count = count > result.Count ? count : result.Count;
+    }
+    for (int k = 0; k < result.Count; ++k)
+    {
+      result.Begin[k] = LoadDouble8(begins[k]) - start;
+      result.End[k] = LoadDouble8(ends[k]) - start;
+    }
+    return result;
+  }
+  result.Begin[0] = begin - start;
+  result.End[0] = end - start;
+  return result;
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif

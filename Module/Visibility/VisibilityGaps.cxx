@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Visibility/VisibilityGaps.h"
+
+#include "Visibility/MeasureTriangle.h"
+#include "Visibility/ViewOrientation.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+namespace tetralux
+{
+namespace
+{
+
+/// How far, in radii of the mesh, a face may be in front of another one, everywhere that they have
+/// something in common, and still count as touching it: the rounding of coordinates that come from files
+/// in single precision.
+constexpr double ContactTolerance = 1e-7;
+
+/// Part of the smaller of two faces, as they would look from in front, that they must have in common to
+/// count. Rounding gives faces that meet in an edge some 1e-16, and faces that are seen edge-on.
+constexpr double OverlapTolerance = 1e-10;
+
+using Vector = std::array<double, 3>;
+
+Vector operator-(const Vector& a, const Vector& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector Cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+/// Distances from it are positive on one side.
+struct Plane
+{
+  Vector Normal;
+  double Offset;
+
+  Plane(const Vector& normal, const Vector& point)
+    : Normal(normal)
+  {
+    const double length = std::sqrt(Dot(normal, normal));
+    for (double& component : this->Normal)
+    {
+      component = length > 0 ? component / length : 0;
+    }
+    this->Offset = Dot(this->Normal, point);
+  }
+  double GetDistance(const Vector& point) const { return Dot(this->Normal, point) - this->Offset; }
+};
+
+/// A triangle that planes cut: each adds one corner at most.
+struct Polygon
+{
+  std::array<Vector, 7> Corners;
+  int Size = 0;
+
+  /// Keeps what has at least that distance.
+  void Clip(const Plane& plane, double distance)
+  {
+    const Polygon before = *this;
+    this->Size = 0;
+    for (int i = 0; i < before.Size; ++i)
+    {
+      const Vector& a = before.Corners[i];
+      const Vector& b = before.Corners[(i + 1) % before.Size];
+      const double da = plane.GetDistance(a) - distance;
+      const double db = plane.GetDistance(b) - distance;
+      if (da >= 0)
+      {
+        this->Corners[this->Size++] = a;
+      }
+      if ((da >= 0) != (db >= 0))
+      {
+        const double t = da / (da - db);
+        Vector& cut = this->Corners[this->Size++];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          cut[axis] = a[axis] + t * (b[axis] - a[axis]);
+        }
+      }
+    }
+  }
+
+  double Measure(const VisibilityView& view) const
+  {
+    double size = 0;
+    for (int i = 2; i < this->Size; ++i)
+    {
+      size += MeasureTriangle(
+        { this->Corners[0].data(), this->Corners[i - 1].data(), this->Corners[i].data() }, view);
+    }
+    return size;
+  }
+};
+
+struct Gap
+{
+  std::int32_t From, To;
+  float Size;
+
+  bool operator<(const Gap& other) const
+  {
+    return this->From != other.From ? this->From < other.From
+      : this->To != other.To        ? this->To < other.To
+                                    : this->Size < other.Size;
+  }
+};
+
+class GapFinder
+{
+public:
+  GapFinder(
+    const VisibilityGeometry& geometry, const VisibilityArrows& arrows, const VisibilityView& view)
+    : Geometry(geometry)
+    , View(view)
+    , Facing(geometry.Boundary->Entries.size())
+  {
+    const ViewOrientation orientation(view);
+    // As all coordinates here: relative to the mesh.
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->View.Eye[axis] = (view.Eye[axis] - geometry.Center[axis]) / geometry.Radius;
+      this->View.Direction[axis] = orientation.GetDirection()[axis];
+    }
+    const std::int64_t numberOfFaces = static_cast<std::int64_t>(this->Facing.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t face = 0; face < numberOfFaces; ++face)
+    {
+      const WalkEntry& entry = geometry.Boundary->Entries[face];
+      this->Facing[face] = static_cast<std::int8_t>(arrows.GetBoundarySide(entry) *
+        orientation.GetTurn(geometry.GetPoint(entry.Points[0]), geometry.GetPoint(entry.Points[1]),
+          geometry.GetPoint(entry.Points[2])));
+    }
+  }
+
+  bool IsLeft(std::int64_t face) const { return this->Facing[face] > 0; }
+
+  /// Appends what is behind a face that rays leave by.
+  void Find(std::int64_t leftFace, std::vector<Gap>& gaps) const
+  {
+    const WalkEntry& left = this->Geometry.Boundary->Entries[leftFace];
+    Polygon exit = this->GetTriangle(left);
+    // Counter-clockwise to the viewer.
+    Vector normal = Cross(exit.Corners[1] - exit.Corners[0], exit.Corners[2] - exit.Corners[0]);
+    if (Dot(normal, this->GetRay(exit.Corners[0])) > 0)
+    {
+      std::swap(exit.Corners[1], exit.Corners[2]);
+      normal = { -normal[0], -normal[1], -normal[2] };
+    }
+    const Plane behind({ -normal[0], -normal[1], -normal[2] }, exit.Corners[0]);
+    const auto getSide = [&](int edge)
+    {
+      const Vector& a = exit.Corners[edge];
+      const Vector& b = exit.Corners[(edge + 1) % 3];
+      return Plane(Cross(b - a, this->GetRay(a)), a);
+    };
+    const Plane planes[4] = { getSide(0), getSide(1), getSide(2), behind };
+    const double size = this->MeasureFromFront(exit);
+
+    const BoundaryBvh& bvh = this->Geometry.Boundary->Bvh;
+    std::array<std::int32_t, BoundaryBvh::MaximumDepth + 1> stack;
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0)
+    {
+      const std::int32_t nodeId = stack[--depth];
+      const BoundaryBvh::Node& node = bvh.Nodes[nodeId];
+      if (!CanMeet(node, planes))
+      {
+        continue;
+      }
+      if (node.Count == 0)
+      {
+        stack[depth++] = node.First;
+        stack[depth++] = nodeId + 1;
+        continue;
+      }
+      for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+      {
+        const std::int32_t face = bvh.Triangles[i];
+        const WalkEntry& entered = this->Geometry.Boundary->Entries[face];
+        if (this->Facing[face] >= 0 || entered.Cell == left.Cell)
+        {
+          continue;
+        }
+        const Polygon entry = this->GetTriangle(entered);
+        Polygon part = entry;
+        for (int plane = 0; plane < 3 && part.Size > 0; ++plane)
+        {
+          part.Clip(planes[plane], 0);
+        }
+        const double smallest = OverlapTolerance * std::min(size, this->MeasureFromFront(entry));
+        const bool touching = std::all_of(part.Corners.begin(), part.Corners.begin() + part.Size,
+          [&](const Vector& corner) { return behind.GetDistance(corner) >= -ContactTolerance; });
+        if (!touching)
+        {
+          part.Clip(behind, 0);
+        }
+        const double common = part.Measure(this->View);
+        if (common > smallest)
+        {
+          gaps.push_back({ left.Cell, entered.Cell, static_cast<float>(common) });
+        }
+      }
+    }
+  }
+
+private:
+  Polygon GetTriangle(const WalkEntry& entry) const
+  {
+    Polygon triangle;
+    triangle.Size = 3;
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const double* point = this->Geometry.GetPoint(entry.Points[corner]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        triangle.Corners[corner][axis] =
+          (point[axis] - this->Geometry.Center[axis]) / this->Geometry.Radius;
+      }
+    }
+    return triangle;
+  }
+
+  /// How large a triangle would look if it were turned to the viewer.
+  double MeasureFromFront(const Polygon& triangle) const
+  {
+    const Vector normal =
+      Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
+    const Vector ray = this->GetRay(triangle.Corners[0]);
+    return 0.5 * std::sqrt(Dot(normal, normal)) / (this->View.Parallel ? 1 : Dot(ray, ray));
+  }
+
+  Vector GetRay(const Vector& point) const
+  {
+    return this->View.Parallel ? this->View.Direction : point - this->View.Eye;
+  }
+
+  /// False only where no point of a node is on the positive sides of all planes.
+  static bool CanMeet(const BoundaryBvh::Node& node, const Plane (&planes)[4])
+  {
+    return std::all_of(std::begin(planes), std::end(planes),
+      [&](const Plane& plane)
+      {
+        double distance = -plane.Offset;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          distance +=
+            plane.Normal[axis] * node.Center[axis] + std::abs(plane.Normal[axis]) * node.Half[axis];
+        }
+        return distance >= -ContactTolerance;
+      });
+  }
+
+  const VisibilityGeometry& Geometry;
+  VisibilityView View;
+  /// For each boundary face 1 where rays leave by it, -1 where they enter, 0 where it is edge-on.
+  std::vector<std::int8_t> Facing;
+};
+
+} // namespace
+
+//----------------------------------------------------------------------------
+bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows,
+  const VisibilityView& view, VisibilityGaps& gaps)
+{
+  gaps = {};
+  const GapFinder finder(geometry, arrows, view);
+  const std::int64_t numberOfFaces = static_cast<std::int64_t>(geometry.Boundary->Entries.size());
+  const std::int64_t limit = LargestNumberOfGaps * numberOfFaces;
+  std::atomic<std::int64_t> count{ 0 };
+  std::vector<Gap> all;
+#pragma omp parallel
+  {
+    std::vector<Gap> found;
+#pragma omp for schedule(dynamic, 64)
+    for (std::int64_t face = 0; face < numberOfFaces; ++face)
+    {
+      if (finder.IsLeft(face) && count <= limit)
+      {
+        const std::size_t before = found.size();
+        finder.Find(face, found);
+        count += static_cast<std::int64_t>(found.size() - before);
+      }
+    }
+#pragma omp critical
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  if (count > limit)
+  {
+    return false;
+  }
+  std::sort(all.begin(), all.end());
+
+  gaps.Begins.assign(geometry.GetNumberOfCells() + 1, 0);
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (i > 0 && all[i].From == all[i - 1].From && all[i].To == all[i - 1].To)
+    {
+      gaps.Sizes.back() += all[i].Size;
+      continue;
+    }
+    gaps.Cells.push_back(all[i].To);
+    gaps.Sizes.push_back(all[i].Size);
+    ++gaps.Begins[all[i].From + 1];
+  }
+  for (std::size_t cell = 1; cell < gaps.Begins.size(); ++cell)
+  {
+    gaps.Begins[cell] += gaps.Begins[cell - 1];
+  }
+  return true;
+}
+
+} // namespace tetralux

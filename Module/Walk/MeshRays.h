@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RaySample_h
+#define tetralux_RaySample_h
+
+#include "Base/Span.h"
+#include "TetraluxCoreModule.h"
+#include "Walk/WalkMesh.h"
+
+#include <vector>
+
+namespace tetralux
+{
+
+/// A ray's way through a cell.
+struct RaySegment
+{
+  double Front, Back; ///< scalars at its ends, finite
+  double Length;      ///< world units, more than 0
+};
+
+/// Rays by which to measure what approximate integrals do to pictures: what each goes through, front
+/// to back.
+struct RaySample
+{
+  std::vector<std::vector<RaySegment>> Rays;
+};
+
+/// Straight lines through a mesh: through any place in random cells, in random directions, so that
+/// more of them pass where cells are small, as where a camera looks closely. Of a thousand rays, or
+/// fewer where they have 100,000 segments in all. Cells that touch a scalar which is not finite are
+/// left out.
+/// scalars: one for each point of WalkMesh::GetMesh(). scale: world units of a length in the mesh. The
+/// same lines for the same mesh, for any number of threads. Some 20 milliseconds of one thread.
+TETRALUXCORE_EXPORT RaySample DrawMeshRays(
+  const WalkMesh& mesh, Span<const double> scalars, double scale);
+
+} // namespace tetralux
+
+#endif

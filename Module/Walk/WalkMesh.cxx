@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Walk/WalkMesh.h"
+
+#include "Mesh/FaceNeighbors.h"
+#include "Mesh/SpatialOrder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tetralux
+{
+template <>
+std::vector<WalkPoint<float>>& WalkMesh::GetPointTable<float>()
+{
+  return this->FloatPoints;
+}
+
+template <>
+std::vector<WalkPoint<double>>& WalkMesh::GetPointTable<double>()
+{
+  return this->DoublePoints;
+}
+
+template <class Real>
+const WalkPoint<Real>* WalkMesh::GetPoints() const
+{
+  return const_cast<WalkMesh*>(this)->GetPointTable<Real>().data();
+}
+
+template <class Real>
+void WalkMesh::FillCoordinates()
+{
+  auto& table = this->GetPointTable<Real>();
+  const std::int64_t ofMesh = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
+  const std::int64_t n = ofMesh + static_cast<std::int64_t>(this->SteinerPoints.size() / 3);
+  table.resize(n);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t p = 0; p < n; ++p)
+  {
+    // Divided: where the radius is not a normal number, its inverse is infinite.
+    const double* x =
+      p < ofMesh ? &this->Mesh.Points[3 * p] : &this->SteinerPoints[3 * (p - ofMesh)];
+    table[p].X = static_cast<Real>((x[0] - this->Center[0]) / this->Radius);
+    table[p].Y = static_cast<Real>((x[1] - this->Center[1]) / this->Radius);
+    table[p].Z = static_cast<Real>((x[2] - this->Center[2]) / this->Radius);
+  }
+}
+
+/// What lies behind each face of the cells, in the words of the tables.
+std::vector<WalkFace> MakeFaces(
+  const std::vector<std::int32_t>& cells, const FaceNeighbors& neighbors)
+{
+  const std::int64_t numberOfFaces = static_cast<std::int64_t>(neighbors.Neighbors.size());
+  std::vector<WalkFace> faces(numberOfFaces);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t f = 0; f < numberOfFaces; ++f)
+  {
+    const std::int32_t cell = neighbors.Neighbors[f];
+    const std::int32_t point =
+      cell < 0 ? 0 : cells[4 * static_cast<std::int64_t>(cell) + neighbors.NeighborFaces[f]];
+    faces[f] = { cell, point };
+  }
+  return faces;
+}
+
+WalkMesh::WalkMesh(TetrahedralMesh mesh)
+  : Mesh(std::move(mesh))
+{
+  this->Removed = RemoveUnusableCells(this->Mesh);
+  OrderSpatially(this->Mesh);
+
+  const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
+  double lo[3], hi[3];
+  std::fill_n(lo, 3, std::numeric_limits<double>::max());
+  std::fill_n(hi, 3, std::numeric_limits<double>::lowest());
+  for (std::int64_t p = 0; p < numberOfPoints; ++p)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      lo[a] = std::min(lo[a], this->Mesh.Points[3 * p + a]);
+      hi[a] = std::max(hi[a], this->Mesh.Points[3 * p + a]);
+    }
+  }
+  if (numberOfPoints > 0)
+  {
+    double radius = 0;
+    for (int a = 0; a < 3; ++a)
+    {
+      // Halved before they are added, so that no sum overflows.
+      this->Center[a] = 0.5 * lo[a] + 0.5 * hi[a];
+      radius = std::hypot(radius, 0.5 * hi[a] - 0.5 * lo[a]);
+    }
+    this->Radius = radius > 0 ? radius : 1;
+  }
+  this->FillCoordinates<float>();
+
+  const FaceNeighbors neighbors = FindFaceNeighbors(this->Mesh.Cells, numberOfPoints);
+  this->NumberOfNonManifoldFaces = neighbors.NumberOfNonManifoldFaces;
+  this->NumberOfComponents = neighbors.NumberOfComponents;
+
+  this->Tables =
+    MakeWalkTables(MakeFaces(this->Mesh.Cells, neighbors), this->Mesh.Cells, this->FloatPoints);
+}
+
+bool WalkMesh::IsConvex()
+{
+  if (!this->Convexity)
+  {
+    this->Convexity = this->Convex
+      ? this->Convex->Convex
+      : tetralux::IsConvex(
+          this->Mesh, FindFaceNeighbors(this->Mesh.Cells, this->Mesh.GetNumberOfPoints()));
+  }
+  return *this->Convexity;
+}
+
+void WalkMesh::MakeConvex(const std::function<bool(double)>& progress)
+{
+  if (this->Convex)
+  {
+    return;
+  }
+  const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
+  auto convex = std::make_unique<Convexification>(
+    Convexify(this->Mesh, FindFaceNeighbors(this->Mesh.Cells, numberOfPoints), progress));
+  if (convex->Aborted)
+  {
+    return;
+  }
+  if (!convex->Cells.empty())
+  {
+    // As all cells of the tables: ascending point ids.
+    std::vector<std::int32_t> cells = this->Mesh.Cells;
+    cells.insert(cells.end(), convex->Cells.begin(), convex->Cells.end());
+    for (std::size_t cell = this->Mesh.Cells.size(); cell < cells.size(); cell += 4)
+    {
+      std::sort(&cells[cell], &cells[cell] + 4);
+    }
+    this->SteinerPoints = convex->SteinerPoints;
+    this->FillCoordinates<float>();
+    if (!this->DoublePoints.empty())
+    {
+      this->FillCoordinates<double>();
+    }
+    const FaceNeighbors neighbors =
+      FindFaceNeighbors(cells, numberOfPoints + convex->GetNumberOfSteinerPoints());
+    this->ConvexTables = MakeWalkTables(MakeFaces(cells, neighbors), cells, this->FloatPoints);
+  }
+  this->Convex = std::move(convex);
+}
+
+template <class Real>
+void WalkMesh::SetPointScalars(Span<const double> scalars, double offset, double scale)
+{
+  auto& table = this->GetPointTable<Real>();
+  if (table.empty())
+  {
+    this->FillCoordinates<Real>();
+  }
+  // Far beyond any transfer function, and still finite when two of them are subtracted.
+  constexpr double Largest = 1e30;
+  const std::int64_t n = static_cast<std::int64_t>(scalars.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t p = 0; p < n; ++p)
+  {
+    const double s = (scalars[p] - offset) / scale;
+    table[p].S = std::isfinite(scalars[p]) ? static_cast<Real>(std::clamp(s, -Largest, Largest))
+                                           : std::numeric_limits<Real>::quiet_NaN();
+  }
+}
+
+std::size_t WalkMesh::GetTableSize() const
+{
+  return this->FloatPoints.size() * sizeof(WalkPoint<float>) +
+    this->DoublePoints.size() * sizeof(WalkPoint<double>) + this->Tables.GetSize() +
+    this->ConvexTables.GetSize();
+}
+
+template const WalkPoint<float>* WalkMesh::GetPoints<float>() const;
+template const WalkPoint<double>* WalkMesh::GetPoints<double>() const;
+template void WalkMesh::SetPointScalars<float>(Span<const double>, double, double);
+template void WalkMesh::SetPointScalars<double>(Span<const double>, double, double);
+
+} // namespace tetralux
