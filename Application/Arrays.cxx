@@ -3,8 +3,8 @@
 
 #include "CommandErrors.h"
 #include "OptionValues.h"
-#include "vtkTetrahedraIntake.h"
-#include "vtkTetrahedraScalars.h"
+#include "Intake/TetrahedraIntake.h"
+#include "Intake/ScalarExtraction.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkCellData.h"

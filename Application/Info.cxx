@@ -8,7 +8,7 @@
 #include "ProgressLine.h"
 #include "ReadMesh.h"
 #include "Walk/WalkMesh.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkDataArray.h"
 

@@ -3,7 +3,7 @@
 
 #include "Convexify/Convexification.h"
 #include "Mesh/FaceNeighbors.h"
-#include "GridTetrahedra.h"
+#include "Intake/GridTetrahedra.h"
 #include "Mesh/MeshCleaning.h"
 
 #include "vtkCellArray.h"

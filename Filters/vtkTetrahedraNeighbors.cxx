@@ -4,8 +4,8 @@
 #include "Mesh/CellVolumes.h"
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
-#include "MeshLimits.h"
-#include "vtkTetrahedraIntake.h"
+#include "Mesh/MeshLimits.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"

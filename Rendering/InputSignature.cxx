@@ -2,7 +2,7 @@
 #include "InputSignature.h"
 
 #include "vtkContourValues.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkAbstractMapper.h"

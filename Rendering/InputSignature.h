@@ -2,7 +2,7 @@
 #ifndef tetralux_InputSignature_h
 #define tetralux_InputSignature_h
 
-#include "vtkTetrahedraScalars.h"
+#include "Intake/ScalarExtraction.h"
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "Stopwatch.h"
 #include "TransferFunctionFromProperty.h"
-#include "vtkTetrahedraScalars.h"
+#include "Intake/ScalarExtraction.h"
 #include "vtkTetrahedraVolumeMapper.h"
 
 #include "vtkCommand.h"

@@ -7,7 +7,7 @@
 #include "OnceWarning.h"
 #include "SegmentTable.h"
 #include "Scene/VolumeScene.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include <functional>
 #include <string>

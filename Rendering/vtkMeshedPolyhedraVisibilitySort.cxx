@@ -4,7 +4,7 @@
 #include "CameraRays.h"
 #include "Visibility/VisibilityOrder.h"
 #include "Walk/WalkMesh.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkCamera.h"
 #include "vtkDataSet.h"

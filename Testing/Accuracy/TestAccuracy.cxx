@@ -9,8 +9,8 @@
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 #include "Walk/WalkMesh.h"
-#include "vtkTetrahedraIntake.h"
-#include "vtkTetrahedraScalars.h"
+#include "Intake/TetrahedraIntake.h"
+#include "Intake/ScalarExtraction.h"
 
 #include <vtkAbstractMapper.h>
 #include <vtkDataObject.h>

@@ -2,7 +2,7 @@
 #include "ComparisonMeshes.h"
 
 #include "Generate/GeneratedMeshes.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"

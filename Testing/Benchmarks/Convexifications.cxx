@@ -10,7 +10,7 @@
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
 #include "ReferenceConvexity.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkDataObject.h"
 #include "vtkExodusIIReader.h"

@@ -8,7 +8,7 @@
 #include "ComparisonMeshes.h"
 #include "ImageComparison.h"
 #include "vtkHeadlessRenderWindow.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkTetrahedraScalars.h"
+#include "Intake/ScalarExtraction.h"
 
 #include "CellPatch.h"
 #include "Mesh/MeshCleaning.h"
 #include "Mesh/SpatialOrder.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

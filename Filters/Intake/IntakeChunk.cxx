@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IntakeChunk.h"
+#include "Intake/IntakeChunk.h"
 
 #include "vtkSMPTools.h"
 

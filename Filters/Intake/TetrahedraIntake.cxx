@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
-#include "CellSources.h"
-#include "ChunkSplitter.h"
-#include "IntakeChunk.h"
-#include "MeshLimits.h"
-#include "PlainCopies.h"
-#include "StructuredLayout.h"
+#include "Intake/CellSources.h"
+#include "Intake/ChunkSplitter.h"
+#include "Intake/IntakeChunk.h"
+#include "Mesh/MeshLimits.h"
+#include "Intake/PlainCopies.h"
+#include "Intake/StructuredLayout.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"

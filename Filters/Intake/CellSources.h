@@ -2,7 +2,7 @@
 #ifndef tetralux_CellSources_h
 #define tetralux_CellSources_h
 
-#include "StructuredLayout.h"
+#include "Intake/StructuredLayout.h"
 
 #include "vtkCell.h"
 #include "vtkCellType.h"

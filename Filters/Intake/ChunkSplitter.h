@@ -2,12 +2,12 @@
 #ifndef tetralux_ChunkSplitter_h
 #define tetralux_ChunkSplitter_h
 
-#include "CellKind.h"
-#include "CellSources.h"
+#include "Intake/CellKind.h"
+#include "Intake/CellSources.h"
 #include "Mesh/CellSplit.h"
-#include "FacetedCells.h"
-#include "IntakeChunk.h"
-#include "vtkTetrahedraIntake.h"
+#include "Intake/FacetedCells.h"
+#include "Intake/IntakeChunk.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"

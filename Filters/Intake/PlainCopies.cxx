@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PlainCopies.h"
+#include "Intake/PlainCopies.h"
 
-#include "IntakeChunk.h"
+#include "Intake/IntakeChunk.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkCellArray.h"

@@ -2,7 +2,7 @@
 #ifndef tetralux_IntakeChunk_h
 #define tetralux_IntakeChunk_h
 
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkType.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkTetrahedraScalars.h"
+#include "Intake/ScalarExtraction.h"
 
-#include "vtkTetrahedraIntake.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkCellData.h"

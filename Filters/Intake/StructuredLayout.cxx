@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StructuredLayout.h"
+#include "Intake/StructuredLayout.h"
 
 #include "vtkCellType.h"
 #include "vtkDataSet.h"

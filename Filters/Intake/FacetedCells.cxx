@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FacetedCells.h"
+#include "Intake/FacetedCells.h"
 
 #include "vtkCell.h"
 #include "vtkCellType.h"

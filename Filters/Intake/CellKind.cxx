@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CellKind.h"
+#include "Intake/CellKind.h"
 
-#include "FacetedCells.h"
+#include "Intake/FacetedCells.h"
 
 #include "vtkCellType.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridTetrahedra.h"
+#include "Intake/GridTetrahedra.h"
 
-#include "MeshLimits.h"
-#include "vtkTetrahedraIntake.h"
+#include "Mesh/MeshLimits.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"
