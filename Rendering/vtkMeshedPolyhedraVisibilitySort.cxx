@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshedPolyhedraVisibilitySort.h"
 
-#include "CameraRays.h"
+#include "Frame/CameraRays.h"
 #include "Visibility/VisibilityOrder.h"
 #include "Walk/WalkMesh.h"
 #include "Intake/TetrahedraIntake.h"

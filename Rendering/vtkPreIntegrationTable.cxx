@@ -5,7 +5,7 @@
 #include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationError.h"
-#include "TransferFunctionFromProperty.h"
+#include "Preparation/TransferFunctionFromProperty.h"
 
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"

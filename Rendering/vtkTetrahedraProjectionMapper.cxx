@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraProjectionMapper.h"
 
-#include "CameraRays.h"
-#include "ImageCompositor.h"
-#include "JsonObject.h"
-#include "MapperFrame.h"
-#include "OnceWarning.h"
-#include "OpaqueDepth.h"
-#include "ProjectionPicture.h"
+#include "Frame/CameraRays.h"
+#include "Frame/ImageCompositor.h"
+#include "Report/JsonObject.h"
+#include "Frame/MapperFrame.h"
+#include "Report/OnceWarning.h"
+#include "Frame/OpaqueDepth.h"
+#include "GpuProjection/ProjectionPicture.h"
 #include "Projection/ScreenFrame.h"
-#include "Stopwatch.h"
+#include "Base/Stopwatch.h"
 #include "Visibility/VisibilityOrder.h"
 #include "Scene/VolumeScene.h"
 

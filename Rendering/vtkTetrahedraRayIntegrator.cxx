@@ -3,7 +3,7 @@
 
 #include "Optics/IntervalTable.h"
 #include "Integral/RayIntegral.h"
-#include "TransferFunctionFromProperty.h"
+#include "Preparation/TransferFunctionFromProperty.h"
 
 #include "vtkAbstractVolumeMapper.h"
 #include "vtkDoubleArray.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraVolumeMapper.h"
 
-#include "JsonObject.h"
-#include "MapperFrame.h"
-#include "RendererLights.h"
-#include "ScenePreparation.h"
-#include "Stopwatch.h"
+#include "Report/JsonObject.h"
+#include "Frame/MapperFrame.h"
+#include "Frame/RendererLights.h"
+#include "Preparation/ScenePreparation.h"
+#include "Base/Stopwatch.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"

@@ -2,8 +2,8 @@
 #ifndef GlslEvaluator_h
 #define GlslEvaluator_h
 
-#include "FloatTarget.h"
-#include "TextureBuffer.h"
+#include "OpenGL/FloatTarget.h"
+#include "OpenGL/TextureBuffer.h"
 
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkNew.h"

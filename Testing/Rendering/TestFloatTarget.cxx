@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures on the graphics card: drawn into, read, composited, and OpenGL's state as it was.
 
-#include "FloatTarget.h"
+#include "OpenGL/FloatTarget.h"
 #include "GlslEvaluator.h"
-#include "GpuSegmentIntegral.h"
-#include "ImageCompositor.h"
+#include "GpuIntegral/GpuSegmentIntegral.h"
+#include "Frame/ImageCompositor.h"
 #include "Optics/IntervalTable.h"
 #include "OpenGLSnapshot.h"
 

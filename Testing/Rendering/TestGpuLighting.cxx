@@ -2,8 +2,8 @@
 // Light in shaders against that of SurfaceShading.h.
 
 #include "GlslEvaluator.h"
-#include "GpuLighting.h"
-#include "GpuSegmentIntegral.h"
+#include "GpuIntegral/GpuLighting.h"
+#include "GpuIntegral/GpuSegmentIntegral.h"
 #include "Optics/IntervalTable.h"
 #include "Integral/RayIntegral.h"
 #include "Optics/SurfaceShading.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays and their limits in shaders against those in double precision.
 
-#include "CameraRays.h"
+#include "Frame/CameraRays.h"
 #include "GlslEvaluator.h"
-#include "GpuRayLimits.h"
-#include "OpaqueDistances.h"
+#include "GpuRayCast/GpuRayLimits.h"
+#include "Frame/OpaqueDistances.h"
 #include "OpenGLSnapshot.h"
 
 #include "vtkActor.h"

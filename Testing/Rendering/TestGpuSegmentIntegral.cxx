@@ -2,15 +2,15 @@
 // The integrals in shaders against those in double precision.
 
 #include "GlslEvaluator.h"
-#include "GpuSegmentIntegral.h"
+#include "GpuIntegral/GpuSegmentIntegral.h"
 #include "Optics/IntervalTable.h"
 #include "OpenGLSnapshot.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "Integral/RayIntegral.h"
-#include "ScalarBuckets.h"
+#include "GpuIntegral/ScalarBuckets.h"
 #include "Integral/SegmentIntegral.h"
 #include "StabilityCases.h"
-#include "TextureFilterError.h"
+#include "GpuIntegral/TextureFilterError.h"
 
 #include <gtest/gtest.h>
 

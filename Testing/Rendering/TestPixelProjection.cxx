@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PixelProjection.h"
+#include "GpuRayCast/PixelProjection.h"
 
 #include "ReferenceScenes.h"
 

@@ -3,7 +3,7 @@
 #include "vtkPreIntegrationTable.h"
 
 #include "Integral/RayIntegral.h"
-#include "TransferFunctionFromProperty.h"
+#include "Preparation/TransferFunctionFromProperty.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkCommand.h"

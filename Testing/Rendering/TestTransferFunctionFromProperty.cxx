@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A property's functions become nodes that agree with VTK's own evaluation at any scalar.
-#include "TransferFunctionFromProperty.h"
+#include "Preparation/TransferFunctionFromProperty.h"
 
 #include "Optics/IntervalTable.h"
 

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Frame/CameraRays.h"
+
+#include "vtkCamera.h"
+#include "vtkMatrix4x4.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+using Vector4 = std::array<double, 4>;
+
+/// Change of the homogeneous coordinate from the near to the far plane, relative, below which a
+/// projection counts as parallel: the rounding of an explicit matrix, while the most distant eye
+/// that makes sense gives more.
+constexpr double SmallestPerspective = 1e-12;
+
+/// The model-view matrix for coordinates relative to a position. What rounding leaves of the
+/// position's own image, which is the origin for all cameras but special ones, is set to 0.
+void MakeRelative(const vtkMatrix4x4* matrix, const double position[3], double result[16])
+{
+  constexpr double Rounding = 8 * std::numeric_limits<double>::epsilon();
+  for (int row = 0; row < 4; ++row)
+  {
+    double sum = matrix->GetElement(row, 3);
+    double size = std::abs(sum);
+    for (int column = 0; column < 3; ++column)
+    {
+      const double element = matrix->GetElement(row, column);
+      result[4 * row + column] = element;
+      sum += element * position[column];
+      size += std::abs(element * position[column]);
+    }
+    result[4 * row + 3] = std::abs(sum) <= Rounding * size ? 0 : sum;
+  }
+}
+
+void Invert(const double matrix[16], double result[16])
+{
+  const double determinant = vtkMatrix4x4::Determinant(matrix);
+  if (determinant == 0 || !std::isfinite(determinant))
+  {
+    throw std::invalid_argument("the camera's matrices have no inverse: its position, focal point "
+                                "or clipping range is degenerate");
+  }
+  vtkMatrix4x4::Invert(matrix, result);
+}
+
+Vector4 Multiply(const double matrix[16], const Vector4& vector)
+{
+  Vector4 result;
+  vtkMatrix4x4::MultiplyPoint(matrix, vector.data(), result.data());
+  return result;
+}
+
+/// Towards larger depths, at a point a + z b of homogeneous coordinates: linear in a.
+std::array<double, 3> GetDirection(const Vector4& a, const Vector4& b)
+{
+  return { b[0] * a[3] - a[0] * b[3], b[1] * a[3] - a[1] * b[3], b[2] * a[3] - a[2] * b[3] };
+}
+
+} // namespace
+
+std::array<double, 4> FindEye(vtkCamera* camera)
+{
+  double position[3];
+  camera->GetPosition(position);
+  double viewFromWorld[16];
+  double worldFromView[16];
+  double viewFromDevice[16];
+  MakeRelative(camera->GetModelViewTransformMatrix(), position, viewFromWorld);
+  Invert(viewFromWorld, worldFromView);
+  // The same eye for any aspect.
+  Invert(camera->GetProjectionTransformMatrix(1, -1, 1)->GetData(), viewFromDevice);
+  const Vector4 middle = Multiply(worldFromView, Multiply(viewFromDevice, { 0, 0, 0, 1 }));
+  const Vector4 eye = Multiply(worldFromView, Multiply(viewFromDevice, { 0, 0, 1, 0 }));
+  if (std::abs(eye[3]) > SmallestPerspective * std::abs(middle[3]))
+  {
+    return { position[0] + eye[0] / eye[3], position[1] + eye[1] / eye[3],
+      position[2] + eye[2] / eye[3], 1 };
+  }
+  const std::array<double, 3> direction = GetDirection(middle, eye);
+  return { -direction[0], -direction[1], -direction[2], 0 };
+}
+
+CameraRays::CameraRays(vtkRenderer* renderer, double sampleDistance)
+{
+  renderer->GetTiledSizeAndOrigin(
+    &this->ViewportSize[0], &this->ViewportSize[1], &this->LowerLeft[0], &this->LowerLeft[1]);
+  const int* window = renderer->GetRenderWindow()->GetActualSize();
+  this->Visible.X = std::max(this->LowerLeft[0], 0);
+  this->Visible.Y = std::max(this->LowerLeft[1], 0);
+  this->Visible.Width =
+    std::max(std::min(this->LowerLeft[0] + this->ViewportSize[0], window[0]) - this->Visible.X, 0);
+  this->Visible.Height =
+    std::max(std::min(this->LowerLeft[1] + this->ViewportSize[1], window[1]) - this->Visible.Y, 0);
+  if (this->Visible.Width == 0 || this->Visible.Height == 0)
+  {
+    this->Visible.Width = this->Visible.Height = 0;
+    return;
+  }
+  const auto countRays = [sampleDistance](int pixels)
+  { return std::max(1, static_cast<int>(std::lround(pixels / sampleDistance))); };
+  this->Grid.Width = countRays(this->Visible.Width);
+  this->Grid.Height = countRays(this->Visible.Height);
+
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->GetPosition(this->Position);
+  double viewFromWorld[16];
+  MakeRelative(camera->GetModelViewTransformMatrix(), this->Position, viewFromWorld);
+  const double* deviceFromView =
+    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1)->GetData();
+  // Inverted one by one: the zeros of each stay zeros.
+  double worldFromView[16];
+  double viewFromDevice[16];
+  Invert(viewFromWorld, worldFromView);
+  Invert(deviceFromView, viewFromDevice);
+  vtkMatrix4x4::Multiply4x4(deviceFromView, viewFromWorld, this->DeviceFromWorld);
+  vtkMatrix4x4::Multiply4x4(worldFromView, viewFromDevice, this->WorldFromDevice);
+
+  // The points that pixel (i, j) shows are a + z b, where a is linear in i and j.
+  double x0, y0, x1, y1;
+  this->GetDevicePoint(0, 0, x0, y0);
+  this->GetDevicePoint(1, 1, x1, y1);
+  const Vector4 a = Multiply(this->WorldFromDevice, { x0, y0, 0, 1 });
+  const Vector4 stepX = Multiply(this->WorldFromDevice, { x1 - x0, 0, 0, 0 });
+  const Vector4 stepY = Multiply(this->WorldFromDevice, { 0, y1 - y0, 0, 0 });
+  const Vector4 b = Multiply(this->WorldFromDevice, { 0, 0, 1, 0 });
+
+  const std::array<double, 3> direction = GetDirection(a, b);
+  if (std::abs(b[3]) > SmallestPerspective * std::abs(a[3]))
+  {
+    // All rays come from where z is infinite.
+    const std::array<double, 3> directionX = GetDirection(stepX, b);
+    const std::array<double, 3> directionY = GetDirection(stepY, b);
+    for (int c = 0; c < 3; ++c)
+    {
+      this->Grid.Origin[c] = this->Position[c] + b[c] / b[3];
+      this->Grid.Direction[c] = direction[c];
+      this->Grid.DirectionStepX[c] = directionX[c];
+      this->Grid.DirectionStepY[c] = directionY[c];
+    }
+    return;
+  }
+
+  // Parallel rays start on the plane z = 0 of the view.
+  const double* plane = &viewFromWorld[8];
+  const double slope = plane[0] * direction[0] + plane[1] * direction[1] + plane[2] * direction[2];
+  const auto onPlane = [&](const Vector4& point, double offset, int c)
+  {
+    const double height =
+      (plane[0] * point[0] + plane[1] * point[1] + plane[2] * point[2]) / a[3] + offset;
+    return point[c] / a[3] - (slope != 0 ? height / slope * direction[c] : 0);
+  };
+  for (int c = 0; c < 3; ++c)
+  {
+    this->Grid.Origin[c] = this->Position[c] + onPlane(a, plane[3], c);
+    this->Grid.OriginStepX[c] = onPlane(stepX, 0, c);
+    this->Grid.OriginStepY[c] = onPlane(stepY, 0, c);
+    this->Grid.Direction[c] = direction[c];
+  }
+}
+
+void CameraRays::GetDevicePoint(double i, double j, double& x, double& y) const
+{
+  const double pixelX =
+    this->Visible.X - this->LowerLeft[0] + (i + 0.5) * this->Visible.Width / this->Grid.Width;
+  const double pixelY =
+    this->Visible.Y - this->LowerLeft[1] + (j + 0.5) * this->Visible.Height / this->Grid.Height;
+  x = 2 * pixelX / this->ViewportSize[0] - 1;
+  y = 2 * pixelY / this->ViewportSize[1] - 1;
+}
+
+CameraRays::DepthPlaces CameraRays::GetDepthPlaces() const
+{
+  double x0, y0, x1, y1;
+  this->GetDevicePoint(0, 0, x0, y0);
+  this->GetDevicePoint(1, 1, x1, y1);
+  // Depth 1 is at z = 1 of device coordinates, depth 0 at z = -1.
+  const Vector4 farthest = Multiply(this->WorldFromDevice, { x0, y0, 1, 1 });
+  const Vector4 stepX = Multiply(this->WorldFromDevice, { x1 - x0, 0, 0, 0 });
+  const Vector4 stepY = Multiply(this->WorldFromDevice, { 0, y1 - y0, 0, 0 });
+  const Vector4 nearer = Multiply(this->WorldFromDevice, { 0, 0, -2, 0 });
+  DepthPlaces places;
+  std::copy(farthest.begin(), farthest.end(), places.Farthest);
+  std::copy(stepX.begin(), stepX.end(), places.FarthestStepX);
+  std::copy(stepY.begin(), stepY.end(), places.FarthestStepY);
+  std::copy(nearer.begin(), nearer.end(), places.Nearer);
+  return places;
+}
+
+void CameraRays::AddClippingRange(RayLimits& limits) const
+{
+  // -w <= z <= w of device coordinates.
+  for (const int sign : { 1, -1 })
+  {
+    std::array<double, 4> plane;
+    for (int c = 0; c < 4; ++c)
+    {
+      plane[c] = this->DeviceFromWorld[12 + c] + sign * this->DeviceFromWorld[8 + c];
+    }
+    for (int c = 0; c < 3; ++c)
+    {
+      plane[3] -= plane[c] * this->Position[c];
+    }
+    limits.Planes.push_back(plane);
+  }
+}
+
+double CameraRays::GetDistance(int i, int j, double depth) const
+{
+  double x, y;
+  this->GetDevicePoint(i, j, x, y);
+  const Vector4 point = Multiply(this->WorldFromDevice, { x, y, 2 * depth - 1, 1 });
+  double along = 0;
+  double length = 0;
+  for (int c = 0; c < 3; ++c)
+  {
+    const double origin = this->Grid.Origin[c] - this->Position[c] + i * this->Grid.OriginStepX[c] +
+      j * this->Grid.OriginStepY[c];
+    const double direction =
+      this->Grid.Direction[c] + i * this->Grid.DirectionStepX[c] + j * this->Grid.DirectionStepY[c];
+    along += (point[c] / point[3] - origin) * direction;
+    length = std::hypot(length, direction);
+  }
+  return along / length;
+}
+
+} // namespace tetralux

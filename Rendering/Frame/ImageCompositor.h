@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ImageCompositor_h
+#define tetralux_ImageCompositor_h
+
+#include "Frame/CameraRays.h"
+#include "TetraluxRenderingModule.h"
+
+#include "vtkNew.h"
+#include "vtkWeakPointer.h"
+
+#include <memory>
+
+class vtkOpenGLQuadHelper;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace tetralux
+{
+
+/// Blends a float picture over what a window's frame buffer shows. Holds graphics resources of one
+/// window at a time, the last one.
+class TETRALUXRENDERING_EXPORT ImageCompositor
+{
+public:
+  ImageCompositor();
+  ~ImageCompositor();
+  ImageCompositor(const ImageCompositor&) = delete;
+  ImageCompositor& operator=(const ImageCompositor&) = delete;
+
+  /// A premultiplied picture, stretched over the rectangle with linear interpolation where the sizes
+  /// differ, into the frame buffer that is bound for drawing. Leaves OpenGL's state as it was. Throws
+  /// std::runtime_error, with one line, where there is no shader program or no texture.
+  ///@{
+  /// colors: width x height x 4 floats, lower row first.
+  void Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
+    const float* colors, int width, int height);
+  /// picture: of that window; its filters are set.
+  void Composite(
+    vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle, vtkTextureObject* picture);
+  ///@}
+
+  /// window: the one that goes away.
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  void SetWindow(vtkOpenGLRenderWindow* window);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  vtkNew<vtkTextureObject> Texture;
+  std::unique_ptr<vtkOpenGLQuadHelper> Quad;
+};
+
+} // namespace tetralux
+
+#endif

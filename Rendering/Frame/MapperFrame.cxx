@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Frame/MapperFrame.h"
+
+#include "vtkTetrahedraVolumeMapper.h"
+
+#include "vtkCommand.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
+#include "vtkPointData.h"
+#include "vtkRenderer.h"
+#include "vtkVolume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+/// The inverse of a volume's matrix.
+void SetMeshFromWorld(vtkVolume* volume, double meshFromWorld[3][4])
+{
+  const double* rows = volume->GetMatrix()->GetData();
+  if (rows[12] != 0 || rows[13] != 0 || rows[14] != 0 || rows[15] == 0)
+  {
+    throw std::invalid_argument("the volume's matrix is not affine: its last row must be 0 0 0 1");
+  }
+  const double determinant = vtkMatrix4x4::Determinant(rows);
+  double inverse[16];
+  if (determinant != 0)
+  {
+    vtkMatrix4x4::Invert(rows, inverse);
+  }
+  const auto isFinite = [](double x) { return std::isfinite(x); };
+  if (determinant == 0 || !std::all_of(inverse, inverse + 16, isFinite))
+  {
+    throw std::invalid_argument(
+      "the volume's matrix has no inverse: is a scale of the volume 0, or not a number?");
+  }
+  std::copy_n(inverse, 12, &meshFromWorld[0][0]);
+}
+
+Span<float> GetArray(vtkImageData* image, const char* name, int components)
+{
+  vtkPointData* pointData = image->GetPointData();
+  const vtkIdType size = image->GetNumberOfPoints();
+  auto* array = vtkFloatArray::SafeDownCast(pointData->GetArray(name));
+  if (!array || array->GetNumberOfTuples() != size)
+  {
+    vtkNew<vtkFloatArray> fresh;
+    fresh->SetName(name);
+    fresh->SetNumberOfComponents(components);
+    fresh->SetNumberOfTuples(size);
+    pointData->AddArray(fresh);
+    array = fresh;
+  }
+  array->Modified();
+  return { array->GetPointer(0), static_cast<std::size_t>(array->GetNumberOfValues()) };
+}
+
+} // namespace
+
+void MapperFrame::LeaveOut(bool leftOut, const char* feature, const char* reason)
+{
+  if (leftOut)
+  {
+    this->LeftOut.Set(feature, reason);
+  }
+}
+
+RayGrid MapperFrame::MakeGrid(const CameraRays& rays) const
+{
+  RayGrid grid = rays.GetGrid();
+  SetMeshFromWorld(this->Volume, grid.MeshFromWorld);
+  return grid;
+}
+
+RayLimits MapperFrame::MakeLimits(const CameraRays& rays)
+{
+  RayLimits limits;
+  rays.AddClippingRange(limits);
+  vtkPlaneCollection* planes = this->Mapper->GetClippingPlanes();
+  for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
+  {
+    vtkPlane* plane = planes->GetItem(i);
+    const double* normal = plane->GetNormal();
+    limits.Planes.push_back(
+      { normal[0], normal[1], normal[2], -vtkMath::Dot(normal, plane->GetOrigin()) });
+    this->Clipped = true;
+  }
+  limits.Cropping = this->Mapper->GetCropping() != 0;
+  this->Mapper->GetCroppingRegionPlanes(limits.CroppingPlanes);
+  limits.CroppingFlags = static_cast<std::uint32_t>(this->Mapper->GetCroppingRegionFlags());
+  return limits;
+}
+
+bool MapperFrame::MayHaveOpaqueGeometry() const
+{
+  // Nothing opaque was drawn before, unless by a render pass, which counts elsewhere, or by another
+  // renderer of which this one keeps the depths.
+  return this->Mapper->GetIntermixIntersectingGeometry() &&
+    (this->Renderer->GetNumberOfPropsRendered() > 0 || this->Renderer->GetPass() ||
+      this->Renderer->GetPreserveDepthBuffer());
+}
+
+void MapperFrame::PrepareImage(
+  vtkImageData* image, int width, int height, Span<float>& colors, Span<float>& depths)
+{
+  image->SetDimensions(width, height, 1);
+  colors = GetArray(image, "RGBA", 4);
+  depths = GetArray(image, "Depth", 1);
+  image->GetPointData()->SetActiveScalars("RGBA");
+}
+
+bool MapperFrame::Continue(double fraction) const
+{
+  this->Mapper->InvokeEvent(vtkCommand::VolumeMapperRenderProgressEvent, &fraction);
+  return !this->Window->CheckAbortStatus();
+}
+
+} // namespace tetralux

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_MapperFrame_h
+#define tetralux_MapperFrame_h
+
+#include "Frame/CameraRays.h"
+#include "Report/JsonObject.h"
+#include "Optics/OpticalModel.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
+#include "Base/Span.h"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkImageData;
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+class vtkTetrahedraVolumeMapper;
+class vtkVolume;
+
+namespace tetralux
+{
+
+class VolumeScene;
+
+/// One frame of a mapper: what it is drawn from, and what it tells about itself.
+/// vtkTetrahedraVolumeMapper::Render fills the first part, DrawFrame of its subclasses the second.
+struct MapperFrame
+{
+  vtkTetrahedraVolumeMapper* Mapper = nullptr;
+  vtkRenderer* Renderer = nullptr;
+  vtkVolume* Volume = nullptr;
+  vtkOpenGLRenderWindow* Window = nullptr;
+  VolumeScene* Scene = nullptr; ///< complete
+  vtkImageData* Image = nullptr;
+
+  /// Whether isosurfaces, or what emits and absorbs, are lit, by what, and how they answer.
+  bool Shaded = false;
+  std::vector<Light> Lights;
+  Material Surface;
+
+  // What was drawn, for the statistics.
+
+  std::string Method; ///< as the command line calls it
+  bool Aborted = false;
+  std::vector<std::pair<std::string, double>> Seconds;      ///< of the stages of DrawFrame
+  std::string Integration;                                  ///< how segments were integrated
+  std::vector<std::pair<std::string, JsonObject>> Sections; ///< of the mapper itself
+
+  /// Contributions to the largest error of a channel, absolute, 0..1; their sum is the estimate.
+  std::vector<std::pair<std::string, double>> Errors;
+
+  /// What the scene did not need, and why.
+  JsonObject LeftOut;
+  void LeaveOut(bool leftOut, const char* feature, const char* reason);
+
+  bool Clipped = false; ///< by clipping planes: set by MakeLimits
+  bool Opaque = false;  ///< opaque geometry was drawn before and is honoured
+
+  /// Fills Image, where the picture is not read from the graphics card in each frame: called when
+  /// somebody asks for the picture.
+  std::function<void(vtkImageData*)> ReadPicture;
+
+  /// The rays with the inverse of the volume's matrix. Throws std::invalid_argument, with one line,
+  /// where it has none.
+  RayGrid MakeGrid(const CameraRays& rays) const;
+
+  /// Near and far plane, clipping planes and cropping; no opaque geometry.
+  RayLimits MakeLimits(const CameraRays& rays);
+
+  /// Whether the depth buffer may hold geometry that rays have to end at.
+  bool MayHaveOpaqueGeometry() const;
+
+  /// The arrays RGBA, the scalars, and Depth of an image of this size, made where they are missing.
+  static void PrepareImage(
+    vtkImageData* image, int width, int height, Span<float>& colors, Span<float>& depths);
+
+  /// Tells how much of the drawing is done, 0..1, and asks whether to go on; false: abort.
+  bool Continue(double fraction) const;
+};
+
+} // namespace tetralux
+
+#endif

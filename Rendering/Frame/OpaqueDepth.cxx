@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Frame/OpaqueDepth.h"
+
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkTextureObject.h"
+#include "vtk_glew.h"
+
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+/// A texture's format, and how its values are handed over.
+struct DepthFormat
+{
+  GLenum Internal;
+  GLenum Format;
+  GLenum Type;
+  std::size_t Bytes;
+};
+
+/// That of the depth buffer bound for drawing: depths are copied only between equal ones.
+DepthFormat FindDepthFormat(bool windowsOwn)
+{
+  const auto get = [windowsOwn](bool stencil, GLenum parameter)
+  {
+    GLint value = 0;
+    GLint type = GL_NONE;
+    const GLenum attachment = stencil ? (windowsOwn ? GL_STENCIL : GL_STENCIL_ATTACHMENT)
+                                      : (windowsOwn ? GL_DEPTH : GL_DEPTH_ATTACHMENT);
+    glGetFramebufferAttachmentParameteriv(
+      GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
+    if (type != GL_NONE)
+    {
+      glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, parameter, &value);
+    }
+    return value;
+  };
+  const GLint bits = get(false, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+  if (bits == 0)
+  {
+    throw std::runtime_error("there is no depth buffer to take opaque geometry from");
+  }
+  const bool isFloat = get(false, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
+  const bool stencil = get(true, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE) > 0;
+  if (isFloat)
+  {
+    return stencil
+      ? DepthFormat{ GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8 }
+      : DepthFormat{ GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4 };
+  }
+  if (stencil)
+  {
+    return { GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 4 };
+  }
+  const GLenum internal = bits == 16 ? GL_DEPTH_COMPONENT16
+    : bits == 24                     ? GL_DEPTH_COMPONENT24
+                                     : GL_DEPTH_COMPONENT32;
+  return { internal, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, static_cast<std::size_t>(4) };
+}
+
+} // namespace
+
+OpaqueDepth::OpaqueDepth() = default;
+
+OpaqueDepth::~OpaqueDepth() = default;
+
+void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle)
+{
+  if (this->Framebuffer->GetContext() && this->Framebuffer->GetContext() != window)
+  {
+    this->ReleaseGraphicsResources(this->Framebuffer->GetContext());
+    window->MakeCurrent();
+  }
+  while (glGetError() != GL_NO_ERROR) // of others
+  {
+  }
+  int source = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &source);
+  const DepthFormat format = FindDepthFormat(source == 0);
+
+  vtkOpenGLState* state = window->GetState();
+  const vtkOpenGLState::ScopedglActiveTexture unit(state);
+  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  const int width = rectangle.Width;
+  const int height = rectangle.Height;
+  const bool changed = this->Bytes == 0 || format.Internal != this->Format ||
+    static_cast<int>(this->Texture->GetWidth()) != width ||
+    static_cast<int>(this->Texture->GetHeight()) != height;
+  if (changed)
+  {
+    this->Bytes = 0;
+    this->Texture->ReleaseGraphicsResources(window);
+    this->Texture->SetContext(window);
+    this->Texture->SetInternalFormat(format.Internal);
+    this->Texture->SetFormat(format.Format);
+    this->Texture->SetDataType(format.Type);
+    this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
+    this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+    this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
+    this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
+    if (!this->Texture->Allocate2D(width, height, 1, VTK_FLOAT))
+    {
+      throw std::runtime_error("no depth texture could be made");
+    }
+    this->Texture->Deactivate();
+    this->Format = format.Internal;
+  }
+  this->Framebuffer->SetContext(window);
+  state->PushFramebufferBindings();
+  state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, source);
+  this->Framebuffer->Bind(GL_DRAW_FRAMEBUFFER);
+  if (changed)
+  {
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER,
+      format.Format == GL_DEPTH_STENCIL ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+      GL_TEXTURE_2D, this->Texture->GetHandle(), 0);
+    unsigned int none = GL_NONE;
+    state->vtkglDrawBuffers(1, &none);
+  }
+  glBlitFramebuffer(rectangle.X, rectangle.Y, rectangle.X + width, rectangle.Y + height, 0, 0,
+    width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  const bool copied = glGetError() == GL_NO_ERROR;
+  state->PopFramebufferBindings();
+  if (!copied)
+  {
+    throw std::runtime_error("the depth buffer could not be copied");
+  }
+  this->Bytes = format.Bytes * width * height;
+}
+
+void OpaqueDepth::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (this->Framebuffer->GetContext() == window)
+  {
+    this->Framebuffer->ReleaseGraphicsResources(window);
+    this->Texture->ReleaseGraphicsResources(window);
+    this->Bytes = 0;
+  }
+}
+
+} // namespace tetralux

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_OpaqueDepth_h
+#define tetralux_OpaqueDepth_h
+
+#include "Frame/CameraRays.h"
+#include "TetraluxRenderingModule.h"
+
+#include "vtkNew.h"
+
+#include <cstddef>
+
+class vtkOpenGLFramebufferObject;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace tetralux
+{
+
+/// The depth buffer of the opaque geometry that was drawn before, as a texture. Belongs to one window's
+/// context, the last one.
+class TETRALUXRENDERING_EXPORT OpaqueDepth
+{
+public:
+  OpaqueDepth();
+  ~OpaqueDepth();
+  OpaqueDepth(const OpaqueDepth&) = delete;
+  OpaqueDepth& operator=(const OpaqueDepth&) = delete;
+
+  /// Copies a rectangle of the depth buffer that is bound for drawing; of a multisampled one, one of
+  /// the samples of each pixel, as resolving it does. Leaves OpenGL's state as it was. Throws
+  /// std::runtime_error, with one line, where there is none or it can't be copied.
+  void Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle);
+
+  /// Depths 0..1, lower row first, a texel for each pixel of the rectangle.
+  vtkTextureObject* GetTexture() const { return this->Texture; }
+
+  std::size_t GetNumberOfBytes() const { return this->Bytes; }
+
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
+  vtkNew<vtkTextureObject> Texture;
+  unsigned int Format = 0;
+  std::size_t Bytes = 0;
+};
+
+} // namespace tetralux
+
+#endif

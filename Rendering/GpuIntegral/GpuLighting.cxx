@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GpuIntegral/GpuLighting.h"
+
+#include "LightingDec.h"
+
+#include "vtkMatrix3x3.h"
+#include "vtkShaderProgram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+using Vector = std::array<double, 3>;
+
+/// Coordinates of the mesh into those of the world.
+Vector Transform(const double worldFromMesh[9], const Vector& x)
+{
+  Vector result;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double* row = &worldFromMesh[3 * a];
+    result[a] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2];
+  }
+  return result;
+}
+
+} // namespace
+
+void GpuLighting::Update(const std::vector<Light>& lights, const Material& surface,
+  const RayGrid& grid, const double center[3], double radius)
+{
+  double meshFromWorld[9];
+  Vector offset;
+  double largest = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    for (int b = 0; b < 3; ++b)
+    {
+      meshFromWorld[3 * a + b] = grid.MeshFromWorld[a][b];
+      largest = std::max(largest, std::abs(grid.MeshFromWorld[a][b]));
+    }
+    offset[a] = center[a] - grid.MeshFromWorld[a][3];
+  }
+  if (vtkMatrix3x3::Determinant(meshFromWorld) == 0)
+  {
+    throw std::invalid_argument("the volume's matrix has no inverse");
+  }
+  double worldFromMesh[9];
+  vtkMatrix3x3::Invert(meshFromWorld, worldFromMesh);
+  const Vector worldCenter = Transform(worldFromMesh, offset);
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      this->WorldFromRay[3 * column + row] =
+        static_cast<float>(radius * worldFromMesh[3 * row + column]);
+      // Gradients are transformed by the transposed inverse.
+      this->NormalFromMesh[3 * column + row] =
+        static_cast<float>(meshFromWorld[3 * column + row] / largest);
+    }
+  }
+  // 0 to the power of 0 is 1, in shaders too: see LightingDec.glsl.
+  this->SpecularPower = surface.SpecularPower;
+  for (auto* vectors : { &this->Positions, &this->Cones, &this->Falloffs })
+  {
+    vectors->clear();
+  }
+  for (auto* vectors : { &this->Ambient, &this->Diffuse, &this->Specular })
+  {
+    vectors->clear();
+  }
+  const auto scale = [](float factor, const float(&color)[3]) -> Vector3 {
+    return { factor * color[0], factor * color[1], factor * color[2] };
+  };
+  for (const Light& light : lights)
+  {
+    Vector4 position, cone, falloff;
+    for (int a = 0; a < 3; ++a)
+    {
+      position[a] =
+        static_cast<float>(light.Position[a] - (light.Positional ? worldCenter[a] : 0.));
+      cone[a] = static_cast<float>(light.Axis[a]);
+      falloff[a] = static_cast<float>(light.Attenuation[a]);
+    }
+    position[3] = light.Positional ? 1.f : 0.f;
+    cone[3] = static_cast<float>(light.ConeCosine);
+    falloff[3] = static_cast<float>(light.Exponent);
+    this->Positions.push_back(position);
+    this->Cones.push_back(cone);
+    this->Falloffs.push_back(falloff);
+    this->Ambient.push_back(scale(surface.Ambient, light.Ambient));
+    this->Diffuse.push_back(scale(surface.Diffuse, light.Diffuse));
+    this->Specular.push_back(scale(surface.Specular, light.Specular));
+  }
+}
+
+std::string GpuLighting::GetDeclarations() const
+{
+  return "#define NUMBER_OF_LIGHTS " + std::to_string(this->Positions.size()) + "\n" + LightingDec;
+}
+
+void GpuLighting::Set(vtkShaderProgram* program) const
+{
+  const int count = static_cast<int>(this->Positions.size());
+  if (count == 0)
+  {
+    return;
+  }
+  program->SetUniformMatrix3x3("worldFromRay", const_cast<float*>(this->WorldFromRay)); // only read
+  program->SetUniformMatrix3x3("normalFromMesh", const_cast<float*>(this->NormalFromMesh));
+  program->SetUniformf("specularPower", this->SpecularPower);
+  program->SetUniform4fv("lightPositions", count, this->Positions.front().data());
+  program->SetUniform4fv("lightCones", count, this->Cones.front().data());
+  program->SetUniform4fv("lightFalloffs", count, this->Falloffs.front().data());
+  program->SetUniform3fv("lightAmbient", count, this->Ambient.front().data());
+  program->SetUniform3fv("lightDiffuse", count, this->Diffuse.front().data());
+  program->SetUniform3fv("lightSpecular", count, this->Specular.front().data());
+}
+
+} // namespace tetralux

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GpuIntegral/GpuSegmentIntegral.h"
+
+#include "CellValuesDec.h"
+#include "ClassifyLargestDec.h"
+#include "IntegrateCellClosedFormDec.h"
+#include "IntegrateCellEmissionDec.h"
+#include "IntegrateCellOpticalDepthDec.h"
+#include "IntegrateClosedFormDec.h"
+#include "IntegrateEmissionDec.h"
+#include "IntegrateIsosurfacesDec.h"
+#include "IntegrateOpticalDepthDec.h"
+#include "IntegrateShadedIsosurfacesDec.h"
+#include "IntegrateShadedSegmentDec.h"
+#include "IsosurfacesDec.h"
+#include "GpuIntegral/ScalarBuckets.h"
+#include "ScalarBucketsDec.h"
+#include "SegmentWeightsDec.h"
+#include "TransferIntervalsDec.h"
+#include "Scene/VolumeScene.h"
+
+#include "vtkShaderProgram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Four floats a texel.
+constexpr std::size_t TexelsOfInterval = sizeof(IntervalTable::Interval) / (4 * sizeof(float));
+constexpr std::size_t TexelsOfSurface = 2;
+
+/// Optical depth that the thin form takes, see SegmentWeightsDec.glsl, but for rounding.
+constexpr double ThinDepth = 1.4999;
+
+/// As in TransferIntervalsDec.glsl.
+constexpr float SmallestScalar = 1e-30f;
+
+/// A node as shaders compare with it: no infinity, and 0 where it is that small.
+float MakeNode(float scalar)
+{
+  constexpr float Largest = std::numeric_limits<float>::max();
+  return std::abs(scalar) < SmallestScalar ? 0.f : std::clamp(scalar, -Largest, Largest);
+}
+
+} // namespace
+
+SegmentSource MakeSegmentSource(VolumeScene& scene)
+{
+  SegmentSource source;
+  source.Model = scene.GetOpticalModel();
+  source.Intervals = &scene.GetIntervalTable();
+  source.ConstantColor = scene.GetPlan().ConstantColor;
+  std::copy_n(scene.GetPlan().Color, 3, source.Color);
+  if (scene.GetOpticalModel() == OpticalModel::Isosurfaces)
+  {
+    source.Surfaces = scene.GetIsosurfaces();
+    for (Isosurface& surface : source.Surfaces)
+    {
+      surface.Value = scene.GetScalarMap().Map(surface.Value);
+    }
+  }
+  else if (!scene.HasCellScalars())
+  {
+    source.Table = scene.GetTable();
+    source.TableVersion = scene.GetTableVersion();
+  }
+  else
+  {
+    source.CellValues = scene.GetCellValues();
+    source.CellValuesVersion = scene.GetCellValuesVersion();
+  }
+  return source;
+}
+
+GpuSegmentIntegral::GpuSegmentIntegral() = default;
+
+GpuSegmentIntegral::~GpuSegmentIntegral() = default;
+
+void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSource& source)
+{
+  this->Model = source.Model;
+  this->Shaded = source.Shaded;
+  this->OfCells = !source.CellValues.empty();
+  this->OpticalDepth = source.Model == OpticalModel::AbsorptionOnly ||
+    (source.Model == OpticalModel::EmissionAbsorption && source.ConstantColor);
+  this->ByTable = source.Model == OpticalModel::EmissionAbsorption && source.Table &&
+    !this->OfCells && !this->OpticalDepth;
+  this->OnlyThin = source.Model == OpticalModel::EmissionAbsorption && source.Intervals &&
+    source.Intervals->MaximumAttenuation * source.LongestSegment <= ThinDepth;
+  for (int c = 0; c < 3; ++c)
+  {
+    this->Color[c] =
+      source.Model == OpticalModel::EmissionAbsorption ? static_cast<float>(source.Color[c]) : 0.f;
+  }
+  switch (source.Model)
+  {
+    case OpticalModel::EmissionAbsorption:
+      this->Name = this->OpticalDepth ? "optical depth" : this->ByTable ? "table" : "closed form";
+      break;
+    case OpticalModel::AbsorptionOnly:
+      this->Name = "optical depth";
+      break;
+    case OpticalModel::EmissionOnly:
+      this->Name = "emission";
+      break;
+    case OpticalModel::MaximumIntensity:
+      this->Name = "largest scalar";
+      break;
+    case OpticalModel::Isosurfaces:
+      this->Name = "isosurfaces";
+      break;
+  }
+  if (source.Model == OpticalModel::Isosurfaces)
+  {
+    this->UpdateSurfaces(window, source.Surfaces);
+  }
+  else if (this->ByTable)
+  {
+    this->Table.Update(window, *source.Table, source.TableVersion, source.FilterInShader);
+  }
+  else
+  {
+    this->UpdateIntervals(window, *source.Intervals);
+  }
+  if (this->OfCells &&
+    (this->CellValues.IsEmpty() || this->CellValuesVersion != source.CellValuesVersion))
+  {
+    this->CellValues.Upload(window, &source.CellValues[0].Attenuation, source.CellValues.size(),
+      static_cast<int>(sizeof(CellValue) / sizeof(float)), "the table of cell values");
+    this->CellValuesVersion = source.CellValuesVersion;
+  }
+}
+
+void GpuSegmentIntegral::UpdateIntervals(vtkOpenGLRenderWindow* window, const IntervalTable& table)
+{
+  std::vector<IntervalTable::Interval> intervals = table.Intervals;
+  for (IntervalTable::Interval& interval : intervals)
+  {
+    interval.Lo = MakeNode(interval.Lo);
+    interval.Hi = MakeNode(interval.Hi);
+    interval.Reference = MakeNode(interval.Reference);
+  }
+  std::vector<float> texels(4 * TexelsOfInterval * intervals.size());
+  std::memcpy(texels.data(), intervals.data(), texels.size() * sizeof(float));
+  if (this->Intervals.IsEmpty() || texels != this->IntervalTexels)
+  {
+    this->IntervalTexels = std::move(texels);
+    this->Intervals.Upload(window, this->IntervalTexels.data(), TexelsOfInterval * intervals.size(),
+      4, "the transfer function");
+    std::vector<float> ends(intervals.size() - 1);
+    std::transform(intervals.begin(), intervals.end() - 1, ends.begin(),
+      [](const IntervalTable::Interval& interval) { return interval.Hi; });
+    const std::vector<std::int32_t> buckets = MakeScalarBuckets(ends);
+    this->Buckets.Upload(
+      window, buckets.data(), buckets.size(), 1, "the search table of the transfer function");
+  }
+}
+
+void GpuSegmentIntegral::UpdateSurfaces(
+  vtkOpenGLRenderWindow* window, const std::vector<Isosurface>& surfaces)
+{
+  std::vector<float> texels;
+  for (const Isosurface& surface : surfaces)
+  {
+    const float* c = surface.Color;
+    texels.insert(texels.end(),
+      { static_cast<float>(surface.Value), 0, 0, 0, c[0], c[1], c[2],
+        std::clamp(surface.Opacity, 0.f, 1.f) });
+  }
+  if (this->Surfaces.IsEmpty() || texels != this->SurfaceTexels)
+  {
+    this->SurfaceTexels = std::move(texels);
+    this->Surfaces.Upload(window, this->SurfaceTexels.data(), TexelsOfSurface * surfaces.size(), 4,
+      "the table of isosurfaces");
+  }
+}
+
+std::string GpuSegmentIntegral::GetDeclarations() const
+{
+  const char* shaded = this->Model == OpticalModel::Isosurfaces ? IntegrateShadedIsosurfacesDec
+                                                                : IntegrateShadedSegmentDec;
+  return this->GetFlatDeclarations() + (this->Shaded ? shaded : "");
+}
+
+std::string GpuSegmentIntegral::GetFlatDeclarations() const
+{
+  if (this->ByTable)
+  {
+    return this->Table.GetDeclarations();
+  }
+  std::string code;
+  if (this->OfCells)
+  {
+    code += std::string(SegmentWeightsDec) + CellValuesDec;
+  }
+  else if (this->Model == OpticalModel::Isosurfaces)
+  {
+    return std::string(IsosurfacesDec) + IntegrateIsosurfacesDec;
+  }
+  else
+  {
+    code += this->OnlyThin ? "#define ONLY_THIN_SEGMENTS\n" : "";
+    code += std::string(SegmentWeightsDec) + ScalarBucketsDec + TransferIntervalsDec;
+  }
+  if (this->Model == OpticalModel::MaximumIntensity)
+  {
+    code += this->OfCells ? std::string(ScalarBucketsDec) + TransferIntervalsDec : "";
+    return code + ClassifyLargestDec;
+  }
+  if (this->OpticalDepth)
+  {
+    return code + (this->OfCells ? IntegrateCellOpticalDepthDec : IntegrateOpticalDepthDec);
+  }
+  if (this->Model == OpticalModel::EmissionOnly)
+  {
+    return code + (this->OfCells ? IntegrateCellEmissionDec : IntegrateEmissionDec);
+  }
+  return code + (this->OfCells ? IntegrateCellClosedFormDec : IntegrateClosedFormDec);
+}
+
+void GpuSegmentIntegral::Activate(vtkShaderProgram* program)
+{
+  if (this->Model == OpticalModel::Isosurfaces)
+  {
+    this->Surfaces.Activate(program, "isosurfaces");
+    program->SetUniformi(
+      "numberOfIsosurfaces", static_cast<int>(this->SurfaceTexels.size() / (4 * TexelsOfSurface)));
+    return;
+  }
+  if (this->ByTable)
+  {
+    this->Table.Activate(program);
+    return;
+  }
+  if (this->OfCells)
+  {
+    this->CellValues.Activate(program, "cellValues");
+  }
+  if (!this->OfCells || this->Model == OpticalModel::MaximumIntensity)
+  {
+    this->Intervals.Activate(program, "transferIntervals");
+    this->Buckets.Activate(program, "transferBuckets");
+  }
+  if (this->OpticalDepth)
+  {
+    program->SetUniform3f("constantColor", this->Color);
+  }
+}
+
+void GpuSegmentIntegral::Deactivate()
+{
+  this->Table.Deactivate();
+  this->Surfaces.Deactivate();
+  this->CellValues.Deactivate();
+  this->Intervals.Deactivate();
+  this->Buckets.Deactivate();
+}
+
+std::size_t GpuSegmentIntegral::GetNumberOfBytes() const
+{
+  return this->Intervals.GetNumberOfBytes() + this->Buckets.GetNumberOfBytes() +
+    this->Table.GetNumberOfBytes() + this->Surfaces.GetNumberOfBytes() +
+    this->CellValues.GetNumberOfBytes();
+}
+
+void GpuSegmentIntegral::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Intervals.ReleaseGraphicsResources(window);
+  this->Buckets.ReleaseGraphicsResources(window);
+  this->Table.ReleaseGraphicsResources(window);
+  this->Surfaces.ReleaseGraphicsResources(window);
+  this->CellValues.ReleaseGraphicsResources(window);
+}
+
+} // namespace tetralux

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_GpuSegmentIntegral_h
+#define tetralux_GpuSegmentIntegral_h
+
+// What a segment of a ray adds to a picture, in shaders: the GLSL functions, the arrays that they
+// read, and their uniforms. For both mappers that draw on the graphics card.
+
+#include "GpuIntegral/GpuSegmentTable.h"
+#include "Optics/IntervalTable.h"
+#include "Optics/OpticalModel.h"
+#include "Base/Span.h"
+#include "TetraluxRenderingModule.h"
+#include "OpenGL/TextureBuffer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkWindow;
+
+namespace tetralux
+{
+
+class VolumeScene;
+
+/// What segments are integrated of.
+struct SegmentSource
+{
+  OpticalModel Model = OpticalModel::EmissionAbsorption;
+
+  /// EmissionAbsorption: whatever contributes has the colour Color, see IntegrationPlan.
+  bool ConstantColor = false;
+  double Color[3] = { 0, 0, 0 };
+
+  /// The transfer function; of no use to Isosurfaces. Scalars at points are mapped as in this table.
+  const IntervalTable* Intervals = nullptr;
+
+  /// Isosurfaces: ascending in value, their values mapped as the scalars are.
+  std::vector<Isosurface> Surfaces;
+
+  /// EmissionAbsorption of scalars at points, where the colour is not constant: the table to look
+  /// segments up in, nullptr for the closed form. Another version tells that it changed.
+  const PreIntegrationTable* Table = nullptr;
+  std::uint64_t TableVersion = 0;
+
+  /// Interpolate in the table by the shader even where the graphics card is right enough: for tests and
+  /// measurements of it.
+  bool FilterInShader = false;
+
+  /// No segment is longer, world units. Where all of them are thin, the shader is without what thick
+  /// ones need.
+  double LongestSegment = std::numeric_limits<double>::infinity();
+
+  /// Whether segments are lit: emission and absorption, and isosurfaces, of scalars at points.
+  bool Shaded = false;
+
+  /// Scalars at cells: one value for each; empty where scalars are at points. Another version tells
+  /// that they changed.
+  Span<const CellValue> CellValues;
+  std::uint64_t CellValuesVersion = 0;
+};
+
+/// Of a scene that is complete, as long as it does not change; not lit, its segments of any length, see
+/// VolumeScene::GetLongestSegment.
+TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(VolumeScene& scene);
+
+/// GLSL 1.50 functions for what a source asks for; all colours are premultiplied.
+///
+///   vec4 IntegrateSegment(float front, float back, float len)
+///
+/// red, green, blue and opacity of a segment along which the mapped scalar runs linearly from front
+/// to back, len world units long: emission and absorption, in closed form, by table, or by optical
+/// depth where the colour is constant; absorption alone (colour 0); emission alone (opacity 0; it may
+/// exceed 1); flat isosurfaces. A scalar that is not a number makes the segment contribute nothing. The opacity
+/// keeps its relative accuracy where it is tiny: gather opacities, not transmittances.
+///
+///   vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradient,
+///     vec3 backGradient, vec3 frontPoint, vec3 backPoint, vec3 direction)
+///
+/// the same with light, where it is asked for, after the functions of GpuLighting: of a volume the
+/// light in the middle of the segment, of a surface that where it is crossed. Gradients at both ends,
+/// equal ones for those of cells, are in coordinates of the mesh and of any length; points and the
+/// direction are those of Ray in RayGridDec.glsl.
+///
+///   vec4 IntegrateCell(int cell, float len)
+///
+/// the same for scalars at cells.
+///
+///   vec4 ClassifyLargest(float largest)
+///
+/// for MaximumIntensity, colour and opacity at the largest scalar of the whole ray, which the caller
+/// gathers; for scalars at cells from GetCellScalar(int cell). Below -1e30 there was none.
+///
+/// Errors: single precision throughout; of a segment's channels at most SegmentWeightError of its
+/// opacity for each piece between nodes, tested against double precision over the stability cases; by
+/// table those of the table, see PreIntegrationTable::Bound.
+class TETRALUXRENDERING_EXPORT GpuSegmentIntegral
+{
+public:
+  GpuSegmentIntegral();
+  ~GpuSegmentIntegral();
+
+  /// Sends to the graphics card what changed. Throws std::runtime_error, with one line, where there is
+  /// no room for it.
+  void Update(vtkOpenGLRenderWindow* window, const SegmentSource& source);
+
+  /// The functions, to be put into a shader before its own; they change only where the name does.
+  std::string GetDeclarations() const;
+
+  /// How segments are integrated, for statistics: "closed form", "table", "optical depth",
+  /// "emission", "largest scalar" or "isosurfaces".
+  const std::string& GetName() const { return this->Name; }
+
+  /// For a program that has the declarations and is in use: its uniforms, and the arrays bound to
+  /// texture units until Deactivate.
+  ///@{
+  void Activate(vtkShaderProgram* program);
+  void Deactivate();
+  ///@}
+
+  /// On the graphics card.
+  std::size_t GetNumberOfBytes() const;
+
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  std::string GetFlatDeclarations() const;
+  void UpdateIntervals(vtkOpenGLRenderWindow* window, const IntervalTable& table);
+  void UpdateSurfaces(vtkOpenGLRenderWindow* window, const std::vector<Isosurface>& surfaces);
+
+  OpticalModel Model = OpticalModel::EmissionAbsorption;
+  bool OfCells = false;
+  bool OpticalDepth = false;
+  bool ByTable = false;
+  bool Shaded = false;
+  bool OnlyThin = false;
+  float Color[3] = { 0, 0, 0 };
+  std::string Name;
+
+  TextureBuffer Intervals;
+  std::vector<float> IntervalTexels; ///< as they were sent
+  TextureBuffer Buckets;
+  GpuSegmentTable Table;
+  TextureBuffer Surfaces;
+  std::vector<float> SurfaceTexels; ///< as they were sent
+  TextureBuffer CellValues;
+  std::uint64_t CellValuesVersion = 0;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GpuProjection/ProjectionPicture.h"
+
+#include "AlphaDitherDec.h"
+#include "FirstPieceDec.h"
+#include "FirstSurfaceDec.h"
+#include "LargestPictureFS.h"
+#include "RayGridDec.h"
+#include "View/RayLimits.h"
+#include "Base/Stopwatch.h"
+#include "Scene/VolumeScene.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+#include "vtk_glew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Cells that are projected and sent at once, 16 MB: enough for all threads, which wait busily for each
+/// other, and few enough that whoever wants to abort is heard soon.
+constexpr std::size_t BatchSize = 131072;
+
+/// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.
+constexpr float Beyond = 1e38f;
+
+/// What is set while cells are drawn, and set back.
+class DrawingState
+{
+public:
+  explicit DrawingState(vtkOpenGLState* state)
+    : State(state)
+    , Blend(state, GL_BLEND)
+    , DepthTest(state, GL_DEPTH_TEST)
+    , CullFace(state, GL_CULL_FACE)
+    , Scissor(state, GL_SCISSOR_TEST)
+    , DepthMask(state)
+    , ColorMask(state)
+    , ClearColor(state)
+    , BlendFunction(state)
+    , Unit(state)
+  {
+    glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->ColorEquation);
+    glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &this->AlphaEquation);
+    glGetIntegerv(GL_PROVOKING_VERTEX, &this->ProvokingVertex);
+    glProvokingVertex(GL_LAST_VERTEX_CONVENTION); // as ProjectedCells::Triangles has it
+    state->vtkglEnable(GL_BLEND);
+    state->vtkglDisable(GL_DEPTH_TEST);
+    state->vtkglDisable(GL_CULL_FACE);
+    state->vtkglDisable(GL_SCISSOR_TEST);
+    state->vtkglDepthMask(GL_FALSE);
+    state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+  ~DrawingState()
+  {
+    this->State->vtkglBlendEquationSeparate(this->ColorEquation, this->AlphaEquation);
+    glProvokingVertex(this->ProvokingVertex);
+  }
+  DrawingState(const DrawingState&) = delete;
+  DrawingState& operator=(const DrawingState&) = delete;
+
+private:
+  vtkOpenGLState* State;
+  const vtkOpenGLState::ScopedglEnableDisable Blend;
+  const vtkOpenGLState::ScopedglEnableDisable DepthTest;
+  const vtkOpenGLState::ScopedglEnableDisable CullFace;
+  const vtkOpenGLState::ScopedglEnableDisable Scissor;
+  const vtkOpenGLState::ScopedglDepthMask DepthMask;
+  const vtkOpenGLState::ScopedglColorMask ColorMask;
+  const vtkOpenGLState::ScopedglClearColor ClearColor;
+  const vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
+  const vtkOpenGLState::ScopedglActiveTexture Unit;
+  GLint ColorEquation = GL_FUNC_ADD;
+  GLint AlphaEquation = GL_FUNC_ADD;
+  GLint ProvokingVertex = GL_LAST_VERTEX_CONVENTION;
+};
+
+FloatTarget::Settings MakeSettings(const RayGrid& grid, int components, ChannelFormat format)
+{
+  FloatTarget::Settings settings;
+  settings.Width = grid.Width;
+  settings.Height = grid.Height;
+  settings.Pictures[0].Components = components;
+  settings.Pictures[0].Format = format;
+  return settings;
+}
+
+} // namespace
+
+ProjectionPicture::ProjectionPicture() = default;
+
+ProjectionPicture::~ProjectionPicture() = default;
+
+ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
+  const ProjectionScene& scene, const std::function<bool(double)>& progress)
+{
+  if (this->Window != window)
+  {
+    if (this->Window)
+    {
+      // Of the other window's context.
+      vtkOpenGLRenderWindow* const last = this->Window;
+      last->PushContext();
+      this->ReleaseGraphicsResources(last);
+      last->PopContext();
+      window->MakeCurrent();
+    }
+    this->Window = window;
+  }
+  SegmentSource source = MakeSegmentSource(*scene.Volume);
+  source.LongestSegment = scene.Volume->GetLongestSegment(scene.Grid);
+  source.Shaded = scene.Shaded;
+  source.ConstantColor = source.ConstantColor && !scene.Shaded;
+  this->Integral.Update(window, source);
+  if (scene.Shaded)
+  {
+    const WalkMesh& mesh = *scene.Volume->GetMesh();
+    this->Lighting.Update(
+      scene.Lights, scene.Surface, scene.Grid, mesh.GetCenter(), mesh.GetRadius());
+    this->Rays.emplace(scene.Grid, RayLimits(), mesh.GetCenter(), mesh.GetRadius());
+  }
+  const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
+  this->Colors.Prepare(window, MakeSettings(scene.Grid, 4, scene.Format));
+  if (scene.Volume->GetOpticalModel() == OpticalModel::MaximumIntensity)
+  {
+    this->Scalars.Prepare(window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));
+    this->Last = this->DrawCells(Pass::LargestScalars, this->Scalars, scene, progress);
+    this->ClassifyLargest();
+  }
+  else
+  {
+    this->Last = this->DrawCells(Pass::Colors, this->Colors, scene, progress);
+  }
+  return this->Last;
+}
+
+ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& target,
+  const ProjectionScene& scene, const std::function<bool(double)>& progress)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  const DrawingState drawing(state);
+  const FloatTarget::Use use(target);
+  switch (pass)
+  {
+    case Pass::Colors:
+      state->vtkglBlendEquation(GL_FUNC_ADD);
+      if (scene.Volume->GetOpticalModel() == OpticalModel::EmissionOnly)
+      {
+        state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+      }
+      else
+      {
+        const GLenum source = scene.FrontToBack ? GL_ONE_MINUS_DST_ALPHA : GL_ONE;
+        const GLenum destination = scene.FrontToBack ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA;
+        state->vtkglBlendFuncSeparate(source, destination, source, destination);
+      }
+      state->vtkglClearColor(0, 0, 0, 0);
+      break;
+    case Pass::LargestScalars:
+      state->vtkglBlendEquation(GL_MAX);
+      state->vtkglClearColor(-Beyond, 0, 0, 0);
+      break;
+    case Pass::FirstDistances:
+      state->vtkglBlendEquation(GL_MIN);
+      state->vtkglClearColor(Beyond, 0, 0, 0);
+      break;
+  }
+  state->vtkglClear(GL_COLOR_BUFFER_BIT);
+
+  vtkShaderProgram* program = this->Drawer.Use(this->Window, this->MakeShader(pass, scene));
+  this->SetUniforms(program, scene);
+  GpuSegmentIntegral& integral = pass == Pass::FirstDistances ? this->Pieces : this->Integral;
+  integral.Activate(program);
+  const bool shaded = scene.Shaded && pass == Pass::Colors;
+  if (shaded)
+  {
+    this->Lighting.Set(program);
+    this->Rays->Set(program);
+  }
+  if (scene.OpaqueDepth)
+  {
+    scene.OpaqueDepth->Activate();
+    program->SetUniformi("opaqueDepth", scene.OpaqueDepth->GetTextureUnit());
+    program->SetUniform2fv("opaquePlaces", 4, scene.OpaquePlaces);
+  }
+  const bool ofLargest = pass == Pass::FirstDistances &&
+    scene.Volume->GetOpticalModel() == OpticalModel::MaximumIntensity;
+  if (ofLargest)
+  {
+    this->Scalars.GetTexture(0)->Activate();
+    program->SetUniformi("largestScalars", this->Scalars.GetTexture(0)->GetTextureUnit());
+  }
+
+  const std::vector<std::int32_t>& cells = scene.Volume->GetMesh()->GetMesh().Cells;
+  ProjectionSettings settings;
+  settings.Width = scene.Grid.Width;
+  settings.Height = scene.Grid.Height;
+  settings.Interpolate = scene.Interpolate;
+  // Corners are rounded to a grid that the driver tells, after they were rounded as they are sent.
+  int subpixelBits = 4;
+  glGetIntegerv(GL_SUBPIXEL_BITS, &subpixelBits);
+  constexpr double PositionRounding = 1. / (1 << 21);
+  settings.Margin =
+    1. / (1 << subpixelBits) + PositionRounding * std::max(settings.Width, settings.Height);
+  settings.Shift = FindShift(*scene.Frame, settings, scene.Points, cells);
+  CellData data;
+  data.Keys = scene.Dither;
+  data.Ids = scene.Volume->HasCellScalars();
+  data.FaceScalars = scene.Volume->GetOpticalModel() == OpticalModel::Isosurfaces;
+  if (shaded && scene.SmoothShading)
+  {
+    data.Gradients = CellData::Gradient::Points;
+    data.PointGradients = scene.Volume->GetPointGradients();
+  }
+  else if (shaded)
+  {
+    data.Gradients = CellData::Gradient::Cells;
+    data.Coordinates = scene.Volume->GetMesh()->GetMesh().Points;
+  }
+
+  Result result;
+  const std::size_t size = scene.Order.size();
+  for (std::size_t begin = 0; begin < size && !result.Aborted; begin += BatchSize)
+  {
+    const Stopwatch stopwatch;
+    ProjectCells(*scene.Frame, settings, scene.Points, cells,
+      Span<const std::int32_t>(scene.Order.data() + begin, std::min(BatchSize, size - begin)), data,
+      this->Cells);
+    result.ProjectSeconds += stopwatch.GetSeconds();
+    result.Cells += this->Cells.GetNumberOfCells();
+    result.Triangles += static_cast<std::int64_t>(this->Cells.Triangles.size() / 3);
+    this->Drawer.Draw(this->Cells);
+    result.Aborted = progress &&
+      !progress(static_cast<double>(std::min(begin + BatchSize, size)) / static_cast<double>(size));
+  }
+
+  if (ofLargest)
+  {
+    this->Scalars.GetTexture(0)->Deactivate();
+  }
+  if (scene.OpaqueDepth)
+  {
+    scene.OpaqueDepth->Deactivate();
+  }
+  integral.Deactivate();
+  return result;
+}
+
+ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
+  Pass pass, const ProjectionScene& scene) const
+{
+  ProjectedCellDrawer::Shader shader;
+  std::string& defines = shader.Projection;
+  const bool perspective = scene.Frame->IsPerspective();
+  if (perspective)
+  {
+    defines += scene.Interpolate ? "#define PERSPECTIVE\n" : "#define LINEAR\n";
+  }
+  if (!scene.Planes.empty() || !scene.Cropping.empty() || scene.OpaqueDepth)
+  {
+    defines +=
+      "#define LIMITED\n#define NUMBER_OF_LIMITS " + std::to_string(scene.Planes.size()) + "\n";
+    defines += !scene.OpaqueDepth ? "" : "#define OPAQUE\n";
+    defines += scene.Cropping.empty() ? "" : "#define CROPPED\n";
+  }
+  const OpticalModel model = scene.Volume->GetOpticalModel();
+  const bool ofCells = scene.Volume->HasCellScalars();
+  const bool largest = model == OpticalModel::MaximumIntensity;
+  const std::string cell = "int(cellData.x) * " + std::to_string(CellIdBase) + " + int(cellData.y)";
+  shader.Segment = (pass == Pass::FirstDistances ? this->Pieces : this->Integral).GetDeclarations();
+  defines += scene.Dither ? "#define KEYS\n" : "";
+  defines += model == OpticalModel::Isosurfaces ? "#define SURFACES\n" : "";
+  switch (pass)
+  {
+    case Pass::Colors:
+      defines += model == OpticalModel::EmissionOnly
+        ? "#define GATHER before + added\n"
+        : "#define GATHER before + (1.0 - before.a) * added\n";
+      defines += "#define NOTHING 0.0\n";
+      if (scene.Shaded)
+      {
+        defines += "#define SHADED\n";
+        shader.Segment =
+          this->Rays->GetDefines() + RayGridDec + this->Lighting.GetDeclarations() + shader.Segment;
+        shader.Output = "Ray ray = GetRay(gl_FragCoord.xy);\n"
+                        "  vec3 point = ray.Point + (begin - ray.Distance) * ray.Direction;\n"
+                        "  return IntegrateShadedSegment(front, back, len, frontGradient, "
+                        "backGradient, point, point + len * ray.Direction, ray.Direction);";
+      }
+      else
+      {
+        shader.Output = ofCells ? "return IntegrateCell(" + cell + ", len);"
+                                : "return IntegrateSegment(front, back, len);";
+      }
+      break;
+    case Pass::LargestScalars:
+      defines += "#define GATHER max(before, added)\n#define NOTHING -Beyond\n";
+      shader.Output =
+        ofCells ? "return vec4(GetCellScalar(" + cell + "));" : "return vec4(max(front, back));";
+      break;
+    case Pass::FirstDistances:
+      defines += "#define FIRST\n#define GATHER min(before, added)\n#define NOTHING Beyond\n";
+      if (largest)
+      {
+        // The same sums as in the first pass have the same result.
+        shader.Segment += "uniform sampler2D largestScalars;\n";
+        shader.Output = "float largest = texelFetch(largestScalars, ivec2(gl_FragCoord.xy), 0).x;\n"
+                        "  bool seen = ClassifyLargest(largest).a > 0.0;\n";
+        shader.Output += ofCells
+          ? "  float found = GetCellScalar(" + cell + ");\n  float share = 0.0;\n"
+          : "  float found = max(front, back);\n  float share = front < back ? 1.0 : 0.0;\n";
+        shader.Output += "  share = seen && found >= largest ? share : 2.0;\n";
+      }
+      else if (ofCells)
+      {
+        shader.Output = "float share = GetCellValue(" + cell + ").x > 0.0 ? 0.0 : 2.0;\n";
+      }
+      else
+      {
+        shader.Segment += model == OpticalModel::Isosurfaces ? FirstSurfaceDec : FirstPieceDec;
+        shader.Output = "float share = FindFirst(front, back);\n";
+      }
+      shader.Output += "  return vec4(share > 1.0 ? Beyond : GetDistance(begin, share, len));";
+      break;
+  }
+  if (pass == Pass::Colors && scene.Dither)
+  {
+    shader.Segment += AlphaDitherDec;
+    shader.Dither = "color = DitherAlpha(color, GetRandomNumber(gl_FragCoord.xy, key));";
+  }
+  return shader;
+}
+
+void ProjectionPicture::SetUniforms(vtkShaderProgram* program, const ProjectionScene& scene) const
+{
+  const RayGrid& grid = scene.Grid;
+  const float size[2] = { static_cast<float>(grid.Width), static_cast<float>(grid.Height) };
+  program->SetUniform2f("pictureSize", size);
+  // Relative to the length of one of them, so that none leaves the range of single precision.
+  const double unit = std::hypot(grid.Direction[0], grid.Direction[1], grid.Direction[2]);
+  const auto setVector = [&](const char* name, const double vector[3])
+  {
+    float relative[3];
+    for (int c = 0; c < 3; ++c)
+    {
+      relative[c] = static_cast<float>(vector[c] / unit);
+    }
+    program->SetUniform3f(name, relative);
+  };
+  setVector("rayDirection", grid.Direction);
+  setVector("rayStepX", grid.DirectionStepX);
+  setVector("rayStepY", grid.DirectionStepY);
+  program->SetUniformf("depthUnit", static_cast<float>(unit * scene.Frame->GetDepthUnit()));
+
+  constexpr double Half = 0.5; // from pixels to the coordinates of gl_FragCoord
+  const float middle[2] = { static_cast<float>(scene.Frame->GetMiddle()[0] + Half),
+    static_cast<float>(scene.Frame->GetMiddle()[1] + Half) };
+  const auto setPlanes = [&](const char* name, const std::vector<ScreenPlane>& planes)
+  {
+    if (!planes.empty())
+    {
+      std::vector<float> values;
+      for (const ScreenPlane& plane : planes)
+      {
+        values.insert(values.end(), { plane.X, plane.Y, plane.Constant, plane.Z });
+      }
+      program->SetUniform4fv(
+        name, static_cast<int>(planes.size()), reinterpret_cast<const float(*)[4]>(values.data()));
+    }
+  };
+  program->SetUniform2f("pictureMiddle", middle);
+  setPlanes("limitPlanes", scene.Planes);
+  setPlanes("croppingPlanes", scene.Cropping);
+  program->SetUniformi("croppingFlags", static_cast<int>(scene.CroppingFlags));
+}
+
+void ProjectionPicture::ClassifyLargest()
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  const DrawingState drawing(state);
+  const FloatTarget::Use use(this->Colors);
+  state->vtkglDisable(GL_BLEND);
+  std::string fragment = LargestPictureFS;
+  vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Dec", this->Integral.GetDeclarations());
+  vtkShaderProgram::Substitute(fragment, "//VTK::System::Dec", "#version 150\n");
+  vtkShaderProgram* program = this->Classifier.Use(this->Window, "LargestPictureFS", fragment);
+  this->Integral.Activate(program);
+  this->Scalars.GetTexture(0)->Activate();
+  program->SetUniformi("largestScalars", this->Scalars.GetTexture(0)->GetTextureUnit());
+  this->Classifier.Draw();
+  this->Scalars.GetTexture(0)->Deactivate();
+  this->Integral.Deactivate();
+}
+
+vtkTextureObject* ProjectionPicture::GetTexture() const { return this->Colors.GetTexture(0); }
+
+void ProjectionPicture::Read(const ProjectionScene& scene, Span<float> colors, Span<float> depths)
+{
+  this->Colors.Read(0, colors);
+  const vtkOpenGLState::ScopedglActiveTexture unit(this->Window->GetState());
+  // A table does not tell where in a segment the function first contributes.
+  SegmentSource source = MakeSegmentSource(*scene.Volume);
+  source.Table = nullptr;
+  this->Pieces.Update(this->Window, source);
+  this->Distances.Prepare(this->Window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));
+  this->DrawCells(Pass::FirstDistances, this->Distances, scene, {});
+  this->Distances.Read(0, depths);
+  for (float& depth : depths)
+  {
+    constexpr float None = -1;
+    depth = depth < Beyond ? depth : None;
+  }
+}
+
+std::size_t ProjectionPicture::GetNumberOfBytes() const
+{
+  return this->Colors.GetNumberOfBytes() + this->Scalars.GetNumberOfBytes() +
+    this->Distances.GetNumberOfBytes() + this->Drawer.GetNumberOfBytes() +
+    this->Integral.GetNumberOfBytes() + this->Pieces.GetNumberOfBytes();
+}
+
+void ProjectionPicture::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (!this->Window || window != this->Window)
+  {
+    return;
+  }
+  this->Colors.ReleaseGraphicsResources(window);
+  this->Scalars.ReleaseGraphicsResources(window);
+  this->Distances.ReleaseGraphicsResources(window);
+  this->Drawer.ReleaseGraphicsResources(window);
+  this->Integral.ReleaseGraphicsResources(window);
+  this->Pieces.ReleaseGraphicsResources(window);
+  this->Classifier.ReleaseGraphicsResources(window);
+  this->Window = nullptr;
+}
+
+} // namespace tetralux

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ProjectionPicture_h
+#define tetralux_ProjectionPicture_h
+
+#include "OpenGL/FloatTarget.h"
+#include "GpuIntegral/GpuLighting.h"
+#include "GpuIntegral/GpuSegmentIntegral.h"
+#include "GpuProjection/ProjectedCellDrawer.h"
+#include "Projection/ProjectedCells.h"
+#include "View/RayGrid.h"
+#include "GpuIntegral/RayGridUniforms.h"
+#include "Projection/ScreenFrame.h"
+#include "OpenGL/ScreenProgram.h"
+#include "Base/Span.h"
+
+#include "vtkWeakPointer.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace tetralux
+{
+
+class VolumeScene;
+
+/// What a picture of projected cells is drawn from.
+struct ProjectionScene
+{
+  VolumeScene* Volume = nullptr;
+  RayGrid Grid;
+  std::unique_ptr<ScreenFrame> Frame; ///< of Grid
+  Span<const ScreenPoint> Points;     ///< of the mesh
+  Span<const std::int32_t> Order;     ///< the cells that are drawn
+
+  /// Front to back, opacities add up: also those that are too small for 1 - opacity to differ from
+  /// 1. Back to front, rounding to few bits does less harm: what is in front is not rounded again.
+  bool FrontToBack = true;
+  bool Commutes = false; ///< what cells add, so that their order does not matter
+
+  std::vector<ScreenPlane> Planes;   ///< rays are kept on their positive sides
+  std::vector<ScreenPlane> Cropping; ///< xmin, xmax, ymin, ymax, zmin, zmax; empty: none
+  std::uint32_t CroppingFlags = 0;
+  vtkTextureObject* OpaqueDepth = nullptr; ///< of the window, 0..1; nullptr: none
+  float OpaquePlaces[4][2];                ///< see ProjectedCellFS.glsl
+
+  bool Shaded = false;       ///< lit by Lights
+  bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
+  std::vector<Light> Lights;
+  Material Surface;
+
+  bool Interpolate = true; ///< with perspective correction
+  ChannelFormat Format = ChannelFormat::Float;
+  bool Dither = false; ///< opacities, for 8 bits
+};
+
+/// Draws pictures of projected cells into textures of its own: colours as they come, and distances
+/// to the first contribution where they are asked for. Belongs to one window's context, the last
+/// one.
+class ProjectionPicture
+{
+public:
+  ProjectionPicture();
+  ~ProjectionPicture();
+  ProjectionPicture(const ProjectionPicture&) = delete;
+  ProjectionPicture& operator=(const ProjectionPicture&) = delete;
+
+  struct Result
+  {
+    bool Aborted = false;
+    std::int64_t Cells = 0; ///< that cover any pixel's centre
+    std::int64_t Triangles = 0;
+    double ProjectSeconds = 0; ///< projecting cells, on the processor
+  };
+
+  /// Draws the colours, the cells in batches. progress: told the share that is done, 0..1; the
+  /// drawing ends where it returns false. Leaves OpenGL's state as it was. Throws
+  /// std::runtime_error, with one line, where the graphics card or its driver can't.
+  Result Draw(vtkOpenGLRenderWindow* window, const ProjectionScene& scene,
+    const std::function<bool(double)>& progress);
+
+  const Result& GetLastResult() const { return this->Last; }
+
+  /// The colours, premultiplied.
+  vtkTextureObject* GetTexture() const;
+
+  /// How segments were integrated, for statistics.
+  const std::string& GetIntegration() const { return this->Integral.GetName(); }
+
+  /// Whether the last picture was drawn in that window, whose resources are still there.
+  bool IsOf(vtkOpenGLRenderWindow* window) const { return this->Window && this->Window == window; }
+
+  /// The picture's colours, and the distances along the rays to the first contribution, -1 where
+  /// there is none: those are drawn for that. scene: that of the last Draw.
+  void Read(const ProjectionScene& scene, Span<float> colors, Span<float> depths);
+
+  std::size_t GetNumberOfBytes() const; ///< on the graphics card
+
+  /// window: the one that goes away.
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  enum class Pass
+  {
+    Colors,
+    LargestScalars,
+    FirstDistances
+  };
+  Result DrawCells(Pass pass, FloatTarget& target, const ProjectionScene& scene,
+    const std::function<bool(double)>& progress);
+  ProjectedCellDrawer::Shader MakeShader(Pass pass, const ProjectionScene& scene) const;
+  void SetUniforms(vtkShaderProgram* program, const ProjectionScene& scene) const;
+  void ClassifyLargest();
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  FloatTarget Colors;
+  FloatTarget Scalars; ///< the largest ones along rays
+  FloatTarget Distances;
+  ProjectedCellDrawer Drawer;
+  GpuSegmentIntegral Integral;
+  GpuSegmentIntegral Pieces; ///< in closed form, for the distances
+  GpuLighting Lighting;
+  std::optional<RayGridUniforms> Rays; ///< where there is light
+  ScreenProgram Classifier;
+  ProjectedCells Cells;
+  Result Last;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,481 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GpuRayCast/GpuRayCaster.h"
+
+#include "BoundaryEntryDec.h"
+#include "FirstPieceDec.h"
+#include "FirstSurfaceDec.h"
+#include "GpuIntegral/GpuLighting.h"
+#include "GpuRayCast/GpuRayLimits.h"
+#include "GpuIntegral/GpuSegmentIntegral.h"
+#include "GpuRayCast/PixelProjection.h"
+#include "RayDoneFS.h"
+#include "RayEntryFS.h"
+#include "RayFrameDec.h"
+#include "RayLayerFS.h"
+#include "RayLayerVS.h"
+#include "RayPictureFS.h"
+#include "RayStatesDec.h"
+#include "RayWalkFS.h"
+#include "GpuRayCast/WalkTextures.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+#include "vtk_glew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Passes that may be under way before the count of an earlier one is waited for: so that the graphics
+/// card never waits for the processor, and an abort not for long.
+constexpr std::size_t PassesAhead = 2;
+
+/// A program's source from its file.
+std::string MakeSource(const char* file, const std::vector<std::string>& defines,
+  const std::string& rays = {}, const std::string& integral = {}, const std::string& lighting = {})
+{
+  std::string source = file;
+  std::string system = "#version 150\n";
+  // What RayFrameDec.glsl needs `precise` from, where there is any.
+  system += "#extension GL_ARB_gpu_shader5 : enable\n";
+  for (const std::string& define : defines)
+  {
+    system += "#define " + define + '\n';
+  }
+  vtkShaderProgram::Substitute(source, "//VTK::System::Dec", system);
+  vtkShaderProgram::Substitute(source, "//VTK::RayStates::Dec", RayStatesDec);
+  vtkShaderProgram::Substitute(source, "//VTK::GetRay::Dec", rays);
+  vtkShaderProgram::Substitute(source, "//VTK::RayFrame::Dec", RayFrameDec);
+  vtkShaderProgram::Substitute(source, "//VTK::BoundaryEntry::Dec", BoundaryEntryDec);
+  vtkShaderProgram::Substitute(source, "//VTK::Lighting::Dec", lighting);
+  vtkShaderProgram::Substitute(source, "//VTK::RayIntegral::Dec", integral);
+  return source;
+}
+
+/// Counts of the pixels that passes drew, as far as they are known without waiting.
+class PassCounts
+{
+public:
+  explicit PassCounts(std::vector<std::int64_t>& counts)
+    : Counts(counts)
+  {
+  }
+  ~PassCounts()
+  {
+    for (const GLuint query : this->Waiting)
+    {
+      glDeleteQueries(1, &query);
+    }
+  }
+  PassCounts(const PassCounts&) = delete;
+  PassCounts& operator=(const PassCounts&) = delete;
+
+  void Begin()
+  {
+    GLuint query = 0;
+    glGenQueries(1, &query);
+    this->Waiting.push_back(query);
+    glBeginQuery(GL_SAMPLES_PASSED, query);
+  }
+  void End() { glEndQuery(GL_SAMPLES_PASSED); }
+
+  /// Takes the counts that are there, and waits for those before the last `ahead` passes; true where a
+  /// pass drew nothing.
+  bool Take(std::size_t ahead)
+  {
+    while (!this->Waiting.empty())
+    {
+      const GLuint query = this->Waiting.front();
+      GLuint available = GL_TRUE;
+      if (this->Waiting.size() <= ahead)
+      {
+        glGetQueryObjectuiv(query, GL_QUERY_RESULT_AVAILABLE, &available);
+      }
+      if (!available)
+      {
+        return false;
+      }
+      GLuint count = 0;
+      glGetQueryObjectuiv(query, GL_QUERY_RESULT, &count);
+      glDeleteQueries(1, &query);
+      this->Waiting.pop_front();
+      if (count == 0)
+      {
+        return true;
+      }
+      this->Counts.push_back(count);
+    }
+    return false;
+  }
+
+private:
+  std::vector<std::int64_t>& Counts;
+  std::deque<GLuint> Waiting;
+};
+
+/// A texture bound to a unit while a program draws.
+class ActiveTexture
+{
+public:
+  ActiveTexture(vtkShaderProgram* program, const char* sampler, vtkTextureObject* texture)
+    : Texture(texture)
+  {
+    texture->Activate();
+    program->SetUniformi(sampler, texture->GetTextureUnit());
+  }
+  ~ActiveTexture() { this->Texture->Deactivate(); }
+  ActiveTexture(const ActiveTexture&) = delete;
+  ActiveTexture& operator=(const ActiveTexture&) = delete;
+
+private:
+  vtkTextureObject* Texture;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+// The passes of one frame. What it changes of OpenGL's state is set back when it ends.
+class GpuRayCaster::Frame
+{
+public:
+  Frame(GpuRayCaster& self, vtkOpenGLRenderWindow* window, GpuRayLimits& limits, WalkTextures& mesh,
+    GpuSegmentIntegral& integral, const GpuRayCastOptions& options)
+    : Self(self)
+    , Window(window)
+    , State(window->GetState())
+    , Limits(limits)
+    , Mesh(mesh)
+    , Integral(integral)
+    , Options(options)
+    , Unit(State)
+    , Blend(State, GL_BLEND)
+    , DepthTest(State, GL_DEPTH_TEST)
+    , CullFace(State, GL_CULL_FACE)
+    , Scissor(State, GL_SCISSOR_TEST)
+    , Stencil(State, GL_STENCIL_TEST)
+    , DepthMask(State)
+    , DepthFunction(State)
+    , ColorMask(State)
+  {
+    for (const unsigned int capability :
+      { GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST })
+    {
+      this->State->vtkglDisable(capability);
+    }
+    this->State->vtkglEnable(GL_DEPTH_TEST);
+    this->State->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    this->State->vtkglDepthMask(GL_TRUE);
+    self.Targets.BeginDrawing();
+  }
+  ~Frame()
+  {
+    this->Deactivate();
+    this->Self.Targets.EndDrawing();
+  }
+  Frame(const Frame&) = delete;
+  Frame& operator=(const Frame&) = delete;
+
+  GpuRayCastStatistics Draw()
+  {
+    GpuRayCastStatistics statistics;
+    statistics.Variant = this->Integral.GetName();
+    for (const std::string& name : this->GetWalkDefines())
+    {
+      statistics.Variant += ' ' + name;
+    }
+    this->Self.Targets.Clear(
+      this->Options.LargestScalar ? -std::numeric_limits<float>::max() : 0.f);
+    PassCounts counts(statistics.Fragments);
+    for (int pass = 0;; ++pass)
+    {
+      const int from = pass % 2;
+      if (pass == 0 || this->EntersAgain())
+      {
+        if (this->Options.Layers)
+        {
+          this->DrawLayer(from);
+        }
+        else
+        {
+          this->FindEntries(from);
+        }
+      }
+      this->CoverDone(from);
+      counts.Begin();
+      this->WalkOn(from);
+      counts.End();
+      glFlush();
+      ++statistics.Passes;
+      if (counts.Take(this->Options.CountFragments ? 0 : PassesAhead))
+      {
+        break;
+      }
+      const double running = statistics.Fragments.empty()
+        ? 1
+        : static_cast<double>(statistics.Fragments.back()) /
+          static_cast<double>(statistics.Fragments.front());
+      if (this->Options.Continue && !this->Options.Continue(1 - running))
+      {
+        statistics.Aborted = true;
+        break;
+      }
+    }
+    if (!statistics.Aborted)
+    {
+      this->MakePicture(statistics.Passes % 2);
+      statistics.Steps = this->Options.CountFragments ? this->CountSteps() : 0;
+    }
+    return statistics;
+  }
+
+private:
+  void Deactivate()
+  {
+    this->Limits.Deactivate();
+    this->Mesh.Deactivate();
+    this->Integral.Deactivate();
+  }
+
+  bool MayEnterAgain() const { return this->Options.Reentry == GpuReentry::Boundary; }
+
+  /// Of a part of a ray, or the next one.
+  bool EntersAgain() const { return this->MayEnterAgain() || this->Limits.GetNumberOfParts() > 1; }
+
+  /// What finds the place of the first contribution in a segment; empty where there is no place.
+  std::string GetFirstContribution() const
+  {
+    const std::string& name = this->Integral.GetName();
+    if (this->Options.CellData || name == "table" || name == "largest scalar")
+    {
+      return {};
+    }
+    return name == "isosurfaces" ? FirstSurfaceDec : FirstPieceDec;
+  }
+
+  std::vector<std::string> GetEntryDefines() const
+  {
+    return this->MayEnterAgain() ? std::vector<std::string>{ "DIRECTED" }
+                                 : std::vector<std::string>();
+  }
+
+  std::string GetLighting() const
+  {
+    return this->Options.Lighting ? this->Options.Lighting->GetDeclarations() : std::string();
+  }
+
+  std::vector<std::string> GetWalkDefines() const
+  {
+    std::vector<std::string> names;
+    const auto define = [&names](bool defined, const char* name)
+    {
+      if (defined)
+      {
+        names.emplace_back(name);
+      }
+    };
+    define(this->Options.CellData, "CELL_DATA");
+    define(this->Options.LargestScalar, "GATHER_LARGEST");
+    define(this->Options.Reentry == GpuReentry::Imaginary, "IMAGINARY_CELLS");
+    define(this->MayEnterAgain(), "REENTRY");
+    const bool lit = this->Options.Lighting != nullptr;
+    define(lit, "LIT");
+    define(lit && this->Options.SmoothGradients, "SMOOTH_GRADIENTS");
+    define(lit && this->Integral.GetName() == "isosurfaces", "ISOSURFACES");
+    return names;
+  }
+
+  /// Leaves pixels alone that are covered: they have depth 0, others 1, and so has what is drawn.
+  void TestDepth()
+  {
+    this->State->vtkglDepthFunc(GL_LEQUAL);
+    this->State->vtkglDepthMask(GL_FALSE);
+  }
+
+  void FindEntries(int from)
+  {
+    RayTargets& targets = this->Self.Targets;
+    vtkShaderProgram* program = this->Self.Entry.Use(this->Window, "RayEntryFS",
+      MakeSource(RayEntryFS, this->GetEntryDefines(), this->Limits.GetDeclarations()));
+    this->Limits.Activate(program);
+    this->Mesh.ActivateForEntry(program);
+    const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
+    const ActiveTexture entries(
+      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
+    targets.DrawInto(RayTargets::OfNextEntries);
+    this->TestDepth();
+    this->Self.Entry.Draw();
+    this->Deactivate();
+  }
+
+  void DrawLayer(int from)
+  {
+    RayTargets& targets = this->Self.Targets;
+    this->State->vtkglDepthMask(GL_TRUE); // clearing, too, heeds it
+    targets.ClearLayer();
+    vtkShaderProgram* program = this->Self.Layer.Use(this->Window, "RayLayerFS",
+      MakeSource(RayLayerFS, this->GetEntryDefines(), this->Limits.GetDeclarations()),
+      MakeSource(RayLayerVS, {}));
+    this->Limits.Activate(program);
+    this->Mesh.ActivateForLayer(program);
+    float rows[3][4];
+    for (int row = 0; row < 3; ++row)
+    {
+      std::transform(this->Options.Layers->Rows[row], this->Options.Layers->Rows[row] + 4,
+        rows[row], [](double x) { return static_cast<float>(x); });
+    }
+    program->SetUniform4fv("pixelFromRay", 3, rows);
+    const FloatTarget::Settings& settings = this->Self.Picture.GetSettings();
+    const float size[2] = { static_cast<float>(settings.Width),
+      static_cast<float>(settings.Height) };
+    program->SetUniform2f("pictureSize", size);
+    const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
+    const ActiveTexture entries(
+      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
+    targets.DrawInto(RayTargets::OfLayer);
+    this->State->vtkglDepthFunc(GL_LESS);
+    constexpr int VerticesOfEntry = 6;
+    this->Self.Layer.Draw(VerticesOfEntry * this->Mesh.GetNumberOfEntries());
+    this->Deactivate();
+  }
+
+  void CoverDone(int from)
+  {
+    RayTargets& targets = this->Self.Targets;
+    vtkShaderProgram* program = this->Self.Done.Use(this->Window, "RayDoneFS",
+      MakeSource(
+        RayDoneFS, { "NUMBER_OF_PARTS " + std::to_string(this->Limits.GetNumberOfParts()) }));
+    const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
+    const ActiveTexture entries(
+      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
+    const ActiveTexture next(program, "nextEntries", targets.GetNextEntries());
+    targets.DrawInto(RayTargets::OfDepth);
+    this->State->vtkglDepthFunc(GL_LESS);
+    this->State->vtkglDepthMask(GL_TRUE);
+    this->Self.Done.Draw();
+  }
+
+  void WalkOn(int from)
+  {
+    RayTargets& targets = this->Self.Targets;
+    vtkShaderProgram* program = this->Self.Walk.Use(this->Window, "RayWalkFS",
+      MakeSource(RayWalkFS, this->GetWalkDefines(), this->Limits.GetDeclarations(),
+        this->Integral.GetDeclarations(), this->GetLighting()));
+    this->Limits.Activate(program);
+    program->SetUniformi("numberOfCells", this->Options.NumberOfCells);
+    program->SetUniformi("stepsOfPass", this->Options.StepsPerPass);
+    program->SetUniformf("maximumOpacity", this->Options.MaximumOpacity);
+    this->Mesh.ActivateForWalk(program, this->Options.Lighting && this->Options.SmoothGradients);
+    if (this->Options.Lighting)
+    {
+      this->Options.Lighting->Set(program);
+    }
+    this->Integral.Activate(program);
+    const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
+    const ActiveTexture entries(
+      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
+    const ActiveTexture colors(program, "rayColors", targets.GetTexture(from, RayTargets::Colors));
+    const ActiveTexture firsts(program, "rayFirsts", targets.GetTexture(from, RayTargets::Firsts));
+    const ActiveTexture next(program, "nextEntries", targets.GetNextEntries());
+    targets.DrawInto(1 - from);
+    this->TestDepth();
+    this->Self.Walk.Draw();
+    this->Deactivate();
+  }
+
+  void MakePicture(int last)
+  {
+    RayTargets& targets = this->Self.Targets;
+    const FloatTarget::Use use(this->Self.Picture);
+    std::vector<std::string> defines = this->GetWalkDefines();
+    if (!this->GetFirstContribution().empty())
+    {
+      defines.emplace_back("FIND_FIRST");
+    }
+    std::string source = MakeSource(RayPictureFS, defines, this->Limits.GetDeclarations(),
+      this->Integral.GetDeclarations(), this->GetLighting());
+    vtkShaderProgram::Substitute(
+      source, "//VTK::FirstContribution::Dec", this->GetFirstContribution());
+    vtkShaderProgram* program = this->Self.Result.Use(this->Window, "RayPictureFS", source);
+    this->Limits.Activate(program);
+    this->Integral.Activate(program);
+    const int other = 1 - last;
+    const ActiveTexture entries(
+      program, "rayEntries", targets.GetTexture(last, RayTargets::Entries));
+    const ActiveTexture colors(program, "rayColors", targets.GetTexture(last, RayTargets::Colors));
+    const ActiveTexture firsts(program, "rayFirsts", targets.GetTexture(last, RayTargets::Firsts));
+    const ActiveTexture otherEntries(
+      program, "otherRayEntries", targets.GetTexture(other, RayTargets::Entries));
+    const ActiveTexture otherColors(
+      program, "otherRayColors", targets.GetTexture(other, RayTargets::Colors));
+    const ActiveTexture otherFirsts(
+      program, "otherRayFirsts", targets.GetTexture(other, RayTargets::Firsts));
+    this->State->vtkglDisable(GL_DEPTH_TEST);
+    this->Self.Result.Draw();
+    this->State->vtkglEnable(GL_DEPTH_TEST);
+    this->Deactivate();
+  }
+
+  std::int64_t CountSteps()
+  {
+    const FloatTarget::Settings& settings = this->Self.Picture.GetSettings();
+    std::vector<float> distancesAndSteps(
+      2 * static_cast<std::size_t>(settings.Width) * static_cast<std::size_t>(settings.Height));
+    this->Self.Picture.Read(1, distancesAndSteps);
+    std::int64_t steps = 0;
+    for (std::size_t k = 1; k < distancesAndSteps.size(); k += 2)
+    {
+      steps += std::lround(distancesAndSteps[k]);
+    }
+    return steps;
+  }
+
+  GpuRayCaster& Self;
+  vtkOpenGLRenderWindow* Window;
+  vtkOpenGLState* State;
+  GpuRayLimits& Limits;
+  WalkTextures& Mesh;
+  GpuSegmentIntegral& Integral;
+  const GpuRayCastOptions& Options;
+
+  vtkOpenGLState::ScopedglActiveTexture Unit;
+  vtkOpenGLState::ScopedglEnableDisable Blend, DepthTest, CullFace, Scissor, Stencil;
+  vtkOpenGLState::ScopedglDepthMask DepthMask;
+  vtkOpenGLState::ScopedglDepthFunc DepthFunction;
+  vtkOpenGLState::ScopedglColorMask ColorMask;
+};
+
+//------------------------------------------------------------------------------------------------
+GpuRayCastStatistics GpuRayCaster::Cast(vtkOpenGLRenderWindow* window, int width, int height,
+  GpuRayLimits& limits, WalkTextures& mesh, GpuSegmentIntegral& integral,
+  const GpuRayCastOptions& options)
+{
+  this->Targets.Prepare(window, width, height);
+  FloatTarget::Settings settings;
+  settings.Width = width;
+  settings.Height = height;
+  settings.Pictures = { { 4, ChannelFormat::Float }, { 2, ChannelFormat::Float } };
+  this->Picture.Prepare(window, settings);
+  Frame frame(*this, window, limits, mesh, integral, options);
+  return frame.Draw();
+}
+
+void GpuRayCaster::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Targets.ReleaseGraphicsResources(window);
+  this->Picture.ReleaseGraphicsResources(window);
+  for (ScreenProgram* program :
+    { &this->Entry, &this->Layer, &this->Walk, &this->Done, &this->Result })
+  {
+    program->ReleaseGraphicsResources(window);
+  }
+}
+
+} // namespace tetralux

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GpuRayCast/WalkTextures.h"
+
+#include "OpenGL/GraphicsCard.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkShaderProgram.h"
+
+namespace tetralux
+{
+void WalkTextures::SetTopology(vtkOpenGLRenderWindow* window, const WalkTables& tables,
+  Span<const std::uint8_t> positive, const Version& version)
+{
+  this->TopologyVersion.clear();
+  if (this->Window != window)
+  {
+    this->PointsVersion.clear();
+    this->GradientsVersion.clear();
+    this->Window = window;
+  }
+  const WalkTexels texels = MakeWalkTexels(tables, positive);
+  this->Faces.Upload(window, reinterpret_cast<const std::int32_t*>(tables.Faces.data()),
+    tables.Faces.size(), 2, "the table of faces");
+  this->Entries.Upload(
+    window, texels.Entries.data(), texels.Entries.size() / 4, 4, "the table of boundary faces");
+  this->Boxes.Upload(
+    window, texels.Boxes.data(), texels.Boxes.size() / 4, 4, "the hierarchy over the boundary");
+  this->Links.Upload(
+    window, texels.Links.data(), texels.Links.size() / 2, 2, "the hierarchy over the boundary");
+  this->NumberOfNodes = static_cast<int>(texels.Links.size() / 2);
+  this->NumberOfEntries = static_cast<int>(tables.Entries.size());
+  this->UploadedBytes += this->Faces.GetNumberOfBytes() + this->Entries.GetNumberOfBytes() +
+    this->Boxes.GetNumberOfBytes() + this->Links.GetNumberOfBytes();
+  this->TopologyVersion = version;
+}
+
+void WalkTextures::UpdatePoints(
+  vtkOpenGLRenderWindow* window, Span<const WalkPoint<float>> points, const Version& version)
+{
+  if (this->Window == window && this->PointsVersion == version)
+  {
+    return;
+  }
+  this->PointsVersion.clear();
+  this->Points.Upload(
+    window, reinterpret_cast<const float*>(points.data()), points.size(), 4, "the table of points");
+  this->UploadedBytes += this->Points.GetNumberOfBytes();
+  this->NumberOfPoints = points.size();
+  this->PointsVersion = version;
+}
+
+void WalkTextures::UpdateGradients(
+  vtkOpenGLRenderWindow* window, Span<const PointGradient> gradients, const Version& version)
+{
+  if (this->GradientsVersion == version)
+  {
+    return;
+  }
+  this->GradientsVersion.clear();
+  std::vector<PointGradient> padded(gradients.begin(), gradients.end());
+  padded.resize(this->NumberOfPoints, PointGradient{ 0, 0, 0, 0 });
+  this->Gradients.Upload(window, &padded.data()->X, padded.size(), 4, "the table of gradients");
+  this->UploadedBytes += this->Gradients.GetNumberOfBytes();
+  this->GradientsVersion = version;
+}
+
+std::string WalkTextures::FindObstacle(
+  vtkOpenGLRenderWindow* window, const WalkTables& tables, std::size_t numberOfPoints)
+{
+  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+  return tetralux::FindObstacle(
+    { { "faces", count(tables.Faces.size()), 8 }, { "points", count(numberOfPoints), 16 },
+      { "boundary faces", count(tables.Entries.size()), 16 },
+      { "boxes around boundary faces", count(2 * tables.Bvh.Nodes.size()), 16 },
+      { "links between boxes", count(tables.Bvh.Nodes.size()), 8 } },
+    DescribeGraphicsCard(window).Limits);
+}
+
+void WalkTextures::ActivateForLayer(vtkShaderProgram* program)
+{
+  this->Points.Activate(program, "walkPoints");
+  this->Entries.Activate(program, "boundaryEntries");
+}
+
+void WalkTextures::ActivateForEntry(vtkShaderProgram* program)
+{
+  this->ActivateForLayer(program);
+  this->Boxes.Activate(program, "boundaryBoxes");
+  this->Links.Activate(program, "boundaryLinks");
+  program->SetUniformi("numberOfBoundaryNodes", this->NumberOfNodes);
+}
+
+void WalkTextures::ActivateForWalk(vtkShaderProgram* program, bool gradients)
+{
+  this->Points.Activate(program, "walkPoints");
+  this->Faces.Activate(program, "walkFaces");
+  if (gradients)
+  {
+    this->Gradients.Activate(program, "pointGradients");
+  }
+  this->Entries.Activate(program, "boundaryEntries");
+}
+
+void WalkTextures::Deactivate()
+{
+  for (TextureBuffer* buffer :
+    { &this->Points, &this->Faces, &this->Entries, &this->Boxes, &this->Links, &this->Gradients })
+  {
+    buffer->Deactivate();
+  }
+}
+
+std::size_t WalkTextures::GetNumberOfBytes() const
+{
+  return this->Points.GetNumberOfBytes() + this->Faces.GetNumberOfBytes() +
+    this->Entries.GetNumberOfBytes() + this->Boxes.GetNumberOfBytes() +
+    this->Links.GetNumberOfBytes() + this->Gradients.GetNumberOfBytes();
+}
+
+void WalkTextures::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (window != this->Window)
+  {
+    return;
+  }
+  for (TextureBuffer* buffer :
+    { &this->Points, &this->Faces, &this->Entries, &this->Boxes, &this->Links, &this->Gradients })
+  {
+    buffer->ReleaseGraphicsResources(window);
+  }
+  this->Window = nullptr;
+  this->TopologyVersion.clear();
+  this->PointsVersion.clear();
+  this->GradientsVersion.clear();
+}
+
+} // namespace tetralux

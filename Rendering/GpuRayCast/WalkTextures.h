@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_WalkTextures_h
+#define tetralux_WalkTextures_h
+
+#include "Mesh/PointGradients.h"
+#include "TetraluxRenderingModule.h"
+#include "OpenGL/TextureBuffer.h"
+#include "Walk/WalkMesh.h"
+#include "Walk/WalkTexels.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkWindow;
+
+namespace tetralux
+{
+
+/// A mesh on the graphics card: 32 bytes a tetrahedron, 16 a point, and about 40 a boundary face for
+/// what rays come in by. Belongs to one window's context, the last one.
+class TETRALUXRENDERING_EXPORT WalkTextures
+{
+public:
+  /// Whatever tells contents apart; never empty.
+  using Version = std::vector<std::uint64_t>;
+
+  bool HasTopology(vtkOpenGLRenderWindow* window, const Version& version) const
+  {
+    return this->Window == window && this->TopologyVersion == version;
+  }
+
+  /// Sends a topology. positive: see MakeWalkTexels.
+  void SetTopology(vtkOpenGLRenderWindow* window, const WalkTables& tables,
+    Span<const std::uint8_t> positive, const Version& version);
+
+  /// Sends points with their scalars, unless they have this version already. To be called after
+  /// SetTopology.
+  void UpdatePoints(
+    vtkOpenGLRenderWindow* window, Span<const WalkPoint<float>> points, const Version& version);
+
+  /// Sends gradients at points, unless they have this version already; padded to the number of points.
+  /// To be called after UpdatePoints.
+  void UpdateGradients(
+    vtkOpenGLRenderWindow* window, Span<const PointGradient> gradients, const Version& version);
+
+  /// What of a mesh would not fit on the graphics card of a window, one line; empty where all does.
+  static std::string FindObstacle(
+    vtkOpenGLRenderWindow* window, const WalkTables& tables, std::size_t numberOfPoints);
+
+  /// For a program in use: the arrays that RayEntryFS.glsl, RayLayerFS.glsl or RayWalkFS.glsl reads, bound to texture
+  /// units until Deactivate.
+  ///@{
+  void ActivateForEntry(vtkShaderProgram* program);
+  void ActivateForLayer(vtkShaderProgram* program);
+  void ActivateForWalk(vtkShaderProgram* program, bool gradients);
+  void Deactivate();
+  ///@}
+
+  int GetNumberOfEntries() const { return this->NumberOfEntries; }
+
+  /// On the graphics card.
+  std::size_t GetNumberOfBytes() const;
+  /// Of that, what grows with tetrahedra and points; the rest grows with boundary faces.
+  std::size_t GetNumberOfCellAndPointBytes() const
+  {
+    return this->Faces.GetNumberOfBytes() + this->Points.GetNumberOfBytes();
+  }
+  /// Sent since the last reset.
+  std::size_t GetUploadedBytes() const { return this->UploadedBytes; }
+  void ResetUploadedBytes() { this->UploadedBytes = 0; }
+
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  TextureBuffer Faces, Entries, Boxes, Links, Points, Gradients;
+  std::size_t NumberOfPoints = 0;
+  int NumberOfNodes = 0;
+  int NumberOfEntries = 0;
+  vtkOpenGLRenderWindow* Window = nullptr; ///< only compared
+  Version TopologyVersion;
+  Version PointsVersion;
+  Version GradientsVersion;
+  std::size_t UploadedBytes = 0;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Preparation/TransferFunctionFromProperty.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkSmartPointer.h"
+#include "vtkVolumeProperty.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tetralux
+{
+namespace
+{
+
+using Value = TransferFunction::Value;
+
+/// Offset from a break at which its one-sided limits are taken, in fractions of the interval and of
+/// the scalar: beyond the rounding of VTK's logarithms, below that of single precision.
+constexpr double LimitOffset = 1e-9;
+
+/// The smallest step that is one, in fractions of the values around: the rounding of the tables,
+/// which are in single precision, and more than a slope makes of LimitOffset.
+constexpr double SmallestStep = 1e-7;
+
+/// How often an interval is halved at most: down to the rounding of single precision.
+constexpr int MaximumHalvings = 24;
+
+/// Points inside of an interval at which it is compared with the line through its ends: S-shaped
+/// curves meet that line in the middle.
+constexpr int TestsPerInterval = 7;
+
+/// Whether VTK interpolates between the logarithms of scalars.
+bool IsLogarithmic(vtkColorTransferFunction* function)
+{
+  return function->GetScale() == VTK_CTF_LOG10 && function->GetRange()[0] > 0;
+}
+
+/// Colours taken of each interval in the one colour space that VTK searches a path through the
+/// space for: at every call, for a tenth of a second.
+constexpr int SearchedColors = 1024;
+
+/// A function with linear intervals that goes through SearchedColors colours of each interval.
+/// Paths begin and end near the colours of the nodes, not at them.
+vtkSmartPointer<vtkColorTransferFunction> SearchOnce(vtkColorTransferFunction* function)
+{
+  auto result = vtkSmartPointer<vtkColorTransferFunction>::New();
+  result->DeepCopy(function);
+  result->RemoveAllPoints();
+  result->SetColorSpaceToRGB();
+  result->SetScaleToLinear();
+  result->AllowDuplicateScalarsOn();
+  const bool logarithmic = IsLogarithmic(function);
+  std::vector<double> colors(3 * (SearchedColors + 1));
+  double previous = 0;
+  for (int i = 0; i < function->GetSize(); ++i)
+  {
+    double node[6];
+    function->GetNodeValue(i, node);
+    if (i > 0 && previous < node[0])
+    {
+      function->GetTable(previous, node[0], SearchedColors + 1, colors.data());
+      result->AddRGBPoint(previous, colors[3], colors[4], colors[5]);
+      for (int k = 1; k <= SearchedColors; ++k)
+      {
+        const double t = static_cast<double>(k) / SearchedColors;
+        const double scalar = logarithmic ? previous * std::pow(node[0] / previous, t)
+                                          : previous + t * (node[0] - previous);
+        result->AddRGBPoint(scalar, colors[3 * k], colors[3 * k + 1], colors[3 * k + 2]);
+      }
+    }
+    if (i == 0 || i == function->GetSize() - 1)
+    {
+      result->AddRGBPoint(node[0], node[1], node[2], node[3]); // seen outside of the range
+    }
+    previous = node[0];
+  }
+  return result;
+}
+
+/// A property's functions, evaluated as VTK does.
+class PropertyFunctions
+{
+public:
+  explicit PropertyFunctions(vtkVolumeProperty* property)
+    : Opacity(property->GetScalarOpacity(0))
+    , Color(property->GetColorChannels(0) == 3 ? property->GetRGBTransferFunction(0) : nullptr)
+    , Grey(this->Color ? nullptr : property->GetGrayTransferFunction(0))
+    , UnitDistance(property->GetScalarOpacityUnitDistance(0))
+  {
+    if (!(this->UnitDistance > 0) || !std::isfinite(this->UnitDistance))
+    {
+      throw std::invalid_argument("ScalarOpacityUnitDistance is " +
+        std::to_string(this->UnitDistance) + ", it must be a positive number");
+    }
+    if (this->Color && this->Color->GetColorSpace() == VTK_CTF_LAB_CIEDE2000)
+    {
+      this->Color = SearchOnce(this->Color);
+    }
+  }
+
+  Value Evaluate(double scalar) const
+  {
+    Value value;
+    if (this->Color)
+    {
+      // There is no logarithm below 0: it is below the range, too.
+      const double below = (1 - LimitOffset) * this->Color->GetRange()[0];
+      const double x = IsLogarithmic(this->Color) ? std::max(scalar, below) : scalar;
+      this->Color->GetTable(x, x, 1, value.Color);
+    }
+    else
+    {
+      this->Grey->GetTable(scalar, scalar, 1, value.Color);
+      value.Color[1] = value.Color[2] = value.Color[0];
+    }
+    double opacity = 0;
+    this->Opacity->GetTable(scalar, scalar, 1, &opacity);
+    value.Attenuation = std::max(opacity, 0.) / this->UnitDistance;
+    if (!std::isfinite(value.Color[0]) || !std::isfinite(value.Color[1]) ||
+      !std::isfinite(value.Color[2]) || !std::isfinite(opacity))
+    {
+      throw std::invalid_argument("colour or opacity of the volume property is not a finite number "
+                                  "at scalar " +
+        std::to_string(scalar));
+    }
+    return value;
+  }
+
+  /// The limit at a break from the side of the neighbouring break: VTK's value at the break where
+  /// that is continuous.
+  Value GetLimit(double scalar, double neighbour) const
+  {
+    const double offset = LimitOffset * std::min(std::abs(neighbour - scalar), std::abs(scalar));
+    const double next = std::nextafter(scalar, neighbour);
+    const double x =
+      neighbour > scalar ? std::max(scalar + offset, next) : std::min(scalar - offset, next);
+    const Value beyond = this->Evaluate(x);
+    const Value at = this->Evaluate(scalar);
+    const Value far = this->Evaluate(neighbour);
+    // Where an interval has but few numbers, a slope goes a good way from one to the next.
+    const double share = SmallestStep + 4 * (x - scalar) / (neighbour - scalar);
+    const auto choose = [share](double a, double b, double c)
+    {
+      const double size = std::max({ std::abs(a), std::abs(b), std::abs(c) });
+      return std::abs(a - b) > share * size ? b : a;
+    };
+    Value limit;
+    for (int c = 0; c < 3; ++c)
+    {
+      limit.Color[c] = choose(at.Color[c], beyond.Color[c], far.Color[c]);
+    }
+    limit.Attenuation = choose(at.Attenuation, beyond.Attenuation, far.Attenuation);
+    return limit;
+  }
+
+  /// Where the functions may bend or step, ascending, each once; at least one.
+  std::vector<double> GetBreaks() const
+  {
+    std::vector<double> breaks;
+    AddBreaks<4>(this->Opacity, this->Opacity->GetUseLogScale(), breaks);
+    if (this->Color)
+    {
+      AddBreaks<6>(this->Color.Get(), IsLogarithmic(this->Color), breaks);
+    }
+    else
+    {
+      AddBreaks<4>(this->Grey, this->Grey->GetUseLogScale(), breaks);
+    }
+    if (breaks.empty())
+    {
+      breaks.push_back(0);
+    }
+    std::sort(breaks.begin(), breaks.end());
+    breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+    return breaks;
+  }
+
+private:
+  /// A function's nodes, and the midpoints between them that are not in the middle or are steps.
+  template <int NodeSize, class Function>
+  static void AddBreaks(Function* function, bool logarithmic, std::vector<double>& breaks)
+  {
+    std::array<double, NodeSize> node{};
+    std::array<double, NodeSize> previous{};
+    for (int i = 0; i < function->GetSize(); ++i)
+    {
+      function->GetNodeValue(i, node.data());
+      if (!std::isfinite(node[0]))
+      {
+        throw std::invalid_argument(
+          "a function of the volume property has a node whose scalar is not a finite number");
+      }
+      const double x0 = previous[0];
+      const double x1 = node[0];
+      if (i > 0 && x0 < x1)
+      {
+        const double midpoint = std::clamp(previous[NodeSize - 2], 0.00001, 0.99999); // as in VTK
+        const double sharpness = previous[NodeSize - 1];
+        if (midpoint != 0.5 || sharpness > 0)
+        {
+          breaks.push_back(x0 + midpoint * (x1 - x0));
+          if (logarithmic && x0 > 0)
+          {
+            breaks.push_back(x0 * std::pow(x1 / x0, midpoint));
+          }
+        }
+      }
+      breaks.push_back(x1);
+      previous = node;
+    }
+  }
+
+  vtkPiecewiseFunction* Opacity;
+  vtkSmartPointer<vtkColorTransferFunction> Color;
+  vtkPiecewiseFunction* Grey;
+  double UnitDistance;
+};
+
+/// How far an approximation may be off: an error c of the colour is one of at most c in the
+/// picture; an attenuation that is off by a share s, and by a on top, changes an optical depth D by
+/// s D + a longestPath, and the picture by at most s D exp(-D) + a longestPath < s / 2 + a
+/// longestPath.
+struct Tolerance
+{
+  double Color;
+  double AttenuationShare;
+  double Attenuation;
+
+  Tolerance(double maximumError, double longestPath)
+    : Color(maximumError / 2)
+    , AttenuationShare(maximumError / 2)
+    , Attenuation(maximumError / 4 / longestPath)
+  {
+  }
+
+  bool Accepts(const Value& exact, const Value& approximation) const
+  {
+    if (std::abs(exact.Attenuation - approximation.Attenuation) >
+      this->AttenuationShare * exact.Attenuation + this->Attenuation)
+    {
+      return false;
+    }
+    // No colour is seen where nothing attenuates.
+    return (exact.Attenuation == 0 && approximation.Attenuation == 0) ||
+      (std::abs(exact.Color[0] - approximation.Color[0]) <= this->Color &&
+        std::abs(exact.Color[1] - approximation.Color[1]) <= this->Color &&
+        std::abs(exact.Color[2] - approximation.Color[2]) <= this->Color);
+  }
+};
+
+Value Interpolate(const Value& a, const Value& b, double t)
+{
+  Value value;
+  for (int c = 0; c < 3; ++c)
+  {
+    value.Color[c] = (1 - t) * a.Color[c] + t * b.Color[c];
+  }
+  value.Attenuation = (1 - t) * a.Attenuation + t * b.Attenuation;
+  return value;
+}
+
+/// Adds nodes inside of (x0, x1), where the function is continuous, ascending, until it is linear
+/// between them. Returns whether any were needed.
+bool Subdivide(const PropertyFunctions& functions, const Tolerance& tolerance, double x0,
+  const Value& value0, double x1, const Value& value1, int halvings, TransferFunction& result)
+{
+  bool linear = true;
+  for (int i = 1; i <= TestsPerInterval && linear; ++i)
+  {
+    const double x = x0 + (x1 - x0) * i / (TestsPerInterval + 1);
+    linear = x <= x0 || x1 <= x ||
+      tolerance.Accepts(functions.Evaluate(x), Interpolate(value0, value1, (x - x0) / (x1 - x0)));
+  }
+  const double middle = x0 + 0.5 * (x1 - x0);
+  if (linear || halvings == MaximumHalvings || middle <= x0 || x1 <= middle)
+  {
+    return false;
+  }
+  const Value value = functions.Evaluate(middle);
+  Subdivide(functions, tolerance, x0, value0, middle, value, halvings + 1, result);
+  result.Nodes.push_back({ middle, value, value });
+  Subdivide(functions, tolerance, middle, value, x1, value1, halvings + 1, result);
+  return true;
+}
+
+} // namespace
+
+PropertyTransferFunction TransferFunctionFromProperty(
+  vtkVolumeProperty* property, double maximumError, double longestPath)
+{
+  const PropertyFunctions functions(property);
+  const Tolerance tolerance(maximumError, longestPath);
+  const std::vector<double> breaks = functions.GetBreaks();
+
+  PropertyTransferFunction result;
+  std::vector<TransferFunction::Node>& nodes = result.Function.Nodes;
+
+  // Outside of all nodes functions are constant; a place there that logarithms can be taken of,
+  // too.
+  const double first = breaks.front();
+  const double last = breaks.back();
+  const auto margin = [](double x) { return x == 0 ? 1 : 1e-6 * std::abs(x); };
+  Value left = functions.Evaluate(first - margin(first));
+  for (std::size_t i = 0; i < breaks.size(); ++i)
+  {
+    const double x0 = breaks[i];
+    if (x0 == last)
+    {
+      nodes.push_back({ x0, left, functions.Evaluate(last + margin(last)) });
+      break;
+    }
+    const double x1 = breaks[i + 1];
+    const Value right = functions.GetLimit(x0, x1);
+    const Value nextLeft = functions.GetLimit(x1, x0);
+    nodes.push_back({ x0, left, right });
+    if (Subdivide(functions, tolerance, x0, right, x1, nextLeft, 0, result.Function))
+    {
+      result.Error = maximumError;
+    }
+    left = nextLeft;
+  }
+  return result;
+}
+
+} // namespace tetralux
