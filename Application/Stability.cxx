@@ -2,7 +2,7 @@
 #include "Stability.h"
 
 #include "CommandErrors.h"
-#include "StabilitySuite.h"
+#include "Stability/StabilitySuite.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 
 #include "ReferenceIntegral.h"
 #include "ReferenceScenes.h"
-#include "SegmentLanes.h"
+#include "Stability/SegmentLanes.h"
 
 #include <gtest/gtest.h>
 

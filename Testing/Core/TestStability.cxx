@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StabilitySuite.h"
+#include "Stability/StabilitySuite.h"
 
 #include "RayCast/RayCaster.h"
 #include "Integral/SegmentIntegral.h"

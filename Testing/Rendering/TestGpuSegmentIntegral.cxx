@@ -9,7 +9,7 @@
 #include "Integral/RayIntegral.h"
 #include "GpuIntegral/ScalarBuckets.h"
 #include "Integral/SegmentIntegral.h"
-#include "StabilityCases.h"
+#include "Stability/StabilityCases.h"
 #include "GpuIntegral/TextureFilterError.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentLanes.inl"
+#include "Stability/SegmentLanes.inl"
 
 namespace tetralux
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentLanes.h"
+#include "Stability/SegmentLanes.h"
 
 namespace tetralux
 {

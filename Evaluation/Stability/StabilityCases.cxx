@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StabilityCases.h"
+#include "Stability/StabilityCases.h"
 
 #include <algorithm>
 #include <cmath>

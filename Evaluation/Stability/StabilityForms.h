@@ -2,9 +2,9 @@
 #ifndef tetralux_StabilityForms_h
 #define tetralux_StabilityForms_h
 
-#include "ExtendedIntegral.h"
+#include "Stability/ExtendedIntegral.h"
 #include "Integral/RayIntegral.h"
-#include "StabilityCases.h"
+#include "Stability/StabilityCases.h"
 
 #include <functional>
 #include <optional>

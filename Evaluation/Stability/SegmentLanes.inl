@@ -2,7 +2,7 @@
 
 // Compiled once for each instruction set, with the options that the kernels are compiled with.
 #include "Integral/SegmentIntegral.h"
-#include "SegmentLanes.h"
+#include "Stability/SegmentLanes.h"
 
 namespace tetralux
 {

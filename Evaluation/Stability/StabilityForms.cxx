@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StabilityForms.h"
+#include "Stability/StabilityForms.h"
 
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationTable.h"
 #include "RayCast/RayCaster.h"
 #include "Integral/SegmentIntegral.h"
-#include "SegmentLanes.h"
+#include "Stability/SegmentLanes.h"
 
 #include <algorithm>
 #include <cmath>
