@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line: options to calls, errors to one line and an exit status.
 
-#include "Bench.h"
-#include "CommandErrors.h"
-#include "Generate.h"
-#include "Info.h"
-#include "MapperProperties.h"
-#include "Methods.h"
-#include "OptionValues.h"
-#include "ReadMesh.h"
-#include "Render.h"
-#include "Stability.h"
+#include "Bench/Bench.h"
+#include "CommandLine/CommandErrors.h"
+#include "Commands/Generate.h"
+#include "Commands/Info.h"
+#include "Setup/MapperProperties.h"
+#include "Setup/Methods.h"
+#include "CommandLine/OptionValues.h"
+#include "Files/ReadMesh.h"
+#include "Commands/Render.h"
+#include "Commands/Stability.h"
 
 #include <CLI/CLI.hpp>
 

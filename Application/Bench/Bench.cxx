@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bench/Bench.h"
+
+#include "Files/AtomicFolder.h"
+#include "Bench/BenchChart.h"
+#include "Bench/BenchCsv.h"
+#include "Bench/BenchFeatures.h"
+#include "Bench/BenchMachine.h"
+#include "Bench/BenchMeasure.h"
+#include "Bench/BenchPage.h"
+#include "Bench/BenchPictures.h"
+#include "Bench/BenchScenes.h"
+#include "Bench/BenchSettings.h"
+#include "Bench/BenchView.h"
+#include "CommandLine/CommandErrors.h"
+#include "CommandLine/ProgressLine.h"
+#include "Setup/SceneCamera.h"
+#include "Files/WriteData.h"
+#include "vtkHeadlessRenderWindow.h"
+
+#include "vtkImageData.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+namespace
+{
+
+constexpr const char* ResultsFile = "results.csv";
+constexpr const char* PageFile = "index.html";
+
+/// Pixels along an edge where --size does not say.
+constexpr int FullSize = 512;
+constexpr int QuickSize = 64;
+
+/// Frames of a quick run, which are too few to say anything about time.
+constexpr int QuickFrames = 2;
+
+void CheckOptions(const BenchOptions& options)
+{
+  const RenderOptions& scene = options.Scene;
+  const bool ofFile = !scene.Plot3dSolution.empty() || !scene.Array.empty() ||
+    !scene.Component.empty() || !scene.TransferFile.empty() || scene.OpacityUnitDistance ||
+    scene.CameraPosition || scene.CameraFocalPoint || scene.CameraViewUp || scene.CameraViewAngle ||
+    scene.CameraParallelScale;
+  if (scene.Input.empty() && ofFile)
+  {
+    throw UsageError("bench: arrays, transfer functions and cameras are those of a FILE, and none "
+                     "is given");
+  }
+  if (!scene.Input.empty() && !options.DataFolder.empty())
+  {
+    throw UsageError("--data: with a FILE, only that is rendered");
+  }
+  CheckCamera(scene);
+}
+
+/// The options with what they leave open.
+BenchOptions Complete(BenchOptions options)
+{
+  const char* folder = std::getenv("TETRALUX_DATA");
+  if (options.Scene.Input.empty() && options.DataFolder.empty() && folder)
+  {
+    options.DataFolder = folder;
+  }
+  if (options.Scene.Width == 0)
+  {
+    options.Scene.Width = options.Scene.Height = options.Quick ? QuickSize : FullSize;
+  }
+  if (options.Quick)
+  {
+    options.Frames = std::min(options.Frames, QuickFrames);
+  }
+  return options;
+}
+
+/// What to run to have the results again, without paths.
+std::string DescribeCommand(const BenchOptions& options)
+{
+  std::string command = "tetralux bench";
+  command += options.Scene.Input.empty() ? "" : " FILE";
+  command += options.DataFolder.empty() || options.Quick ? "" : " --data FOLDER";
+  command += options.Quick ? " --quick" : "";
+  command += options.Features ? " --features" : "";
+  for (const std::string& name : options.Scenes)
+  {
+    command += " --scene " + name;
+  }
+  for (const std::string& setting : options.Settings)
+  {
+    command += " --setting '" + setting + "'";
+  }
+  return command + " --size " + std::to_string(options.Scene.Width) + "," +
+    std::to_string(options.Scene.Height) + " --frames " + std::to_string(options.Frames) +
+    " --output FOLDER";
+}
+
+void WriteText(const AtomicFolder& folder, const std::string& file, const std::string& text)
+{
+  std::ofstream stream(folder.GetPath(file), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream)
+  {
+    throw WorkError("cannot write '" + folder.GetName() + "/" + file + "'");
+  }
+}
+
+void PrintRow(const BenchRow& row)
+{
+  char text[160];
+  std::snprintf(text, sizeof(text), "  %-26s", row.Setting.Name.c_str());
+  std::cout << text;
+  if (row.Failure.empty())
+  {
+    std::snprintf(text, sizeof(text), " %9.2f ms   largest error %.2e   RMS %.2e",
+      1e3 * row.BestSeconds, row.Errors.Maximum, row.Errors.RootMeanSquare);
+    std::cout << text;
+  }
+  else
+  {
+    std::cout << " failed: " << row.Failure;
+  }
+  std::cout << std::endl;
+}
+
+BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& options,
+  AtomicFolder& folder, vtkHeadlessRenderWindow* window)
+{
+  const BenchRun run = { scene, options.Scene, options.Frames, folder, window };
+  BenchSceneResult result;
+  result.Name = scene.Name;
+  result.Description = scene.Description;
+  result.Width = options.Scene.Width;
+  result.Height = options.Scene.Height;
+  std::cout << scene.Name << ": " << scene.Description << std::endl;
+
+  BenchMeasurement reference = Measure(run, GetReferenceSetting());
+  if (!reference.Row.Failure.empty())
+  {
+    throw WorkError("'" + scene.Name + "': " + reference.Row.Failure);
+  }
+  Compare(run, reference.Picture, reference);
+  if (reference.Row.Errors.NumberOfPixels == 0)
+  {
+    throw WorkError("'" + scene.Name + "': the picture is empty");
+  }
+  result.Rows.push_back(reference.Row);
+  PrintRow(result.Rows.back());
+
+  const std::vector<BenchSetting> settings = ListSettings(options);
+  ProgressLine progress("measuring " + scene.Name);
+  for (std::size_t i = 0; i < settings.size(); ++i)
+  {
+    progress.Show(static_cast<double>(i) / static_cast<double>(settings.size()));
+    folder.CheckInterrupt();
+    BenchMeasurement measurement = Measure(run, settings[i]);
+    if (measurement.Row.Failure.empty())
+    {
+      Compare(run, reference.Picture, measurement);
+    }
+    result.Rows.push_back(measurement.Row);
+    PrintRow(result.Rows.back());
+  }
+  MarkFront(result);
+
+  const vtkSmartPointer<vtkImageData> chart = DrawErrorChart(result);
+  result.ChartFile = "charts/" + scene.Name + ".png";
+  WritePng(chart, folder.GetPath(result.ChartFile), result.ChartFile);
+  result.ChartUri = MakePngUri(chart);
+  return result;
+}
+
+} // namespace
+
+void RunBench(const BenchOptions& given)
+{
+  CheckOptions(given);
+  const BenchOptions options = Complete(given);
+  const std::vector<BenchSceneMaker> makers = ListScenes(options);
+  ListSettings(options); // throws where one is none
+
+  AtomicFolder folder(options.Output, ResultsFile);
+  folder.MakeFolder("pictures");
+  folder.MakeFolder("charts");
+  std::vector<BenchSceneResult> results;
+  const vtkSmartPointer<vtkHeadlessRenderWindow> window = MakeBenchWindow(options.Scene);
+  for (const BenchSceneMaker& maker : makers)
+  {
+    results.push_back(MeasureScene(maker.Make(), options, folder, window));
+  }
+  std::vector<BenchFeature> features;
+  if (options.Features)
+  {
+    features = MeasureFeatures(
+      options.Scene, options.Frames, options.Quick, [&folder] { folder.CheckInterrupt(); });
+  }
+  WriteText(folder, ResultsFile, MakeCsv(results));
+  WriteText(folder, PageFile,
+    MakePage(results, features,
+      DescribeMachine(GetOpenGLRenderer(window), options.Scene.NumberOfThreads),
+      DescribeCommand(options)));
+  folder.Commit();
+}

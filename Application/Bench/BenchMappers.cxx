@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bench/BenchMappers.h"
+
+#include "Bench/BenchSettings.h"
+#include "Setup/Methods.h"
+#include "vtkTetrahedraRayIntegrator.h"
+#include "vtkTetrahedraVolumeMapper.h"
+
+#include "vtkNew.h"
+#include "vtkProjectedTetrahedraMapper.h"
+#include "vtkUnstructuredGridPreIntegration.h"
+#include "vtkUnstructuredGridVolumeRayCastMapper.h"
+
+namespace
+{
+
+vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeOurMapper(
+  const BenchSetting& setting, int numberOfThreads)
+{
+  // Threads are set where there are any to set.
+  const int threads = setting.Method == "ray-cast" ? numberOfThreads : 0;
+  return MakeMapper(setting.Method, threads, setting.Assignments);
+}
+
+vtkSmartPointer<vtkUnstructuredGridVolumeRayCastMapper> MakeBunykMapper()
+{
+  auto mapper = vtkSmartPointer<vtkUnstructuredGridVolumeRayCastMapper>::New();
+  mapper->AutoAdjustSampleDistancesOff();
+  mapper->SetImageSampleDistance(1);
+  return mapper;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeBenchMapper(
+  const BenchSetting& setting, int numberOfThreads)
+{
+  if (!IsPeer(setting))
+  {
+    return MakeOurMapper(setting, numberOfThreads);
+  }
+  if (setting.Method == "vtk-projected-tetrahedra")
+  {
+    return vtkSmartPointer<vtkProjectedTetrahedraMapper>::New();
+  }
+  auto mapper = MakeBunykMapper();
+  if (setting.Method == "vtk-bunyk-preintegration")
+  {
+    vtkNew<vtkUnstructuredGridPreIntegration> integrator;
+    mapper->SetRayIntegrator(integrator);
+  }
+  else if (setting.Method == "vtk-bunyk-closed-form")
+  {
+    vtkNew<vtkTetrahedraRayIntegrator> integrator;
+    mapper->SetRayIntegrator(integrator);
+  }
+  return mapper;
+}
+
+void CheckSetting(const BenchSetting& setting) { MakeOurMapper(setting, 0); }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Generate.h"
+
+#include "Files/AtomicFile.h"
+#include "CommandLine/CommandErrors.h"
+#include "Files/GeneratedGrid.h"
+#include "Generate/GeneratedMeshes.h"
+#include "CommandLine/OptionValues.h"
+#include "CommandLine/ProgressLine.h"
+#include "Files/WriteData.h"
+
+#include "vtkUnstructuredGrid.h"
+
+#include <iostream>
+#include <map>
+#include <stdexcept>
+
+namespace
+{
+
+std::map<std::string, double> ReadParameters(const std::vector<std::string>& arguments)
+{
+  std::map<std::string, double> parameters;
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+  {
+    const std::string& argument = arguments[i];
+    if (argument.compare(0, 2, "--") != 0)
+    {
+      throw UsageError("generate: '" + argument + "' is not --parameter VALUE");
+    }
+    const std::size_t equals = argument.find('=');
+    const std::string option = argument.substr(0, equals);
+    if (equals == std::string::npos && i + 1 == arguments.size())
+    {
+      throw UsageError(option + ": there is no value behind it");
+    }
+    const std::string text =
+      equals == std::string::npos ? arguments[++i] : argument.substr(equals + 1);
+    parameters[option.substr(2)] = ParseNumber(option, text);
+  }
+  return parameters;
+}
+
+} // namespace
+
+void GenerateFile(const GenerateOptions& options)
+{
+  if (GetExtension(options.Output) != ".vtu")
+  {
+    throw UsageError("--output: '" + options.Output + "' must end in .vtu");
+  }
+  const std::map<std::string, double> parameters = ReadParameters(options.Parameters);
+  AtomicFile output(options.Output);
+  ProgressLine progress("generating " + options.Name);
+  progress.ShowLabel();
+  tetralux::GeneratedMesh generated;
+  try
+  {
+    generated = tetralux::GenerateMesh(options.Name, parameters);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw UsageError(std::string("generate: ") + error.what());
+  }
+  WriteXml(MakeGrid(generated), output.GetTemporaryName(), options.Output);
+  output.Commit();
+}
+
+void ListGenerators()
+{
+  for (const tetralux::Generator& generator : tetralux::GetGenerators())
+  {
+    std::cout << generator.Name << ": " << generator.Description << "\n";
+    for (const tetralux::GeneratorParameter& parameter : generator.Parameters)
+    {
+      std::cout << "  --" << parameter.Name << " " << FormatNumber(parameter.Default) << "  ("
+                << FormatNumber(parameter.Minimum) << " .. " << FormatNumber(parameter.Maximum)
+                << ") " << parameter.Description << "\n";
+    }
+  }
+}

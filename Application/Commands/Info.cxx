@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Info.h"
+
+#include "Setup/Arrays.h"
+#include "Mesh/CellVolumes.h"
+#include "CommandLine/CommandErrors.h"
+#include "CommandLine/OptionValues.h"
+#include "CommandLine/ProgressLine.h"
+#include "Files/ReadMesh.h"
+#include "Walk/WalkMesh.h"
+#include "Intake/TetrahedraIntake.h"
+
+#include "vtkDataArray.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+namespace
+{
+
+/// Width of the column of labels.
+constexpr int LabelWidth = 28;
+
+template <class ValueT>
+void PrintRow(const std::string& label, const ValueT& value)
+{
+  std::cout << std::left << std::setw(LabelWidth) << label << " " << value << "\n";
+}
+
+/// Rows of defects and of cells left out appear where there are any.
+void PrintCount(const std::string& label, std::int64_t count)
+{
+  if (count > 0)
+  {
+    PrintRow(label, count);
+  }
+}
+
+std::string FormatMegabytes(std::size_t bytes)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1e6 << " MB";
+  return text.str();
+}
+
+std::string FormatSeconds(double seconds)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << seconds << " s";
+  return text.str();
+}
+
+template <class FunctionT>
+double MeasureSeconds(FunctionT&& function)
+{
+  const auto start = std::chrono::steady_clock::now();
+  function();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string FormatRange(const std::array<double, 2>& range)
+{
+  return range[0] > range[1] ? "no finite value"
+                             : FormatNumber(range[0]) + " .. " + FormatNumber(range[1]);
+}
+
+void PrintArrays(vtkDataObject* data)
+{
+  const std::vector<ArraySummary> arrays = ListArrays(data);
+  if (arrays.empty())
+  {
+    PrintRow("arrays", "none");
+  }
+  for (const ArraySummary& array : arrays)
+  {
+    std::string text = std::string(vtkImageScalarTypeNameMacro(array.DataType)) + ", ";
+    if (array.Components == 1)
+    {
+      text += FormatRange(array.Ranges[0]);
+    }
+    else
+    {
+      text += std::to_string(array.Components) + " components, magnitude " +
+        FormatRange(array.MagnitudeRange);
+      for (int component = 0; component < array.Components; ++component)
+      {
+        text += "; " + std::to_string(component) + ": " + FormatRange(array.Ranges[component]);
+      }
+    }
+    if (array.NonFiniteValues > 0)
+    {
+      text += ", " + std::to_string(array.NonFiniteValues) + " values not finite";
+    }
+    PrintRow(std::string(array.CellData ? "cell" : "point") + " array " + array.Name, text);
+  }
+}
+
+void PrintIntake(const tetralux::TetrahedraIntakeReport& report)
+{
+  if (report.Blocks != 1)
+  {
+    PrintRow("data sets", report.Blocks);
+  }
+  PrintCount("blocks without cells", report.SkippedBlocks);
+  PrintRow("points", report.NumberOfPoints);
+  PrintRow("cells", report.NumberOfCells);
+  for (const auto& [type, count] : report.CellsByType)
+  {
+    PrintRow("  " + tetralux::GetCellTypeName(type), count);
+  }
+  if (report.GetNumberOfSkippedCells() > 0)
+  {
+    PrintRow("cells not supported", report.DescribeSkippedCells());
+  }
+  PrintCount("ghost cells", report.GhostCells);
+  PrintCount("blanked cells", report.BlankedCells);
+  PrintCount("cells below 3 dimensions", report.LowerDimensionalCells);
+  PrintCount("cells with missing points", report.InvalidCells);
+}
+
+void PrintBounds(const std::vector<double>& points)
+{
+  if (points.empty())
+  {
+    return;
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::array<double, 2> range = { infinity, -infinity };
+    for (std::size_t i = axis; i < points.size(); i += 3)
+    {
+      range = { std::min(range[0], points[i]), std::max(range[1], points[i]) };
+    }
+    text += (axis ? ", " : "") + std::string(1, "xyz"[axis]) + " " + FormatRange(range);
+  }
+  PrintRow("bounds", text);
+}
+
+/// What it takes to make the mesh convex, or why it can't be.
+void PrintConvexification(tetralux::WalkMesh& walk)
+{
+  {
+    ProgressLine progress("convexifying");
+    walk.MakeConvex(
+      [&progress](double fraction)
+      {
+        progress.Show(fraction);
+        return true;
+      });
+  }
+  const tetralux::Convexification& convex = *walk.GetConvexification();
+  const std::string seconds = FormatSeconds(convex.GetSeconds());
+  if (convex.Convex)
+  {
+    PrintRow("convexification", "none needed: the mesh is convex, " + seconds + " to find out");
+    return;
+  }
+  if (!convex.Refusal.empty())
+  {
+    PrintRow("convexification", "not possible: " + convex.Refusal + ", " + seconds);
+    return;
+  }
+  const double cells = static_cast<double>(walk.GetNumberOfCells());
+  PrintRow("convexification",
+    std::to_string(convex.GetNumberOfCells()) + " imaginary cells (" +
+      FormatNumber(100 * static_cast<double>(convex.GetNumberOfCells()) / cells) + " %), " +
+      std::to_string(convex.GetNumberOfSteinerPoints()) + " Steiner points, " + seconds);
+}
+
+} // namespace
+
+void PrintInfo(const InfoOptions& options)
+{
+  const vtkSmartPointer<vtkDataObject> data = ReadMesh(options.Input, options.Plot3dSolution);
+
+  tetralux::TetrahedraIntake intake;
+  const double splitSeconds = MeasureSeconds(
+    [&]
+    {
+      ProgressLine progress("splitting cells");
+      intake = tetralux::TakeInTetrahedra(data,
+        [&progress](double fraction)
+        {
+          progress.Show(fraction);
+          return true;
+        });
+    });
+  if (!intake.Error.empty())
+  {
+    throw WorkError("'" + options.Input + "': " + intake.Error);
+  }
+
+  PrintRow("file", options.Input);
+  PrintRow("type", data->GetClassName());
+  PrintIntake(intake.Report);
+  PrintBounds(intake.Mesh.Points);
+  PrintArrays(data);
+
+  const std::size_t tetrahedra = intake.Mesh.GetNumberOfCells();
+  PrintRow("tetrahedra", tetrahedra);
+  PrintCount("points added by splitting",
+    static_cast<std::int64_t>(intake.Mesh.GetNumberOfPoints()) - intake.Report.NumberOfPoints);
+  const tetralux::CellVolumes volumes = tetralux::MeasureCells(intake.Mesh);
+  PrintRow("volume", FormatNumber(volumes.Total));
+  PrintRow(
+    "edges", FormatNumber(volumes.ShortestEdge) + " .. " + FormatNumber(volumes.LongestEdge));
+
+  std::unique_ptr<tetralux::WalkMesh> walk;
+  const double tablesSeconds =
+    MeasureSeconds([&] { walk = std::make_unique<tetralux::WalkMesh>(std::move(intake.Mesh)); });
+  PrintRow("boundary faces", walk->GetNumberOfBoundaryFaces());
+  PrintRow("components", walk->GetNumberOfComponents());
+
+  const tetralux::RemovedCells& removed = walk->GetRemovedCells();
+  PrintRow("defects",
+    removed.Total() + volumes.NumberOfZero + volumes.NumberOfInverted +
+          walk->GetNumberOfNonManifoldFaces() ==
+        0
+      ? "none"
+      : "");
+  PrintCount("  zero volume", volumes.NumberOfZero);
+  PrintCount("  inverted", volumes.NumberOfInverted);
+  PrintCount("  faces of three or more", walk->GetNumberOfNonManifoldFaces());
+  PrintCount("  removed: bad point ids", removed.InvalidPointIds);
+  PrintCount("  removed: bad coordinates", removed.NonFiniteCoordinates);
+  PrintCount("  removed: repeated points", removed.RepeatedPoints);
+  PrintCount("  removed: duplicates", removed.Duplicates);
+
+  PrintRow("memory of the tables", FormatMegabytes(walk->GetTableSize()));
+  std::string time =
+    FormatSeconds(splitSeconds) + " to split, " + FormatSeconds(tablesSeconds) + " for the tables";
+  if (tetrahedra > 0)
+  {
+    time += ", " +
+      FormatNumber(1e6 * (splitSeconds + tablesSeconds) / static_cast<double>(tetrahedra)) +
+      " microseconds a tetrahedron";
+  }
+  PrintRow("time to prepare", time);
+  PrintConvexification(*walk);
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Setup/Methods.h"
+
+#include "CommandLine/CommandErrors.h"
+#include "Setup/MapperProperties.h"
+#include "CommandLine/OptionValues.h"
+#include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraProjectionMapper.h"
+#include "vtkTetrahedraRayCastMapper.h"
+
+#include "vtkNew.h"
+#include "vtkRenderWindow.h"
+
+#include <functional>
+
+namespace
+{
+
+struct Method
+{
+  std::string Name;
+  std::function<vtkSmartPointer<vtkTetrahedraVolumeMapper>()> Make;
+};
+
+template <class MapperT>
+Method MakeMethod(const std::string& name)
+{
+  return { name, [] { return vtkSmartPointer<MapperT>::New(); } };
+}
+
+const std::vector<Method>& GetMethods()
+{
+  static const std::vector<Method> methods = {
+    MakeMethod<vtkTetrahedraRayCastMapper>("ray-cast"),
+    MakeMethod<vtkTetrahedraGPURayCastMapper>("gpu-ray-cast"),
+    MakeMethod<vtkTetrahedraProjectionMapper>("projection"),
+  };
+  return methods;
+}
+
+} // namespace
+
+std::vector<std::string> GetMethodNames()
+{
+  std::vector<std::string> names = { "auto" };
+  for (const Method& method : GetMethods())
+  {
+    names.push_back(method.Name);
+  }
+  return names;
+}
+
+vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
+  const std::string& method, int numberOfThreads, const std::vector<std::string>& settings)
+{
+  for (const Method& candidate : GetMethods())
+  {
+    if (candidate.Name != method)
+    {
+      continue;
+    }
+    vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = candidate.Make();
+    if (HasProperty(mapper, "AutoAdjustSampleDistances"))
+    {
+      SetProperty(mapper, "AutoAdjustSampleDistances=0");
+    }
+    if (HasProperty(mapper, "NumberOfThreads"))
+    {
+      SetProperty(mapper, "NumberOfThreads=" + std::to_string(numberOfThreads));
+    }
+    else if (numberOfThreads > 0)
+    {
+      throw UsageError("--threads: the method '" + method + "' has none to set");
+    }
+    for (const std::string& setting : settings)
+    {
+      SetProperty(mapper, setting);
+    }
+    return mapper;
+  }
+  throw UsageError("--method: this version has no method '" + method + "'; there are " +
+    JoinNames(GetMethodNames()));
+}
+
+MethodChoice ChooseMethod(const std::string& method, vtkRenderWindow* window, int numberOfThreads,
+  const std::vector<std::string>& settings)
+{
+  if (method != "auto")
+  {
+    return { method, "" };
+  }
+  if (numberOfThreads > 0)
+  {
+    return { "ray-cast", "a number of threads is set" };
+  }
+  vtkNew<vtkTetrahedraGPURayCastMapper> mapper;
+  for (const std::string& setting : settings)
+  {
+    const std::string name = ParseAssignment("--set", setting).first;
+    if (!HasProperty(mapper, name))
+    {
+      return { "ray-cast", "gpu-ray-cast has no property " + name };
+    }
+  }
+  const bool supported = mapper->IsSupported(window);
+  return { supported ? "gpu-ray-cast" : "ray-cast", mapper->GetSupportReason() };
+}
