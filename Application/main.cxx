@@ -3,14 +3,14 @@
 
 #include "Bench/Bench.h"
 #include "CommandLine/CommandErrors.h"
+#include "CommandLine/OptionValues.h"
 #include "Commands/Generate.h"
 #include "Commands/Info.h"
-#include "Setup/MapperProperties.h"
-#include "Setup/Methods.h"
-#include "CommandLine/OptionValues.h"
-#include "Files/ReadMesh.h"
 #include "Commands/Render.h"
 #include "Commands/Stability.h"
+#include "Files/ReadMesh.h"
+#include "Setup/MapperProperties.h"
+#include "Setup/Methods.h"
 
 #include <CLI/CLI.hpp>
 

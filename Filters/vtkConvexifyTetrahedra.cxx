@@ -2,8 +2,8 @@
 #include "vtkConvexifyTetrahedra.h"
 
 #include "Convexify/Convexification.h"
-#include "Mesh/FaceNeighbors.h"
 #include "Intake/GridTetrahedra.h"
+#include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
 
 #include "vtkCellArray.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraNeighbors.h"
 
+#include "Intake/TetrahedraIntake.h"
 #include "Mesh/CellVolumes.h"
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
 #include "Mesh/MeshLimits.h"
-#include "Intake/TetrahedraIntake.h"
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"

@@ -2,9 +2,9 @@
 #include "vtkMeshedPolyhedraVisibilitySort.h"
 
 #include "Frame/CameraRays.h"
+#include "Intake/TetrahedraIntake.h"
 #include "Visibility/VisibilityOrder.h"
 #include "Walk/WalkMesh.h"
-#include "Intake/TetrahedraIntake.h"
 
 #include "vtkCamera.h"
 #include "vtkDataSet.h"

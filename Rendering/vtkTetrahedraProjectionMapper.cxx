@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraProjectionMapper.h"
 
+#include "Base/Stopwatch.h"
 #include "Frame/CameraRays.h"
 #include "Frame/ImageCompositor.h"
-#include "Report/JsonObject.h"
 #include "Frame/MapperFrame.h"
-#include "Report/OnceWarning.h"
 #include "Frame/OpaqueDepth.h"
 #include "GpuProjection/ProjectionPicture.h"
 #include "Projection/ScreenFrame.h"
-#include "Base/Stopwatch.h"
-#include "Visibility/VisibilityOrder.h"
+#include "Report/JsonObject.h"
+#include "Report/OnceWarning.h"
 #include "Scene/VolumeScene.h"
+#include "Visibility/VisibilityOrder.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "Base/Stopwatch.h"
 #include "Frame/CameraRays.h"
 #include "Frame/ImageCompositor.h"
-#include "Report/JsonObject.h"
 #include "Frame/MapperFrame.h"
-#include "Report/OnceWarning.h"
 #include "Frame/OpaqueDistances.h"
 #include "RayCast/RayCaster.h"
-#include "Base/Stopwatch.h"
+#include "Report/JsonObject.h"
+#include "Report/OnceWarning.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"

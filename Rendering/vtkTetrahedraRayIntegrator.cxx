@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayIntegrator.h"
 
-#include "Optics/IntervalTable.h"
 #include "Integral/RayIntegral.h"
+#include "Optics/IntervalTable.h"
 #include "Preparation/TransferFunctionFromProperty.h"
 
 #include "vtkAbstractVolumeMapper.h"

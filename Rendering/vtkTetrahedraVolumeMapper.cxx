@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraVolumeMapper.h"
 
-#include "Report/JsonObject.h"
+#include "Base/Stopwatch.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
 #include "Preparation/ScenePreparation.h"
-#include "Base/Stopwatch.h"
+#include "Report/JsonObject.h"
 
+#include "Intake/TetrahedraIntake.h"
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
@@ -17,7 +18,6 @@
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
-#include "Intake/TetrahedraIntake.h"
 #include "vtkUnstructuredGridBase.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"

@@ -73,7 +73,7 @@ attribute() {
 }
 
 sources() {
-  find Module Filters Rendering Stability Application Testing Examples \
+  find Module Filters Rendering Evaluation Application Testing Examples \
     -name '*.h' -o -name '*.cxx' -o -name '*.inl'
 }
 

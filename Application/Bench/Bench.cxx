@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/Bench.h"
 
-#include "Files/AtomicFolder.h"
 #include "Bench/BenchChart.h"
 #include "Bench/BenchCsv.h"
 #include "Bench/BenchFeatures.h"
@@ -14,8 +13,9 @@
 #include "Bench/BenchView.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/ProgressLine.h"
-#include "Setup/SceneCamera.h"
+#include "Files/AtomicFolder.h"
 #include "Files/WriteData.h"
+#include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
 
 #include "vtkImageData.h"

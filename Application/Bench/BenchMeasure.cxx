@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchMeasure.h"
 
-#include "Files/AtomicFolder.h"
 #include "Bench/BenchMappers.h"
 #include "Bench/BenchPictures.h"
 #include "Bench/BenchScenes.h"
 #include "CommandLine/CommandErrors.h"
 #include "Commands/Render.h"
+#include "Files/AtomicFolder.h"
 #include "Files/WriteData.h"
 
 #include "vtkImageData.h"

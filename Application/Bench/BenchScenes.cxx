@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchScenes.h"
 
-#include "Setup/Arrays.h"
 #include "Bench/Bench.h"
 #include "Bench/BenchTransferFunctions.h"
 #include "CommandLine/CommandErrors.h"
-#include "Files/GeneratedGrid.h"
-#include "Generate/GeneratedMeshes.h"
 #include "CommandLine/OptionValues.h"
+#include "Files/GeneratedGrid.h"
 #include "Files/ReadMesh.h"
 #include "Files/TransferFunctionFile.h"
+#include "Generate/GeneratedMeshes.h"
+#include "Setup/Arrays.h"
 #include "vtkTetrahedraFilter.h"
 
 #include "vtkBoundingBox.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Generate.h"
 
-#include "Files/AtomicFile.h"
 #include "CommandLine/CommandErrors.h"
-#include "Files/GeneratedGrid.h"
-#include "Generate/GeneratedMeshes.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
+#include "Files/AtomicFile.h"
+#include "Files/GeneratedGrid.h"
 #include "Files/WriteData.h"
+#include "Generate/GeneratedMeshes.h"
 
 #include "vtkUnstructuredGrid.h"
 

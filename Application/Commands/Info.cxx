@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Info.h"
 
-#include "Setup/Arrays.h"
-#include "Mesh/CellVolumes.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
 #include "Files/ReadMesh.h"
-#include "Walk/WalkMesh.h"
 #include "Intake/TetrahedraIntake.h"
+#include "Mesh/CellVolumes.h"
+#include "Setup/Arrays.h"
+#include "Walk/WalkMesh.h"
 
 #include "vtkDataArray.h"
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Render.h"
 
-#include "Setup/Arrays.h"
-#include "Files/AtomicFile.h"
 #include "CommandLine/CommandErrors.h"
-#include "Setup/MapperProperties.h"
 #include "CommandLine/MessageCapture.h"
-#include "Setup/Methods.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
+#include "Files/AtomicFile.h"
 #include "Files/ReadMesh.h"
-#include "Setup/SceneCamera.h"
 #include "Files/TransferFunctionFile.h"
 #include "Files/WriteData.h"
+#include "Setup/Arrays.h"
+#include "Setup/MapperProperties.h"
+#include "Setup/Methods.h"
+#include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraVolumeMapper.h"
 

@@ -3,8 +3,8 @@
 
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/OptionValues.h"
-#include "Intake/TetrahedraIntake.h"
 #include "Intake/ScalarExtraction.h"
+#include "Intake/TetrahedraIntake.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkCellData.h"

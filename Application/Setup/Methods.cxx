@@ -2,8 +2,8 @@
 #include "Setup/Methods.h"
 
 #include "CommandLine/CommandErrors.h"
-#include "Setup/MapperProperties.h"
 #include "CommandLine/OptionValues.h"
+#include "Setup/MapperProperties.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stability/StabilityForms.h"
 
+#include "Integral/SegmentIntegral.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationTable.h"
 #include "RayCast/RayCaster.h"
-#include "Integral/SegmentIntegral.h"
 #include "Stability/SegmentLanes.h"
 
 #include <algorithm>

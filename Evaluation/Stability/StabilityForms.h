@@ -2,8 +2,8 @@
 #ifndef tetralux_StabilityForms_h
 #define tetralux_StabilityForms_h
 
-#include "Stability/ExtendedIntegral.h"
 #include "Integral/RayIntegral.h"
+#include "Stability/ExtendedIntegral.h"
 #include "Stability/StabilityCases.h"
 
 #include <functional>

@@ -4,10 +4,10 @@
 
 #include "Intake/CellKind.h"
 #include "Intake/CellSources.h"
-#include "Mesh/CellSplit.h"
 #include "Intake/FacetedCells.h"
-#include "Intake/IntakeChunk.h"
 #include "Intake/TetrahedraIntake.h"
+#include "Intake/IntakeChunk.h"
+#include "Mesh/CellSplit.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"

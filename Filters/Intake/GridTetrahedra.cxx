@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Intake/GridTetrahedra.h"
 
-#include "Mesh/MeshLimits.h"
 #include "Intake/TetrahedraIntake.h"
+#include "Mesh/MeshLimits.h"
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkTetrahedraScalars_h
-#define vtkTetrahedraScalars_h
+#ifndef tetralux_ScalarExtraction_h
+#define tetralux_ScalarExtraction_h
 
 #include "Mesh/TetrahedralMesh.h"
 #include "TetraluxFiltersModule.h"

@@ -4,9 +4,9 @@
 #include "Intake/CellSources.h"
 #include "Intake/ChunkSplitter.h"
 #include "Intake/IntakeChunk.h"
-#include "Mesh/MeshLimits.h"
 #include "Intake/PlainCopies.h"
 #include "Intake/StructuredLayout.h"
+#include "Mesh/MeshLimits.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkTetrahedraIntake_h
-#define vtkTetrahedraIntake_h
+#ifndef tetralux_TetrahedraIntake_h
+#define tetralux_TetrahedraIntake_h
 
 #include "Mesh/TetrahedralMesh.h"
 #include "TetraluxFiltersModule.h"

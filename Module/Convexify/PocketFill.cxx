@@ -2,8 +2,8 @@
 #include "Convexify/PocketFill.h"
 
 #include "Convexify/CellComplex.h"
-#include "Geometry/SimplexIntersection.h"
 #include "Convexify/SteinerPoint.h"
+#include "Geometry/SimplexIntersection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Convexify/PocketWrap.h"
 
-#include "Geometry/BoxTree.h"
 #include "Convexify/FaceTable.h"
+#include "Geometry/BoxTree.h"
 #include "Geometry/SimplexIntersection.h"
 
 #include <algorithm>

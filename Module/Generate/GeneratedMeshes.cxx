@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Generate/GeneratedMeshes.h"
 
-#include "Mesh/CellSplit.h"
 #include "Generate/LatticeMesh.h"
 #include "Generate/SchoenhardtNotch.h"
+#include "Mesh/CellSplit.h"
 
 #include <algorithm>
 #include <cmath>

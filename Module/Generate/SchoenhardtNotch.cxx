@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Generate/SchoenhardtNotch.h"
 
-#include "Mesh/CellSplit.h"
 #include "Generate/LatticeMesh.h"
+#include "Mesh/CellSplit.h"
 
 #include <algorithm>
 #include <array>

@@ -6,10 +6,10 @@
 // 4), and the small tables: the length of a segment affects what it adds linearly or not at all, but
 // in one model.
 
-#include "Optics/OpticalModel.h"
 #include "Base/Span.h"
-#include "TetraluxCoreModule.h"
+#include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
+#include "TetraluxCoreModule.h"
 
 #include <vector>
 

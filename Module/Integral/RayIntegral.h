@@ -2,10 +2,10 @@
 #ifndef tetralux_RayIntegral_h
 #define tetralux_RayIntegral_h
 
-#include "Optics/OpticalModel.h"
 #include "Base/Span.h"
-#include "TetraluxCoreModule.h"
+#include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
+#include "TetraluxCoreModule.h"
 
 #include <cstddef>
 

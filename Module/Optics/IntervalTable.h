@@ -2,8 +2,8 @@
 #ifndef tetralux_IntervalTable_h
 #define tetralux_IntervalTable_h
 
-#include "TetraluxCoreModule.h"
 #include "Optics/TransferFunction.h"
+#include "TetraluxCoreModule.h"
 
 #include <cstdint>
 #include <vector>

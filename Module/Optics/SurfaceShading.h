@@ -2,9 +2,9 @@
 #ifndef tetralux_SurfaceShading_h
 #define tetralux_SurfaceShading_h
 
-#include "Optics/OpticalModel.h"
 #include "Mesh/PointGradients.h"
 #include "Mesh/TetrahedralMesh.h"
+#include "Optics/OpticalModel.h"
 #include "TetraluxCoreModule.h"
 
 #include <cstdint>

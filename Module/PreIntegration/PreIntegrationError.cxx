@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreIntegration/PreIntegrationError.h"
 
-#include "Optics/IntervalTable.h"
 #include "Integral/RayIntegral.h"
 #include "Integral/SegmentIntegral.h"
+#include "Optics/IntervalTable.h"
 
 #include <algorithm>
 #include <array>

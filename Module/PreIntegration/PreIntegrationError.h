@@ -17,10 +17,10 @@
 //
 // It grows with the number of segments, which is why a table has to be more accurate than the picture
 // (Kraus et al. 2004, section 3), and it is reached only by rays whose every segment is the worst
-// one. What to expect is measured on a sample of rays through the mesh (RaySample.h).
+// one. What to expect is measured on a sample of rays through the mesh (MeshRays.h).
 
+#include "Integral/RaySegments.h"
 #include "PreIntegration/PreIntegrationTable.h"
-#include "Walk/MeshRays.h"
 
 #include <cstddef>
 
@@ -61,7 +61,7 @@ TETRALUXCORE_EXPORT double GetPictureError(
 /// a picture, and the worst of it is seldom the worst. Some of its rays are measured once more with
 /// scalars that run along a node of the function, where tables are most wrong: next to a step a
 /// segment in a million may be wrong by more than all others together. So pictures of nearly all
-/// scenes are better, most of them by a factor of two to four (Module/Notes.md). Never more than the
+/// scenes are better, most of them by a factor of two to four (Documentation/Benchmarks.md). Never more than the
 /// largest color, or 1.
 /// Some 50 milliseconds of one thread for a sample of 100,000 segments; parallel.
 TETRALUXCORE_EXPORT double EstimatePictureError(

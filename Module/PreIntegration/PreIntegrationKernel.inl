@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "PreIntegration/PreIntegrationKernel.h"
 #include "Integral/SegmentIntegral.h"
+#include "PreIntegration/PreIntegrationKernel.h"
 #include "PreIntegration/TexelFormats.h"
 
 #include <cstring>

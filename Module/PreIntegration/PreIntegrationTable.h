@@ -5,8 +5,8 @@
 // What a segment of a ray adds to a picture, tabulated over the scalars at its front and back end
 // and its length (Weiler et al. 2003, sections 3.3 and 4; Kraus et al. 2004, section 3).
 
-#include "TetraluxCoreModule.h"
 #include "Optics/TransferFunction.h"
+#include "TetraluxCoreModule.h"
 
 #include <cstddef>
 #include <cstdint>

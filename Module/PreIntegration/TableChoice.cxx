@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreIntegration/TableChoice.h"
 
-#include "PreIntegration/TableRays.h"
-#include "PreIntegration/PreIntegrationBuilder.h"
 #include "Integral/RayIntegral.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "PreIntegration/TableRays.h"
 #include "PreIntegration/TexelFormats.h"
 
 #include <algorithm>
@@ -188,7 +188,7 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
     return choice;
   }
 
-  const ExactRays rays(function, *goal.Rays);
+  const TableRays rays(function, *goal.Rays);
   const bool integersHold = HasColorsUpToOne(function);
   // A few rays tell most tables that are not right, for much less than it takes to fill them.
   const auto mayBeRight = [&](const PreIntegrationSettings& settings, double allowed)

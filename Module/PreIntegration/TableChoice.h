@@ -4,8 +4,8 @@
 
 // Which pre-integration table is right enough for pictures, see PreIntegrationError.h.
 
+#include "Integral/RaySegments.h"
 #include "PreIntegration/PreIntegrationTable.h"
-#include "Walk/MeshRays.h"
 
 #include <cstddef>
 #include <memory>
@@ -29,7 +29,7 @@ struct TableGoal
 
   /// Time of a lookup in units of that of the closed form on one piece. Segments with more pieces
   /// are faster by table. A processor takes about as long for a lookup of eight rays as for
-  /// LookupCost pieces, see Module/Notes.md; a GPU's texture units make it a fraction.
+  /// LookupCost pieces, see Documentation/Benchmarks.md; a GPU's texture units make it a fraction.
   double LookupCost = 3;
 
   /// A table also where the closed form would be chosen: the most exact one within the limits, where

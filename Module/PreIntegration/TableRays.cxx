@@ -108,7 +108,7 @@ std::vector<std::vector<RaySegment>> MoveOntoNodes(
 
 } // namespace
 
-ExactRays::ExactRays(const TransferFunction& function, const RaySample& sample)
+TableRays::TableRays(const TransferFunction& function, const RaySample& sample)
   : LargestColor(GetLargestColor(function))
   , Rays(MoveOntoNodes(function, sample))
 {
@@ -131,7 +131,7 @@ ExactRays::ExactRays(const TransferFunction& function, const RaySample& sample)
   }
 }
 
-double ExactRays::Estimate(const PreIntegrationTable& table, double allowed) const
+double TableRays::Estimate(const PreIntegrationTable& table, double allowed) const
 {
   const double worst = this->Measure(this->Rays.size(), allowed / WorseInPictures,
     [&table](double front, double back, double length, float rgba[4])
@@ -146,7 +146,7 @@ double EstimatePictureError(
   const TransferFunction& function, const PreIntegrationTable& table, const RaySample& rays)
 {
   constexpr double Any = std::numeric_limits<double>::infinity();
-  return ExactRays(function, rays).Estimate(table, Any);
+  return TableRays(function, rays).Estimate(table, Any);
 }
 
 } // namespace tetralux

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tetralux_ExactRays_h
-#define tetralux_ExactRays_h
+#ifndef tetralux_TableRays_h
+#define tetralux_TableRays_h
 
 // What lookups in a table do to rays: beside the closed form in double precision.
 
-#include "PreIntegration/PreIntegrationTable.h"
 #include "Integral/RayIntegral.h"
-#include "Walk/MeshRays.h"
+#include "Integral/RaySegments.h"
 #include "Optics/TransferFunction.h"
+#include "PreIntegration/PreIntegrationTable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace tetralux
 {
 
 /// How much worse the worst of the rays of a picture is than the worst of a sample, at most in nearly
-/// all scenes (Module/Notes.md).
+/// all scenes (Documentation/Benchmarks.md).
 constexpr double WorseInPictures = 3;
 
 /// What a camera anywhere on a ray sees of it, by table: back to front, so that each segment may be
@@ -51,10 +51,10 @@ struct SeenByTable
 };
 
 /// A sample's rays, and what a camera at the front of each of their segments sees.
-class ExactRays
+class TableRays
 {
 public:
-  ExactRays(const TransferFunction& function, const RaySample& sample);
+  TableRays(const TransferFunction& function, const RaySample& sample);
 
   /// What pictures by a table are expected to be wrong by, see EstimatePictureError; infinity where it
   /// is more than is allowed.

@@ -4,12 +4,12 @@
 
 // Cells of a mesh, projected all at once, see CellProjection.h, as they are sent to a graphics card.
 
+#include "Base/Span.h"
+#include "Mesh/PointGradients.h"
 #include "Projection/CellProjection.h"
 #include "Projection/FaceScalar.h"
-#include "Mesh/PointGradients.h"
 #include "Projection/ProjectionSettings.h"
 #include "Projection/ScreenFrame.h"
-#include "Base/Span.h"
 #include "TetraluxCoreModule.h"
 
 #include <cstdint>

@@ -2,9 +2,9 @@
 #ifndef tetralux_ScreenFrame_h
 #define tetralux_ScreenFrame_h
 
-#include "View/RayGrid.h"
 #include "Base/Span.h"
 #include "TetraluxCoreModule.h"
+#include "View/RayGrid.h"
 
 #include <array>
 #include <cstdint>

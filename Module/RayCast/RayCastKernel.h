@@ -8,10 +8,10 @@
 #include "Hierarchy/BoundaryBvh.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
+#include "Optics/SurfaceShading.h"
 #include "PreIntegration/PreIntegrationTable.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
-#include "Optics/SurfaceShading.h"
 #include "Walk/WalkMesh.h"
 
 #include <array>

@@ -12,9 +12,9 @@
 //              cells, and a surface between their scalars must not be lost,
 //   First      the distance (z) of each ray's first contribution, infinity where there is none.
 
-#include "RayCast/RayCastFrame.h"
 #include "Integral/SegmentIntegral.h"
 #include "Optics/SurfaceShading.h"
+#include "RayCast/RayCastFrame.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCast/RayCaster.h"
 
-#include "RayCast/RayCastKernel.h"
 #include "Integral/SegmentIntegral.h"
+#include "RayCast/RayCastKernel.h"
 
 #include <algorithm>
 #include <array>

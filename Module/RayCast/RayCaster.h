@@ -2,12 +2,12 @@
 #ifndef tetralux_RayCaster_h
 #define tetralux_RayCaster_h
 
+#include "Base/Span.h"
 #include "Optics/OpticalModel.h"
+#include "Scene/VolumeScene.h"
+#include "TetraluxCoreModule.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
-#include "Base/Span.h"
-#include "TetraluxCoreModule.h"
-#include "Scene/VolumeScene.h"
 
 #include <cstdint>
 #include <functional>

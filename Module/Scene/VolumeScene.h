@@ -3,14 +3,14 @@
 #define tetralux_VolumeScene_h
 
 #include "Integral/IntegrationPlan.h"
+#include "Mesh/PointGradients.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
-#include "Mesh/PointGradients.h"
+#include "Optics/TransferFunction.h"
 #include "PreIntegration/PreIntegrationTable.h"
+#include "TetraluxCoreModule.h"
 #include "View/RayGrid.h"
 #include "Walk/MeshRays.h"
-#include "TetraluxCoreModule.h"
-#include "Optics/TransferFunction.h"
 #include "Walk/WalkMesh.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tetralux_Simd_h
-#define tetralux_Simd_h
+#ifndef tetralux_Lanes_h
+#define tetralux_Lanes_h
 
 // Eight lanes of float, double or int32: what the packet kernels compute with. One implementation
 // for AVX2 with FMA, one of plain loops for every other processor. Each lives in a namespace of its

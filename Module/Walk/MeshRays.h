@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tetralux_RaySample_h
-#define tetralux_RaySample_h
+#ifndef tetralux_MeshRays_h
+#define tetralux_MeshRays_h
 
 #include "Base/Span.h"
+#include "Integral/RaySegments.h"
 #include "TetraluxCoreModule.h"
 #include "Walk/WalkMesh.h"
 
-#include <vector>
-
 namespace tetralux
 {
-
-/// A ray's way through a cell.
-struct RaySegment
-{
-  double Front, Back; ///< scalars at its ends, finite
-  double Length;      ///< world units, more than 0
-};
-
-/// Rays by which to measure what approximate integrals do to pictures: what each goes through, front
-/// to back.
-struct RaySample
-{
-  std::vector<std::vector<RaySegment>> Rays;
-};
 
 /// Straight lines through a mesh: through any place in random cells, in random directions, so that
 /// more of them pass where cells are small, as where a camera looks closely. Of a thousand rays, or

@@ -2,9 +2,9 @@
 #ifndef tetralux_WalkMesh_h
 #define tetralux_WalkMesh_h
 
+#include "Base/Span.h"
 #include "Convexify/Convexification.h"
 #include "Mesh/MeshCleaning.h"
-#include "Base/Span.h"
 #include "Mesh/TetrahedralMesh.h"
 #include "TetraluxCoreModule.h"
 #include "Walk/WalkTables.h"

@@ -2,8 +2,8 @@
 #ifndef tetralux_WalkTables_h
 #define tetralux_WalkTables_h
 
-#include "Hierarchy/BoundaryBvh.h"
 #include "Base/Span.h"
+#include "Hierarchy/BoundaryBvh.h"
 #include "TetraluxCoreModule.h"
 
 #include <cstdint>

@@ -7,7 +7,6 @@
 #include "Walk/WalkTables.h"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace tetralux
@@ -36,25 +35,6 @@ struct WalkTexels
 /// ascending points, where it does not matter whether rays come in or leave.
 TETRALUXCORE_EXPORT WalkTexels MakeWalkTexels(
   const WalkTables& tables, Span<const std::uint8_t> positive);
-
-/// A buffer on a graphics card.
-struct BufferSize
-{
-  const char* Content; ///< what a message calls it
-  std::int64_t Texels;
-  std::int64_t BytesPerTexel;
-};
-
-/// What a graphics card offers.
-struct TexelLimits
-{
-  std::int64_t MaximumTexels = 0; ///< of a texture buffer
-  std::int64_t FreeBytes = -1;    ///< -1: not known
-};
-
-/// Why buffers do not fit: one line with the numbers; empty where they fit.
-TETRALUXCORE_EXPORT std::string FindObstacle(
-  const std::vector<BufferSize>& buffers, const TexelLimits& limits);
 
 } // namespace tetralux
 

@@ -2,9 +2,9 @@
 #ifndef tetralux_CameraRays_h
 #define tetralux_CameraRays_h
 
+#include "TetraluxRenderingModule.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
-#include "TetraluxRenderingModule.h"
 
 #include <array>
 

@@ -2,12 +2,12 @@
 #ifndef tetralux_MapperFrame_h
 #define tetralux_MapperFrame_h
 
+#include "Base/Span.h"
 #include "Frame/CameraRays.h"
-#include "Report/JsonObject.h"
 #include "Optics/OpticalModel.h"
+#include "Report/JsonObject.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
-#include "Base/Span.h"
 
 #include <functional>
 #include <string>

@@ -2,10 +2,10 @@
 #ifndef tetralux_GpuLighting_h
 #define tetralux_GpuLighting_h
 
-#include "Optics/OpticalModel.h"
-#include "View/RayGrid.h"
 #include "Base/Span.h"
+#include "Optics/OpticalModel.h"
 #include "TetraluxRenderingModule.h"
+#include "View/RayGrid.h"
 
 #include <array>
 #include <string>

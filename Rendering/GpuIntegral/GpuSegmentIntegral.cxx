@@ -3,6 +3,7 @@
 
 #include "CellValuesDec.h"
 #include "ClassifyLargestDec.h"
+#include "GpuIntegral/ScalarBuckets.h"
 #include "IntegrateCellClosedFormDec.h"
 #include "IntegrateCellEmissionDec.h"
 #include "IntegrateCellOpticalDepthDec.h"
@@ -13,11 +14,10 @@
 #include "IntegrateShadedIsosurfacesDec.h"
 #include "IntegrateShadedSegmentDec.h"
 #include "IsosurfacesDec.h"
-#include "GpuIntegral/ScalarBuckets.h"
 #include "ScalarBucketsDec.h"
+#include "Scene/VolumeScene.h"
 #include "SegmentWeightsDec.h"
 #include "TransferIntervalsDec.h"
-#include "Scene/VolumeScene.h"
 
 #include "vtkShaderProgram.h"
 

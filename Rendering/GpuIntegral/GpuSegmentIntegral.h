@@ -5,12 +5,12 @@
 // What a segment of a ray adds to a picture, in shaders: the GLSL functions, the arrays that they
 // read, and their uniforms. For both mappers that draw on the graphics card.
 
+#include "Base/Span.h"
 #include "GpuIntegral/GpuSegmentTable.h"
+#include "OpenGL/TextureBuffer.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
-#include "Base/Span.h"
 #include "TetraluxRenderingModule.h"
-#include "OpenGL/TextureBuffer.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuIntegral/GpuSegmentTable.h"
 
-#include "IntegrateTableDec.h"
 #include "GpuIntegral/ScalarBuckets.h"
-#include "ScalarBucketsDec.h"
 #include "GpuIntegral/TexelTextureFormat.h"
 #include "GpuIntegral/TextureFilterError.h"
+#include "IntegrateTableDec.h"
+#include "ScalarBucketsDec.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"

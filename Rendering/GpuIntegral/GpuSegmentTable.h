@@ -2,8 +2,8 @@
 #ifndef tetralux_GpuSegmentTable_h
 #define tetralux_GpuSegmentTable_h
 
-#include "PreIntegration/PreIntegrationTable.h"
 #include "OpenGL/TextureBuffer.h"
+#include "PreIntegration/PreIntegrationTable.h"
 
 #include "vtkNew.h"
 

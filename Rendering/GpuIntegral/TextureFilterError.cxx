@@ -2,8 +2,8 @@
 #include "GpuIntegral/TextureFilterError.h"
 
 #include "FilterErrorFS.h"
-#include "OpenGL/FloatTarget.h"
 #include "GpuIntegral/TexelTextureFormat.h"
+#include "OpenGL/FloatTarget.h"
 
 #include "vtkNew.h"
 #include "vtkOpenGLQuadHelper.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuProjection/ProjectedCellDrawer.h"
 
+#include "OpenGL/ScreenProgram.h"
 #include "ProjectedCellFS.h"
 #include "ProjectedCellVS.h"
-#include "OpenGL/ScreenProgram.h"
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"

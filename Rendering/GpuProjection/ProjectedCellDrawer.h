@@ -2,8 +2,8 @@
 #ifndef tetralux_ProjectedCellDrawer_h
 #define tetralux_ProjectedCellDrawer_h
 
-#include "Projection/ProjectedCells.h"
 #include "OpenGL/TextureBuffer.h"
+#include "Projection/ProjectedCells.h"
 
 #include "vtkNew.h"
 #include "vtkWeakPointer.h"

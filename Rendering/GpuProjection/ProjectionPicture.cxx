@@ -2,13 +2,13 @@
 #include "GpuProjection/ProjectionPicture.h"
 
 #include "AlphaDitherDec.h"
+#include "Base/Stopwatch.h"
 #include "FirstPieceDec.h"
 #include "FirstSurfaceDec.h"
 #include "LargestPictureFS.h"
 #include "RayGridDec.h"
-#include "View/RayLimits.h"
-#include "Base/Stopwatch.h"
 #include "Scene/VolumeScene.h"
+#include "View/RayLimits.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"

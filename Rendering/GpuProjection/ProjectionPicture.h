@@ -2,16 +2,16 @@
 #ifndef tetralux_ProjectionPicture_h
 #define tetralux_ProjectionPicture_h
 
-#include "OpenGL/FloatTarget.h"
+#include "Base/Span.h"
 #include "GpuIntegral/GpuLighting.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
-#include "GpuProjection/ProjectedCellDrawer.h"
-#include "Projection/ProjectedCells.h"
-#include "View/RayGrid.h"
 #include "GpuIntegral/RayGridUniforms.h"
-#include "Projection/ScreenFrame.h"
+#include "GpuProjection/ProjectedCellDrawer.h"
+#include "OpenGL/FloatTarget.h"
 #include "OpenGL/ScreenProgram.h"
-#include "Base/Span.h"
+#include "Projection/ProjectedCells.h"
+#include "Projection/ScreenFrame.h"
+#include "View/RayGrid.h"
 
 #include "vtkWeakPointer.h"
 

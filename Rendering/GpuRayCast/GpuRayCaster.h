@@ -2,8 +2,8 @@
 #ifndef tetralux_GpuRayCaster_h
 #define tetralux_GpuRayCaster_h
 
-#include "OpenGL/FloatTarget.h"
 #include "GpuRayCast/RayTargets.h"
+#include "OpenGL/FloatTarget.h"
 #include "OpenGL/ScreenProgram.h"
 #include "TetraluxRenderingModule.h"
 

@@ -3,10 +3,10 @@
 #define tetralux_GpuRayLimits_h
 
 #include "Frame/OpaqueDepth.h"
-#include "View/RayGrid.h"
 #include "GpuIntegral/RayGridUniforms.h"
-#include "View/RayLimits.h"
 #include "TetraluxRenderingModule.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
 
 #include <cstddef>
 #include <optional>

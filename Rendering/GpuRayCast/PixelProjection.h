@@ -2,8 +2,8 @@
 #ifndef tetralux_PixelProjection_h
 #define tetralux_PixelProjection_h
 
-#include "View/RayGrid.h"
 #include "TetraluxRenderingModule.h"
+#include "View/RayGrid.h"
 
 namespace tetralux
 {

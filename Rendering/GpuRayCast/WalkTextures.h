@@ -3,8 +3,8 @@
 #define tetralux_WalkTextures_h
 
 #include "Mesh/PointGradients.h"
-#include "TetraluxRenderingModule.h"
 #include "OpenGL/TextureBuffer.h"
+#include "TetraluxRenderingModule.h"
 #include "Walk/WalkMesh.h"
 #include "Walk/WalkTexels.h"
 

@@ -2,8 +2,8 @@
 #ifndef tetralux_GraphicsCard_h
 #define tetralux_GraphicsCard_h
 
+#include "OpenGL/BufferRoom.h"
 #include "TetraluxRenderingModule.h"
-#include "Walk/WalkTexels.h"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Preparation/InputSignature.h"
 
-#include "vtkContourValues.h"
 #include "Intake/TetrahedraIntake.h"
+#include "vtkContourValues.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkAbstractMapper.h"

@@ -2,8 +2,8 @@
 #include "Preparation/ScenePreparation.h"
 
 #include "Base/Stopwatch.h"
-#include "Preparation/TransferFunctionFromProperty.h"
 #include "Intake/ScalarExtraction.h"
+#include "Preparation/TransferFunctionFromProperty.h"
 #include "vtkTetrahedraVolumeMapper.h"
 
 #include "vtkCommand.h"

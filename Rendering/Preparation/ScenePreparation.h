@@ -2,12 +2,12 @@
 #ifndef tetralux_ScenePreparation_h
 #define tetralux_ScenePreparation_h
 
+#include "Intake/TetrahedraIntake.h"
 #include "Preparation/InputSignature.h"
+#include "Preparation/SegmentTable.h"
 #include "Report/JsonObject.h"
 #include "Report/OnceWarning.h"
-#include "Preparation/SegmentTable.h"
 #include "Scene/VolumeScene.h"
-#include "Intake/TetrahedraIntake.h"
 
 #include <functional>
 #include <string>

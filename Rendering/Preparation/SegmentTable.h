@@ -2,9 +2,9 @@
 #ifndef tetralux_SegmentTable_h
 #define tetralux_SegmentTable_h
 
+#include "Optics/TransferFunction.h"
 #include "PreIntegration/PreIntegrationTable.h"
 #include "PreIntegration/TableChoice.h"
-#include "Optics/TransferFunction.h"
 
 #include <memory>
 #include <string>

@@ -2,8 +2,8 @@
 #ifndef tetralux_TransferFunctionFromProperty_h
 #define tetralux_TransferFunctionFromProperty_h
 
-#include "TetraluxRenderingModule.h"
 #include "Optics/TransferFunction.h"
+#include "TetraluxRenderingModule.h"
 
 class vtkVolumeProperty;
 

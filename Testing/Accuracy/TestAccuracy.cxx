@@ -5,12 +5,12 @@
 
 #include "Generate/GeneratedMeshes.h"
 #include "ImageComparison.h"
+#include "Intake/ScalarExtraction.h"
+#include "Intake/TetrahedraIntake.h"
 #include "RayCast/RayCaster.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 #include "Walk/WalkMesh.h"
-#include "Intake/TetrahedraIntake.h"
-#include "Intake/ScalarExtraction.h"
 
 #include <vtkAbstractMapper.h>
 #include <vtkDataObject.h>

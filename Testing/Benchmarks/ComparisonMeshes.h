@@ -2,8 +2,8 @@
 #ifndef tetralux_ComparisonMeshes_h
 #define tetralux_ComparisonMeshes_h
 
-#include "View/RayGrid.h"
 #include "Mesh/TetrahedralMesh.h"
+#include "View/RayGrid.h"
 
 #include <array>
 #include <limits>

@@ -7,10 +7,10 @@
 
 #include "ComparisonMeshes.h"
 #include "Convexify/Convexification.h"
+#include "Intake/TetrahedraIntake.h"
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
 #include "ReferenceConvexity.h"
-#include "Intake/TetrahedraIntake.h"
 
 #include "vtkDataObject.h"
 #include "vtkExodusIIReader.h"

@@ -5,8 +5,8 @@
 // Wall time of the graphics card's answer and time of all of this process's threads, which is what
 // counts with software OpenGL; the best of some runs. Prints a table, takes no arguments.
 
-#include "OpenGL/FloatTarget.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
+#include "OpenGL/FloatTarget.h"
 #include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 

@@ -8,9 +8,9 @@
 #include "ComparisonMeshes.h"
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
+#include "Mesh/SpatialOrder.h"
 #include "OwnedCrossings.h"
 #include "RayCast/RayCastKernel.inl"
-#include "Mesh/SpatialOrder.h"
 #include "Walk/WalkTables.h"
 
 #include <algorithm>

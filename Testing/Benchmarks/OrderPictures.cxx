@@ -2,13 +2,13 @@
 
 // What an order of cells that is not right does to the picture: vtkTetrahedraProjectionMapper, which
 // is exact but for the order, against vtkTetrahedraRayCastMapper in double precision; see
-// Module/Notes.md. The blunt fin and the crushed can take part where the environment variable
+// Documentation/Benchmarks.md. The blunt fin and the crushed can take part where the environment variable
 // TETRALUX_DATA names their folder.
 
 #include "ComparisonMeshes.h"
 #include "ImageComparison.h"
-#include "vtkHeadlessRenderWindow.h"
 #include "Intake/TetrahedraIntake.h"
+#include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 

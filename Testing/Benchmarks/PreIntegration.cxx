@@ -4,11 +4,11 @@
 // computing each entry by itself and beside writing the memory; how wrong they are for each byte, by
 // axis, scale and format; and what a lookup costs beside the closed form.
 
+#include "Integral/RayIntegral.h"
+#include "Integral/SegmentIntegral.h"
 #include "ModelRays.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationError.h"
-#include "Integral/RayIntegral.h"
-#include "Integral/SegmentIntegral.h"
 #include "PreIntegration/TableChoice.h"
 
 #include "vtkCellArray.h"

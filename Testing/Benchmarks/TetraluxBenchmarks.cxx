@@ -10,11 +10,11 @@
 //   Prepare/...      what is done once for a mesh, by stage; Wall and Cpu: nanoseconds a tetrahedron.
 //   Integral/...     SegmentIntegralBenchmark.cxx.
 
-#include "Mesh/FaceNeighbors.h"
 #include "Generate/GeneratedMeshes.h"
+#include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
-#include "RayCast/RayCaster.h"
 #include "Mesh/SpatialOrder.h"
+#include "RayCast/RayCaster.h"
 #include "Walk/WalkMesh.h"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Visibility orders: nanoseconds a cell of each method, beside vtkCellCenterDepthSort, and how many
-// pairs of cells they get wrong; see Module/Notes.md. Argument: the largest number of tetrahedra
+// pairs of cells they get wrong; see Documentation/Benchmarks.md. Argument: the largest number of tetrahedra
 // (1,200,000). The blunt fin takes part where the environment variable TETRALUX_DATA names its folder.
 
 #include "ComparisonMeshes.h"

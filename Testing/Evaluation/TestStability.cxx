@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stability/StabilitySuite.h"
 
-#include "RayCast/RayCaster.h"
 #include "Integral/SegmentIntegral.h"
+#include "RayCast/RayCaster.h"
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>

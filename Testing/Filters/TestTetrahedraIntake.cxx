@@ -2,8 +2,8 @@
 #include "Intake/TetrahedraIntake.h"
 
 #include "CellPatch.h"
-#include "Mesh/FaceNeighbors.h"
 #include "GhostArray.h"
+#include "Mesh/FaceNeighbors.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -2,9 +2,9 @@
 #include "Intake/ScalarExtraction.h"
 
 #include "CellPatch.h"
+#include "Intake/TetrahedraIntake.h"
 #include "Mesh/MeshCleaning.h"
 #include "Mesh/SpatialOrder.h"
-#include "Intake/TetrahedraIntake.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

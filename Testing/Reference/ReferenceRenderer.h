@@ -2,11 +2,11 @@
 #ifndef tetralux_ReferenceRenderer_h
 #define tetralux_ReferenceRenderer_h
 
+#include "Base/Span.h"
 #include "Optics/OpticalModel.h"
+#include "Optics/TransferFunction.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
-#include "Base/Span.h"
-#include "Optics/TransferFunction.h"
 
 #include <cstdint>
 #include <utility>

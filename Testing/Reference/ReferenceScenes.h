@@ -2,10 +2,10 @@
 #ifndef tetralux_ReferenceScenes_h
 #define tetralux_ReferenceScenes_h
 
-#include "View/RayGrid.h"
-#include "View/RayLimits.h"
 #include "Mesh/TetrahedralMesh.h"
 #include "Optics/TransferFunction.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
 
 #include <array>
 #include <cstdint>

@@ -3,10 +3,10 @@
 #define RayCastScene_h
 
 #include "ImageComparison.h"
-#include "View/RayGrid.h"
-#include "View/RayLimits.h"
 #include "Mesh/TetrahedralMesh.h"
 #include "Optics/TransferFunction.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
 
 #include "vtkCamera.h"
 #include "vtkColorTransferFunction.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures on the graphics card: drawn into, read, composited, and OpenGL's state as it was.
 
-#include "OpenGL/FloatTarget.h"
+#include "Frame/ImageCompositor.h"
 #include "GlslEvaluator.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
-#include "Frame/ImageCompositor.h"
-#include "Optics/IntervalTable.h"
+#include "OpenGL/FloatTarget.h"
 #include "OpenGLSnapshot.h"
+#include "Optics/IntervalTable.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLState.h"

@@ -4,8 +4,8 @@
 #include "GlslEvaluator.h"
 #include "GpuIntegral/GpuLighting.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
-#include "Optics/IntervalTable.h"
 #include "Integral/RayIntegral.h"
+#include "Optics/IntervalTable.h"
 #include "Optics/SurfaceShading.h"
 
 #include "vtkShaderProgram.h"

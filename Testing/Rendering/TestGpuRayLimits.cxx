@@ -2,9 +2,9 @@
 // Rays and their limits in shaders against those in double precision.
 
 #include "Frame/CameraRays.h"
+#include "Frame/OpaqueDistances.h"
 #include "GlslEvaluator.h"
 #include "GpuRayCast/GpuRayLimits.h"
-#include "Frame/OpaqueDistances.h"
 #include "OpenGLSnapshot.h"
 
 #include "vtkActor.h"

@@ -3,14 +3,14 @@
 
 #include "GlslEvaluator.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
-#include "Optics/IntervalTable.h"
-#include "OpenGLSnapshot.h"
-#include "PreIntegration/PreIntegrationBuilder.h"
-#include "Integral/RayIntegral.h"
 #include "GpuIntegral/ScalarBuckets.h"
-#include "Integral/SegmentIntegral.h"
-#include "Stability/StabilityCases.h"
 #include "GpuIntegral/TextureFilterError.h"
+#include "Integral/RayIntegral.h"
+#include "Integral/SegmentIntegral.h"
+#include "OpenGLSnapshot.h"
+#include "Optics/IntervalTable.h"
+#include "PreIntegration/PreIntegrationBuilder.h"
+#include "Stability/StabilityCases.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Convexify/Convexification.h"
 
-#include "Mesh/FaceNeighbors.h"
 #include "Generate/GeneratedMeshes.h"
+#include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
 #include "ReferenceConvexity.h"
 #include "ThreadCounts.h"

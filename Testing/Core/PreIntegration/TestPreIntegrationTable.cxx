@@ -3,9 +3,9 @@
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationError.h"
 #include "PreIntegration/PreIntegrationTable.h"
+#include "PreIntegration/TexelFormats.h"
 #include "ReferenceIntegral.h"
 #include "SampleFunctions.h"
-#include "PreIntegration/TexelFormats.h"
 #include "ThreadCounts.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // Tables that are chosen: right enough, small, and of what is given.
 #include "ModelRays.h"
 #include "PreIntegration/PreIntegrationError.h"
-#include "SampleFunctions.h"
 #include "PreIntegration/TableChoice.h"
+#include "SampleFunctions.h"
 
 #include <gtest/gtest.h>
 

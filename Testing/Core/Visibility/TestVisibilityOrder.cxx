@@ -4,8 +4,8 @@
 
 #include "Visibility/VisibilityOrder.h"
 
-#include "Generate/GeneratedMeshes.h"
 #include "Base/RadixSort.h"
+#include "Generate/GeneratedMeshes.h"
 #include "ReferenceOcclusion.h"
 #include "ReferenceScenes.h"
 #include "ThreadCounts.h"

@@ -8,8 +8,8 @@
 #include "Generate/GeneratedMeshes.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationError.h"
-#include "RayScene.h"
 #include "PreIntegration/TableChoice.h"
+#include "RayScene.h"
 #include "ThreadCounts.h"
 
 #include <gtest/gtest.h>
