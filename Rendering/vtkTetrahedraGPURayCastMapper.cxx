@@ -11,10 +11,12 @@
 #include "GpuRayCast/GpuRayLimits.h"
 #include "GpuRayCast/PixelProjection.h"
 #include "GpuRayCast/WalkTextures.h"
+#include "Integral/SegmentWeightError.h"
 #include "OpenGL/GraphicsCard.h"
-#include "Report/JsonObject.h"
 #include "Report/OnceWarning.h"
+#include "Scene/IntegratorChoice.h"
 #include "Scene/VolumeScene.h"
+#include "View/MeshToWorld.h"
 #include "Walk/CellOrientation.h"
 
 #include "vtkDataSet.h"
@@ -33,14 +35,12 @@
 
 using tetralux::CameraRays;
 using tetralux::GpuReentry;
-using tetralux::JsonObject;
+using tetralux::Integrator;
+using tetralux::Json;
 using tetralux::MapperFrame;
 
 namespace
 {
-
-/// Error of a segment's weights in single precision, see GpuSegmentIntegral.h.
-constexpr double IntegralError = 5e-7;
 
 /// Cells that a ray goes through, of a mesh of n of them: about this times the cube root of n.
 constexpr double PathOfCubeRoot = 3;
@@ -94,14 +94,16 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   frame.Method = "gpu-ray-cast";
   const CameraRays rays(frame.Renderer, 1);
   tetralux::VolumeScene& scene = *frame.Scene;
-  if (rays.GetVisible().Width == 0 || scene.GetMesh()->GetNumberOfCells() == 0)
+  if (rays.GetVisible().Width == 0 || scene.Mesh.GetMesh()->GetNumberOfCells() == 0)
   {
     frame.Image->Initialize(); // a tile that shows nothing of the viewport
     return;
   }
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
   const tetralux::RayLimits limits = frame.MakeLimits(rays);
-  const double geometryError = scene.EstimateGeometryError(scene.GetWorldRadius(grid));
+  const double stretch = tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+  const double geometryError =
+    scene.EstimateGeometryError(scene.Mesh.GetMesh()->GetRadius() * stretch);
   if (!std::isfinite(geometryError))
   {
     throw std::invalid_argument(
@@ -129,49 +131,48 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   frame.Seconds.emplace_back("upload", uploadStopwatch.GetSeconds());
 
   const tetralux::Stopwatch castStopwatch;
-  frame.Opaque = frame.MayHaveOpaqueGeometry();
-  this->Limits.Update(frame.Window, rays, grid, limits, frame.Opaque, scene.GetMesh()->GetCenter(),
-    scene.GetMesh()->GetRadius());
-  const tetralux::OpticalModel model = scene.GetOpticalModel();
-  const bool endsEarly = model != tetralux::OpticalModel::EmissionOnly &&
-    model != tetralux::OpticalModel::MaximumIntensity;
-  const double terminationError = endsEarly ? 0.5 * this->Self->MaximumError : 0;
+  frame.Opaque = frame.HasOpaqueGeometry();
+  this->Limits.Update(frame.Window, rays, grid, limits, frame.Opaque,
+    scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
+  const Integrator integrator = this->Integral.GetIntegrator();
+  frame.Budget = tetralux::MakeErrorBudget(
+    frame.MaximumError, { EndsEarly(integrator), IsTabulated(integrator), false });
   tetralux::GpuRayCastOptions options;
   options.Reentry = reentry;
   const tetralux::PixelProjection projection(
-    grid, scene.GetMesh()->GetCenter(), scene.GetMesh()->GetRadius());
+    grid, scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
   if (this->Self->Reentry == BOUNDARY_LAYERS && projection.Regular)
   {
     options.Layers = &projection;
   }
-  options.NumberOfCells = scene.GetMesh()->GetNumberOfCells();
-  options.CellData = scene.HasCellScalars();
-  options.LargestScalar = model == tetralux::OpticalModel::MaximumIntensity;
-  const double brightness = frame.Shaded && model == tetralux::OpticalModel::EmissionAbsorption
-    ? tetralux::FindLargestBrightness(frame.Lights, frame.Surface)
-    : 1;
-  options.MaximumOpacity = endsEarly ? static_cast<float>(1 - terminationError / brightness) : 2.f;
+  options.NumberOfCells = scene.Mesh.GetMesh()->GetNumberOfCells();
+  options.CellData = scene.Mesh.HasCellScalars();
+  options.LargestScalar = integrator == Integrator::Maximum;
+  const double brightness =
+    IsLit(integrator) ? tetralux::FindLargestBrightness(frame.Lights, frame.Surface) : 1;
+  options.MaximumOpacity =
+    EndsEarly(integrator) ? static_cast<float>(1 - frame.Budget.Termination / brightness) : 2.f;
   if (frame.Shaded)
   {
-    this->Lighting.Update(frame.Lights, frame.Surface, grid, scene.GetMesh()->GetCenter(),
-      scene.GetMesh()->GetRadius());
+    this->Lighting.Update(frame.Lights, frame.Surface, grid, scene.Mesh.GetMesh()->GetCenter(),
+      scene.Mesh.GetMesh()->GetRadius());
     options.Lighting = &this->Lighting;
-    options.SmoothGradients = this->Self->SmoothShading != 0;
+    options.SmoothGradients = frame.Settings.SmoothShading;
   }
   options.StepsPerPass = this->Self->StepsPerPass;
   options.CountFragments = this->Self->CountFragments != 0;
-  options.Continue = [&frame](double share) { return frame.Continue(share); };
+  options.Continue = [&frame](double share) { return frame.ReportProgress(share); };
   const tetralux::GpuRayCastStatistics statistics = this->Caster.Cast(
     frame.Window, grid.Width, grid.Height, this->Limits, this->Mesh, this->Integral, options);
   frame.Aborted = statistics.Aborted;
-  frame.Integration = this->Integral.GetName();
+  frame.Integration = integrator;
   if (frame.Aborted)
   {
     frame.Image->Initialize();
   }
   else
   {
-    frame.Continue(1); // too late to abort
+    frame.ReportProgress(1); // too late to abort
     this->Compositor.Composite(
       frame.Window, rays.GetVisible(), this->Caster.GetPicture().GetTexture(0));
     frame.ReadPicture = [this](vtkImageData* image) { this->Read(image); };
@@ -180,17 +181,18 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
 
   // A sum is rounded once for each segment.
   const double segments =
-    PathOfCubeRoot * std::cbrt(static_cast<double>(scene.GetMesh()->GetNumberOfCells()));
-  frame.Errors = { { "early_termination", terminationError }, { "integrals", IntegralError },
+    PathOfCubeRoot * std::cbrt(static_cast<double>(scene.Mesh.GetMesh()->GetNumberOfCells()));
+  frame.Errors = { { "early_termination", frame.Budget.Termination },
+    { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
     { "summation", segments * std::numeric_limits<float>::epsilon() / 2 },
-    { "table", frame.Integration == "table" ? scene.GetTableError() : 0 },
+    { "table", IsTabulated(integrator) ? scene.Optics.GetTableError() : 0 },
     { "geometry", geometryError } };
-  frame.LeaveOut(
+  frame.ReportOmission(
     tables == scene.GetVisibleTables(), "transparent tetrahedra", "nothing of them is seen");
-  frame.LeaveOut(reentry != GpuReentry::Imaginary, "imaginary cells",
+  frame.ReportOmission(reentry != GpuReentry::Imaginary, "imaginary cells",
     reentry == GpuReentry::None ? "rays do not enter again" : "rays enter by the boundary");
   this->Describe(statistics, options, frame);
-  this->WarnOfReentry(*scene.GetMesh());
+  this->WarnOfReentry(*scene.Mesh.GetMesh());
 }
 
 //------------------------------------------------------------------------------------------------
@@ -199,35 +201,34 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   MapperFrame& frame)
 {
   const tetralux::FloatTarget::Settings& picture = this->Caster.GetPicture().GetSettings();
-  JsonObject rays;
-  rays.Set("width", picture.Width);
-  rays.Set("height", picture.Height);
-  rays.Set("rays", static_cast<std::int64_t>(picture.Width) * picture.Height);
-  rays.Set("passes", statistics.Passes);
-  rays.Set("steps_per_pass", this->Self->StepsPerPass);
-  rays.Set("fragments_per_pass", statistics.Fragments);
+  Json rays;
+  rays["width"] = picture.Width;
+  rays["height"] = picture.Height;
+  rays["rays"] = static_cast<std::int64_t>(picture.Width) * picture.Height;
+  rays["passes"] = statistics.Passes;
+  rays["steps_per_pass"] = this->Self->StepsPerPass;
+  rays["fragments_per_pass"] = statistics.Fragments;
   if (this->Self->CountFragments)
   {
-    rays.Set("segments", statistics.Steps);
+    rays["segments"] = statistics.Steps;
   }
   const char* boundary = options.Layers ? "boundary layers" : "boundary hierarchy";
-  rays.Set("first_entry", boundary);
-  rays.Set("reentry",
-    options.Reentry == GpuReentry::Imaginary    ? "imaginary cells"
-      : options.Reentry == GpuReentry::Boundary ? boundary
-                                                : "none");
-  rays.Set("shader_variant", statistics.Variant);
+  rays["first_entry"] = boundary;
+  rays["reentry"] = options.Reentry == GpuReentry::Imaginary ? "imaginary cells"
+    : options.Reentry == GpuReentry::Boundary                ? boundary
+                                                             : "none";
+  rays["shader_variant"] = statistics.Variant;
   frame.Sections.emplace_back("rays", rays);
 
   const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(frame.Window);
-  JsonObject graphics;
-  graphics.Set("renderer", card.Renderer);
-  graphics.Set("software", card.Software);
-  graphics.Set("mesh_bytes", this->Mesh.GetNumberOfBytes());
-  graphics.Set("tetrahedra_and_points_bytes", this->Mesh.GetNumberOfCellAndPointBytes());
-  graphics.Set("uploaded_bytes", this->Mesh.GetUploadedBytes());
-  graphics.Set("integral_bytes", this->Integral.GetNumberOfBytes());
-  graphics.Set("picture_bytes", this->Caster.GetNumberOfBytes() + this->Limits.GetNumberOfBytes());
+  Json graphics;
+  graphics["renderer"] = card.Renderer;
+  graphics["software"] = card.Software;
+  graphics["mesh_bytes"] = this->Mesh.GetNumberOfBytes();
+  graphics["tetrahedra_and_points_bytes"] = this->Mesh.GetNumberOfCellAndPointBytes();
+  graphics["uploaded_bytes"] = this->Mesh.GetUploadedBytes();
+  graphics["integral_bytes"] = this->Integral.GetNumberOfBytes();
+  graphics["picture_bytes"] = this->Caster.GetNumberOfBytes() + this->Limits.GetNumberOfBytes();
   frame.Sections.emplace_back("graphics_card", graphics);
 }
 
@@ -276,11 +277,11 @@ const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTabl
   MapperFrame& frame, GpuReentry& reentry)
 {
   tetralux::VolumeScene& scene = *frame.Scene;
-  tetralux::WalkMesh* mesh = scene.GetMesh();
+  tetralux::WalkMesh* mesh = scene.Mesh.GetMesh();
   reentry = this->Self->Reentry == NO_REENTRY ? GpuReentry::None : GpuReentry::Boundary;
   if (this->Self->Reentry == IMAGINARY_CELLS)
   {
-    mesh->MakeConvex([&frame](double fraction) { return frame.Continue(fraction); });
+    mesh->MakeConvex([&frame](double fraction) { return frame.ReportProgress(fraction); });
     if (!mesh->GetConvexification())
     {
       return nullptr;
@@ -292,8 +293,14 @@ const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTabl
     }
     reentry = mesh->GetConvexification()->Convex ? GpuReentry::None : GpuReentry::Boundary;
   }
-  const tetralux::WalkTables* visible =
-    reentry == GpuReentry::None ? nullptr : scene.GetVisibleTables();
+  const tetralux::WalkTables* visible = nullptr;
+  if (reentry != GpuReentry::None)
+  {
+    tetralux::SceneNeeds needs;
+    needs.VisibleTables = true;
+    scene.Prepare(needs);
+    visible = scene.GetVisibleTables();
+  }
   if (!visible && this->Self->Reentry == AUTOMATIC_REENTRY && mesh->IsConvex())
   {
     reentry = GpuReentry::None;
@@ -304,14 +311,14 @@ const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTabl
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::Internals::UpdateOrientation(const tetralux::VolumeScene& scene)
 {
-  if (this->PositiveVersion == scene.GetMeshVersion())
+  if (this->PositiveVersion == scene.Mesh.GetPointsVersion())
   {
     return;
   }
-  const tetralux::WalkMesh& mesh = *scene.GetMesh();
+  const tetralux::WalkMesh& mesh = *scene.Mesh.GetMesh();
   this->Positive =
     tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces);
-  this->PositiveVersion = scene.GetMeshVersion();
+  this->PositiveVersion = scene.Mesh.GetPointsVersion();
 }
 
 //------------------------------------------------------------------------------------------------
@@ -319,6 +326,11 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   const tetralux::RayGrid& grid, const tetralux::WalkTables& tables, GpuReentry reentry)
 {
   tetralux::VolumeScene& scene = *frame.Scene;
+  tetralux::SceneNeeds needs;
+  needs.SinglePoints = true;
+  needs.LongestEdge = true;
+  needs.Gradients = frame.Shaded && frame.Settings.SmoothShading;
+  scene.Prepare(needs);
   this->Mesh.ResetUploadedBytes();
   const bool directed = reentry == GpuReentry::Boundary;
   if (directed)
@@ -332,12 +344,13 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
     }
   }
   const tetralux::WalkPoint<float>* points = scene.GetPoints<float>();
-  const std::size_t numberOfPoints = scene.GetMesh()->GetNumberOfTablePoints();
-  const std::uint64_t meshVersion = scene.GetMeshVersion();
-  const tetralux::WalkTextures::Version topologyVersion{ meshVersion,
-    static_cast<std::uint64_t>(reentry),
-    &tables == scene.GetVisibleTables() ? scene.GetVisibleTablesVersion() : 0 };
-  if (!this->Mesh.HasTopology(frame.Window, topologyVersion))
+  const std::size_t numberOfPoints = scene.Mesh.GetMesh()->GetNumberOfTablePoints();
+  const std::uint64_t pointsVersion = scene.Mesh.GetPointsVersion();
+  const tetralux::WalkTextures::Version facesVersion{ scene.Mesh.GetCellsVersion(),
+    &tables == scene.GetVisibleTables() ? scene.GetVisibleTablesVersion() : 0,
+    // Imaginary cells follow from the points.
+    reentry == GpuReentry::Imaginary ? pointsVersion : 0 };
+  if (!this->Mesh.HasFaces(frame.Window, facesVersion))
   {
     const std::string obstacle =
       tetralux::WalkTextures::FindObstacle(frame.Window, tables, numberOfPoints);
@@ -345,23 +358,27 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
     {
       throw std::runtime_error(obstacle);
     }
-    this->Mesh.SetTopology(frame.Window, tables,
-      directed ? tetralux::Span<const std::uint8_t>(this->Positive)
-               : tetralux::Span<const std::uint8_t>(),
-      topologyVersion);
+    this->Mesh.UpdateFaces(frame.Window, tables, facesVersion);
   }
-  this->Mesh.UpdatePoints(frame.Window, { points, numberOfPoints },
-    { meshVersion, scene.GetPointsVersion(), numberOfPoints });
+  tetralux::WalkTextures::Version boundaryVersion = facesVersion;
+  boundaryVersion.push_back(pointsVersion);
+  boundaryVersion.push_back(directed);
+  this->Mesh.UpdateBoundary(frame.Window, tables,
+    directed ? tetralux::Span<const std::uint8_t>(this->Positive)
+             : tetralux::Span<const std::uint8_t>(),
+    boundaryVersion);
+  this->Mesh.UpdatePoints(
+    frame.Window, { points, numberOfPoints }, { scene.GetPointsVersion(), numberOfPoints });
 
-  if (frame.Shaded && this->Self->SmoothShading)
+  if (needs.Gradients)
   {
-    this->Mesh.UpdateGradients(
-      frame.Window, scene.GetPointGradients(), { meshVersion, scene.GetPointsVersion() });
+    this->Mesh.UpdateGradients(frame.Window, scene.Mesh.GetPointGradients(),
+      { pointsVersion, scene.Mesh.GetScalarsVersion(), numberOfPoints });
   }
 
-  tetralux::SegmentSource source = tetralux::MakeSegmentSource(scene);
-  source.LongestSegment = scene.GetLongestSegment(grid);
-  source.Shaded = frame.Shaded;
+  tetralux::SegmentSource source = tetralux::MakeSegmentSource(scene, frame.Shaded);
+  source.LongestSegment = scene.Mesh.GetLongestEdge() *
+    tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest; // no segment is longer
   this->Integral.Update(frame.Window, source);
 }
 

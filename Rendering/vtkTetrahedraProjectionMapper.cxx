@@ -7,10 +7,12 @@
 #include "Frame/MapperFrame.h"
 #include "Frame/OpaqueDepth.h"
 #include "GpuProjection/ProjectionPicture.h"
+#include "Integral/SegmentWeightError.h"
 #include "Projection/ScreenFrame.h"
-#include "Report/JsonObject.h"
 #include "Report/OnceWarning.h"
+#include "Scene/IntegratorChoice.h"
 #include "Scene/VolumeScene.h"
+#include "View/MeshToWorld.h"
 #include "Visibility/VisibilityOrder.h"
 
 #include "vtkImageData.h"
@@ -27,9 +29,9 @@
 
 using tetralux::CameraRays;
 using tetralux::ChannelFormat;
-using tetralux::JsonObject;
+using tetralux::Integrator;
+using tetralux::Json;
 using tetralux::MapperFrame;
-using tetralux::OpticalModel;
 using tetralux::ScreenFrame;
 using tetralux::Span;
 using tetralux::VisibilityMethod;
@@ -37,9 +39,6 @@ using tetralux::VolumeScene;
 
 namespace
 {
-
-/// Share of MaximumError that compositing in 16-bit floats may take.
-constexpr double BufferErrorShare = 0.25;
 
 /// Rounding of each sum of colours in a format.
 double GetRounding(ChannelFormat format)
@@ -59,7 +58,8 @@ double GetRounding(ChannelFormat format)
 double EstimateSummationError(const VolumeScene& volume, ChannelFormat format)
 {
   // A ray goes through at most some four cells for each that lie side by side along the mesh.
-  const double layers = 4 * std::cbrt(static_cast<double>(volume.GetMesh()->GetNumberOfCells()));
+  const double layers =
+    4 * std::cbrt(static_cast<double>(volume.Mesh.GetMesh()->GetNumberOfCells()));
   return layers * GetRounding(format);
 }
 
@@ -92,17 +92,10 @@ const char* GetMethodName(VisibilityMethod method)
 }
 
 /// Whether it does not matter in which order cells contribute.
-bool Commutes(VolumeScene& scene, bool shaded)
+bool Commutes(Integrator integrator)
 {
-  switch (scene.GetOpticalModel())
-  {
-    case OpticalModel::EmissionAbsorption:
-      return scene.GetPlan().ConstantColor && !shaded;
-    case OpticalModel::Isosurfaces:
-      return false;
-    default:
-      return true;
-  }
+  return integrator == Integrator::OpticalDepth || integrator == Integrator::Emission ||
+    integrator == Integrator::Maximum;
 }
 
 tetralux::VisibilityView MakeView(const tetralux::RayGrid& grid, bool perspective)
@@ -150,7 +143,7 @@ private:
   VisibilityMethod ChooseMethod() const;
   bool IsOrderExact() const;
 
-  ChannelFormat ChooseFormat(const VolumeScene& volume) const;
+  ChannelFormat ChooseFormat(const MapperFrame& frame) const;
   void Describe(MapperFrame& frame);
   void WarnOfOrder(const std::string& refusal);
 
@@ -188,12 +181,12 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
 
   const tetralux::Stopwatch drawStopwatch;
   this->Scene.Order = this->Order;
-  const tetralux::ProjectionPicture::Result result = this->Picture.Draw(
-    frame.Window, this->Scene, [&frame](double fraction) { return frame.Continue(fraction); });
+  const tetralux::ProjectionPicture::Result result = this->Picture.Draw(frame.Window, this->Scene,
+    [&frame](double fraction) { return frame.ReportProgress(fraction); });
   frame.Seconds.emplace_back("project", result.ProjectSeconds);
   frame.Seconds.emplace_back("draw", drawStopwatch.GetSeconds() - result.ProjectSeconds);
   frame.Aborted = result.Aborted;
-  frame.Integration = this->Picture.GetIntegration();
+  frame.Integration = this->Picture.GetIntegrator();
   this->Describe(frame);
   if (!frame.Aborted)
   {
@@ -222,29 +215,34 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   MapperFrame& frame, const CameraRays& rays)
 {
   VolumeScene& volume = *frame.Scene;
-  const tetralux::WalkMesh& mesh = *volume.GetMesh();
+  tetralux::SceneNeeds needs;
+  needs.VisibleCells = true;
+  needs.LongestEdge = true;
+  needs.Gradients = frame.Shaded && frame.Settings.SmoothShading;
+  volume.Prepare(needs);
+  const tetralux::WalkMesh& mesh = *volume.Mesh.GetMesh();
   const tetralux::TetrahedralMesh& tetrahedra = mesh.GetMesh();
   tetralux::ProjectionScene& scene = this->Scene;
   scene.Volume = &volume;
   scene.Grid = frame.MakeGrid(rays);
   scene.Interpolate = this->Self->PerspectiveInterpolation != 0;
   scene.Dither = this->Self->AlphaDithering && this->Self->ColorBuffer == UNORM8_BUFFER;
-  scene.Format = this->ChooseFormat(volume);
+  scene.Format = this->ChooseFormat(frame);
   scene.FrontToBack = scene.Format == ChannelFormat::Float;
 
   scene.Shaded = frame.Shaded;
-  scene.SmoothShading = this->Self->SmoothShading != 0;
+  scene.SmoothShading = frame.Settings.SmoothShading;
   scene.Lights = frame.Lights;
   scene.Surface = frame.Surface;
 
   const tetralux::Stopwatch stopwatch;
   scene.Frame = std::make_unique<ScreenFrame>(scene.Grid, mesh.GetCenter(), mesh.GetRadius());
   this->Points.resize(tetrahedra.GetNumberOfPoints());
-  const VolumeScene::ScalarMap map = volume.GetScalarMap();
+  const tetralux::ScalarMap map = volume.GetScalarMap();
   const Span<const double> none;
   scene.Frame->Project(tetrahedra.Points,
-    volume.HasCellScalars() ? none : Span<const double>(volume.GetScalars()), map.Offset, map.Scale,
-    this->Points);
+    volume.Mesh.HasCellScalars() ? none : Span<const double>(volume.Mesh.GetScalars()), map.Offset,
+    map.Scale, this->Points);
   scene.Points = this->Points;
 
   const tetralux::RayLimits limits = frame.MakeLimits(rays);
@@ -265,7 +263,7 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   }
   frame.Seconds.emplace_back("points", stopwatch.GetSeconds());
 
-  frame.Opaque = frame.MayHaveOpaqueGeometry();
+  frame.Opaque = frame.HasOpaqueGeometry();
   scene.OpaqueDepth = nullptr;
   if (frame.Opaque)
   {
@@ -291,8 +289,7 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
 }
 
 //------------------------------------------------------------------------------------------------
-ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(
-  const VolumeScene& volume) const
+ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(const MapperFrame& frame) const
 {
   switch (this->Self->ColorBuffer)
   {
@@ -303,8 +300,8 @@ ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(
     case UNORM8_BUFFER:
       return ChannelFormat::UNorm8;
     default:
-      return EstimateSummationError(volume, ChannelFormat::Half) <=
-          BufferErrorShare * this->Self->MaximumError
+      return EstimateSummationError(*frame.Scene, ChannelFormat::Half) <=
+          tetralux::MakeErrorBudget(frame.MaximumError, { false, false, true }).Buffer
         ? ChannelFormat::Half
         : ChannelFormat::Float;
   }
@@ -313,8 +310,8 @@ ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(
 //------------------------------------------------------------------------------------------------
 bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
 {
-  const tetralux::WalkMesh& mesh = *frame.Scene->GetMesh();
-  this->Scene.Commutes = Commutes(*frame.Scene, frame.Shaded);
+  const tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
+  this->Scene.Commutes = Commutes(tetralux::ChooseIntegrator(*frame.Scene, frame.Shaded));
   this->Sorted = !this->Scene.Commutes;
   if (this->Sorted)
   {
@@ -356,8 +353,8 @@ bool vtkTetrahedraProjectionMapper::Internals::IsOrderExact() const
 //------------------------------------------------------------------------------------------------
 bool vtkTetrahedraProjectionMapper::Internals::PrepareSorter(MapperFrame& frame)
 {
-  tetralux::WalkMesh& mesh = *frame.Scene->GetMesh();
-  const std::uint64_t version = frame.Scene->GetMeshVersion();
+  tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
+  const std::uint64_t version = frame.Scene->Mesh.GetPointsVersion();
   const bool exact = this->IsOrderExact();
   if (!this->Sorter || this->SorterVersion != version || exact != this->SorterIsConvex)
   {
@@ -365,7 +362,7 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareSorter(MapperFrame& frame)
     this->Sorter.reset();
     if (exact)
     {
-      mesh.MakeConvex([&frame](double fraction) { return frame.Continue(fraction); });
+      mesh.MakeConvex([&frame](double fraction) { return frame.ReportProgress(fraction); });
       if (!mesh.GetConvexification())
       {
         return false;
@@ -408,42 +405,45 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   const tetralux::ProjectionScene& scene = this->Scene;
   const tetralux::ProjectionPicture::Result& drawn = this->Picture.GetLastResult();
 
-  JsonObject section;
-  section.Set("width", scene.Grid.Width);
-  section.Set("height", scene.Grid.Height);
-  section.Set("perspective_interpolation", scene.Interpolate);
-  section.Set("color_buffer", GetFormatName(scene.Format));
-  section.Set("alpha_dithering", scene.Dither);
-  section.Set("tetrahedra_in_order", static_cast<std::int64_t>(this->Order.size()));
-  section.Set("tetrahedra_drawn", drawn.Cells);
-  section.Set("triangles", drawn.Triangles);
-  section.Set(
-    "bytes_of_graphics_card", static_cast<std::int64_t>(this->Picture.GetNumberOfBytes()));
-  section.Set("order", this->Sorted ? GetMethodName(this->Method) : "none");
+  Json section;
+  section["width"] = scene.Grid.Width;
+  section["height"] = scene.Grid.Height;
+  section["perspective_interpolation"] = scene.Interpolate;
+  section["color_buffer"] = GetFormatName(scene.Format);
+  section["alpha_dithering"] = scene.Dither;
+  section["tetrahedra_in_order"] = static_cast<std::int64_t>(this->Order.size());
+  section["tetrahedra_drawn"] = drawn.Cells;
+  section["triangles"] = drawn.Triangles;
+  section["bytes_of_graphics_card"] = static_cast<std::int64_t>(this->Picture.GetNumberOfBytes());
+  section["order"] = this->Sorted ? GetMethodName(this->Method) : "none";
   if (this->Sorted)
   {
     const tetralux::VisibilityCycles& cycles = this->Sorter->GetCycles();
-    section.Set("cycles", cycles.GetNumberOfCycles());
-    section.Set("tetrahedra_in_cycles", static_cast<std::int64_t>(cycles.Cells.size()));
-    section.Set("ignored_faces", cycles.IgnoredFaces);
-    section.Set("ignored_area", cycles.IgnoredArea);
+    section["cycles"] = cycles.GetNumberOfCycles();
+    section["tetrahedra_in_cycles"] = static_cast<std::int64_t>(cycles.Cells.size());
+    section["ignored_faces"] = cycles.IgnoredFaces;
+    section["ignored_area"] = cycles.IgnoredArea;
   }
   frame.Sections.emplace_back("projection", section);
 
-  constexpr double SegmentError = 5e-7; // SegmentWeightError
-  frame.Errors = { { "integrals", SegmentError },
+  const Integrator integrator = frame.Integration;
+  frame.Budget = tetralux::MakeErrorBudget(
+    frame.MaximumError, { false, IsTabulated(integrator), scene.Format != ChannelFormat::Float });
+  frame.Errors = { { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
     { "summation", EstimateSummationError(volume, scene.Format) },
-    { "table", volume.GetTableError() },
-    { "geometry", volume.EstimateGeometryError(volume.GetWorldRadius(scene.Grid)) } };
+    { "table", IsTabulated(integrator) ? volume.Optics.GetTableError() : 0 },
+    { "geometry",
+      volume.EstimateGeometryError(volume.Mesh.GetMesh()->GetRadius() *
+        tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest) } };
 
-  frame.LeaveOut(!this->Sorted, "order", "what cells add commutes");
-  frame.LeaveOut(scene.Planes.empty(), "near and far plane", "they cut nothing");
-  frame.LeaveOut(
-    this->Order.size() < static_cast<std::size_t>(volume.GetMesh()->GetNumberOfCells()),
+  frame.ReportOmission(!this->Sorted, "order", "what cells add commutes");
+  frame.ReportOmission(scene.Planes.empty(), "near and far plane", "they cut nothing");
+  frame.ReportOmission(
+    this->Order.size() < static_cast<std::size_t>(volume.Mesh.GetMesh()->GetNumberOfCells()),
     "unseen tetrahedra", "they are transparent or clipped");
-  frame.LeaveOut(!scene.Dither, "alpha dithering",
+  frame.ReportOmission(!scene.Dither, "alpha dithering",
     this->Self->ColorBuffer == UNORM8_BUFFER ? "it is off" : "colours have more than 8 bits");
-  frame.LeaveOut(
+  frame.ReportOmission(
     !scene.Frame->IsPerspective(), "perspective interpolation", "the view is parallel");
 }
 

@@ -7,7 +7,6 @@
 #include "Frame/MapperFrame.h"
 #include "Frame/OpaqueDistances.h"
 #include "RayCast/RayCaster.h"
-#include "Report/JsonObject.h"
 #include "Report/OnceWarning.h"
 
 #include "vtkImageData.h"
@@ -22,7 +21,7 @@
 #include <vector>
 
 using tetralux::CameraRays;
-using tetralux::JsonObject;
+using tetralux::Json;
 using tetralux::MapperFrame;
 
 namespace
@@ -44,28 +43,31 @@ const char* GetPrecisionName(int precision)
 void Describe(const tetralux::RayCastStatistics& rays, const tetralux::RayGrid& grid,
   double sampleDistance, MapperFrame& frame)
 {
-  JsonObject section;
-  section.Set("width", grid.Width);
-  section.Set("height", grid.Height);
-  section.Set("sample_distance", sampleDistance);
-  section.Set("rays", rays.Rays);
-  section.Set("segments", rays.Segments);
-  section.Set("paths", rays.Paths);
-  section.Set("reentry", rays.ImaginaryCells ? "imaginary cells" : "boundary hierarchy");
-  section.Set("transparent_tetrahedra_left_out", rays.TransparentCells);
-  section.Set("lane_use", rays.LaneUse);
-  section.Set("precision", rays.DoublePrecision ? "double" : "single");
-  section.Set("instruction_set", rays.InstructionSet);
-  section.Set("threads", rays.NumberOfThreads);
+  Json section;
+  section["width"] = grid.Width;
+  section["height"] = grid.Height;
+  section["sample_distance"] = sampleDistance;
+  section["rays"] = rays.Rays;
+  section["segments"] = rays.Segments;
+  section["paths"] = rays.Paths;
+  section["reentry"] = rays.ImaginaryCells ? "imaginary cells" : "boundary hierarchy";
+  section["transparent_tetrahedra_left_out"] = rays.TransparentCells;
+  section["lane_use"] = rays.LaneUse;
+  section["precision"] = rays.DoublePrecision ? "double" : "single";
+  section["instruction_set"] = rays.InstructionSet;
+  section["threads"] = rays.NumberOfThreads;
   frame.Sections.emplace_back("rays", section);
 
+  frame.Budget = rays.Budget;
   frame.Errors = { { "early_termination", rays.TerminationError },
     { "integrals", rays.IntegralError }, { "summation", rays.SummationError },
     { "table", rays.TableError }, { "geometry", rays.GeometryError } };
 
-  frame.LeaveOut(!rays.DoublePrecision, "double precision", "single precision is right enough");
-  frame.LeaveOut(rays.TransparentCells > 0, "transparent tetrahedra", "nothing of them is seen");
-  frame.LeaveOut(!rays.ImaginaryCells, "imaginary cells", "rays enter by the boundary");
+  frame.ReportOmission(
+    !rays.DoublePrecision, "double precision", "single precision is right enough");
+  frame.ReportOmission(
+    rays.TransparentCells > 0, "transparent tetrahedra", "nothing of them is seen");
+  frame.ReportOmission(!rays.ImaginaryCells, "imaginary cells", "rays enter by the boundary");
 }
 
 } // namespace
@@ -107,7 +109,7 @@ void vtkTetrahedraRayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
   tetralux::RayLimits limits = frame.MakeLimits(rays);
   std::vector<float> opaqueDistances;
-  if (frame.MayHaveOpaqueGeometry())
+  if (frame.HasOpaqueGeometry())
   {
     const tetralux::Stopwatch stopwatch;
     opaqueDistances = tetralux::ReadOpaqueDistances(frame.Renderer, rays);
@@ -126,7 +128,7 @@ void vtkTetrahedraRayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   frame.Integration = statistics.Integration;
   frame.Aborted = statistics.Aborted;
   Describe(statistics, grid, sampleDistance, frame);
-  this->WarnOfReentry(*frame.Scene->GetMesh());
+  this->WarnOfReentry(*frame.Scene->Mesh.GetMesh());
   if (frame.Aborted)
   {
     return;
@@ -162,7 +164,7 @@ tetralux::RayCastOptions vtkTetrahedraRayCastMapper::Internals::MakeOptions(
   const MapperFrame& frame) const
 {
   tetralux::RayCastOptions options;
-  options.MaximumError = this->Self->MaximumError;
+  options.MaximumError = frame.MaximumError;
   options.NumberOfThreads = this->Self->NumberOfThreads;
   options.Arithmetic = this->Self->Precision == SINGLE_PRECISION ? tetralux::Precision::Single
     : this->Self->Precision == DOUBLE_PRECISION                  ? tetralux::Precision::Double
@@ -170,10 +172,10 @@ tetralux::RayCastOptions vtkTetrahedraRayCastMapper::Internals::MakeOptions(
   options.ReentryBy = this->Self->Reentry == IMAGINARY_CELLS ? tetralux::Reentry::Imaginary
                                                              : tetralux::Reentry::Boundary;
   options.Shaded = frame.Shaded;
-  options.SmoothShading = this->Self->SmoothShading != 0;
+  options.SmoothShading = frame.Settings.SmoothShading;
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
-  options.Progress = [&frame](double fraction) { return frame.Continue(fraction); };
+  options.Progress = [&frame](double fraction) { return frame.ReportProgress(fraction); };
   return options;
 }
 

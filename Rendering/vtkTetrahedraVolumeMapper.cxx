@@ -5,7 +5,8 @@
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
 #include "Preparation/ScenePreparation.h"
-#include "Report/JsonObject.h"
+#include "Preparation/SceneReport.h"
+#include "Report/Json.h"
 
 #include "Intake/TetrahedraIntake.h"
 #include "vtkBoundingBox.h"
@@ -17,6 +18,8 @@
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
 #include "vtkRenderer.h"
 #include "vtkUnstructuredGridBase.h"
 #include "vtkVolume.h"
@@ -26,8 +29,37 @@
 #include <new>
 #include <stdexcept>
 
-using tetralux::JsonObject;
+using tetralux::Json;
 using tetralux::MapperFrame;
+
+namespace
+{
+
+/// Frames that are to take less than this belong to an interaction, seconds.
+constexpr double InteractiveSeconds = 1;
+
+tetralux::OpticalModel GetOpticalModel(int blendMode)
+{
+  switch (blendMode)
+  {
+    case vtkTetrahedraVolumeMapper::COMPOSITE_BLEND:
+      return tetralux::OpticalModel::EmissionAbsorption;
+    case vtkTetrahedraVolumeMapper::MAXIMUM_INTENSITY_BLEND:
+      return tetralux::OpticalModel::MaximumIntensity;
+    case vtkTetrahedraVolumeMapper::ADDITIVE_BLEND:
+      return tetralux::OpticalModel::EmissionOnly;
+    case vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND:
+      return tetralux::OpticalModel::Isosurfaces;
+    case vtkTetrahedraVolumeMapper::ABSORPTION_BLEND:
+      return tetralux::OpticalModel::AbsorptionOnly;
+    default:
+      throw std::invalid_argument("BlendMode " + std::to_string(blendMode) +
+        " is none of this mapper's: composite, maximum intensity, additive, isosurface or "
+        "absorption");
+  }
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------------------------
 // The stages of a frame, what they keep and what they report.
@@ -58,6 +90,7 @@ public:
   std::string LastError;
 
 private:
+  tetralux::MapperSettings MakeSettings() const;
   void WriteStatistics(MapperFrame& frame, double seconds);
 };
 
@@ -66,8 +99,10 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
 {
   const tetralux::Stopwatch stopwatch;
   this->ReadPicture = nullptr;
+  const tetralux::MapperSettings settings = this->MakeSettings();
   MapperFrame frame;
-  frame.Mapper = this->Self;
+  frame.Settings = settings.Frame;
+  frame.MaximumError = settings.MaximumError;
   frame.Renderer = renderer;
   frame.Volume = volume;
   frame.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -75,12 +110,20 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
   {
     throw std::invalid_argument("the renderer has no OpenGL render window");
   }
-  const bool ready = this->Preparation.Update(volume,
-    [&](double fraction)
-    {
-      this->Self->InvokeEvent(vtkCommand::ProgressEvent, &fraction);
-      return !frame.Window->CheckAbortStatus();
-    });
+  const auto report = [&](unsigned long event, double fraction)
+  {
+    this->Self->InvokeEvent(event, &fraction);
+    return !frame.Window->CheckAbortStatus();
+  };
+  tetralux::SceneInput input;
+  input.Data = this->Self->GetDataObjectInput();
+  input.Property = volume->GetProperty();
+  input.Matrix = volume->GetMatrix();
+  input.Interactive = volume->GetAllocatedRenderTime() < InteractiveSeconds;
+  const bool ready = this->Preparation.Update(
+    settings, input, [&](double fraction) { return report(vtkCommand::ProgressEvent, fraction); });
+  frame.Progress = [&](double fraction)
+  { return report(vtkCommand::VolumeMapperRenderProgressEvent, fraction); };
   frame.Scene = &this->Preparation.Scene;
   frame.Image = this->Image;
   if (ready)
@@ -99,24 +142,79 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
     this->Image->Initialize();
     frame.Aborted = true;
   }
-  if (frame.Scene->GetMesh())
+  if (frame.Scene->Mesh.GetMesh())
   {
     this->WriteStatistics(frame, stopwatch.GetSeconds());
   }
 }
 
 //------------------------------------------------------------------------------------------------
+tetralux::MapperSettings vtkTetrahedraVolumeMapper::Internals::MakeSettings() const
+{
+  vtkTetrahedraVolumeMapper* self = this->Self;
+  tetralux::MapperSettings settings;
+  settings.MaximumError = self->MaximumError;
+  settings.Model = GetOpticalModel(self->BlendMode);
+
+  tetralux::ScalarSelection& scalars = settings.Scalars;
+  scalars.ScalarMode = self->GetScalarMode();
+  scalars.ArrayAccessMode = self->GetArrayAccessMode();
+  scalars.ArrayId = self->GetArrayId();
+  scalars.ArrayName = self->GetArrayName() ? self->GetArrayName() : "";
+  scalars.VectorMode = self->VectorMode;
+  scalars.VectorComponent = self->VectorComponent;
+
+  tetralux::TableWishes& table = settings.Table;
+  table.Use = self->Integration == CLOSED_FORM ? tetralux::TableUse::Never
+    : self->Integration == TABLE               ? tetralux::TableUse::Always
+                                               : tetralux::TableUse::Automatic;
+  table.ScalarSize = self->TableScalarSize;
+  table.LengthSize = self->TableLengthSize;
+  table.MaximumBytes = static_cast<std::size_t>(self->TableMaximumBytes);
+  if (self->TableLengthScale != AUTOMATIC_SCALE)
+  {
+    table.Scale = self->TableLengthScale == LINEAR_SCALE ? tetralux::LengthScale::Linear
+                                                         : tetralux::LengthScale::Logarithmic;
+  }
+  if (self->TableScalarAxis != AUTOMATIC_AXIS)
+  {
+    table.Axis = self->TableScalarAxis == UNIFORM_AXIS ? tetralux::ScalarAxis::Uniform
+                                                       : tetralux::ScalarAxis::Nodes;
+  }
+  if (self->TableFormat != AUTOMATIC_FORMAT)
+  {
+    table.Format = static_cast<tetralux::TexelFormat>(self->TableFormat - UNORM8_FORMAT);
+  }
+
+  tetralux::FrameSettings& frame = settings.Frame;
+  frame.IntermixIntersectingGeometry = self->IntermixIntersectingGeometry != 0;
+  frame.SmoothShading = self->SmoothShading != 0;
+  vtkPlaneCollection* planes = self->GetClippingPlanes();
+  for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
+  {
+    vtkPlane* plane = planes->GetItem(i);
+    const double* normal = plane->GetNormal();
+    frame.ClippingPlanes.push_back(
+      { normal[0], normal[1], normal[2], -vtkMath::Dot(normal, plane->GetOrigin()) });
+  }
+  frame.Cropping = self->Cropping != 0;
+  self->GetCroppingRegionPlanes(frame.CroppingRegionPlanes);
+  frame.CroppingRegionFlags = static_cast<std::uint32_t>(self->CroppingRegionFlags);
+  return settings;
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, double seconds)
 {
-  tetralux::VolumeScene& scene = *frame.Scene;
+  const tetralux::VolumeScene& scene = *frame.Scene;
 
-  JsonObject times;
-  this->Preparation.WriteSeconds(times);
+  Json times;
+  DescribeSeconds(this->Preparation, times);
   for (const auto& [name, value] : frame.Seconds)
   {
-    times.Set(name, value);
+    times[name] = value;
   }
-  times.Set("frame", seconds);
+  times["frame"] = seconds;
 
   frame.Errors.emplace_back("transfer_function", this->Preparation.GetFunctionError());
   this->ErrorEstimate = 0;
@@ -124,48 +222,57 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   {
     this->ErrorEstimate += value;
   }
-  JsonObject error;
-  error.Set("maximum", this->Self->MaximumError);
-  error.Set("estimate", this->ErrorEstimate);
+  Json budget;
+  budget["transfer_function"] = frame.Budget.Functions;
+  budget["geometry"] = frame.Budget.Geometry;
+  budget["rounding"] = frame.Budget.Rounding;
+  budget["early_termination"] = frame.Budget.Termination;
+  budget["table"] = frame.Budget.Table;
+  budget["buffer"] = frame.Budget.Buffer;
+  Json error;
+  error["maximum"] = this->Self->MaximumError;
+  error["budget"] = budget;
+  error["estimate"] = this->ErrorEstimate;
   for (const auto& [name, value] : frame.Errors)
   {
-    error.Set(name, value);
+    error[name] = value;
   }
 
-  const bool cellData = scene.HasCellScalars();
-  frame.LeaveOut(!frame.Clipped, "clipping planes", "there are none");
-  frame.LeaveOut(!this->Self->Cropping, "cropping", "it is off");
-  frame.LeaveOut(!frame.Opaque, "opaque geometry", "nothing opaque was drawn before");
-  frame.LeaveOut(this->Preparation.GetFunctionError() == 0, "subdivided transfer function",
+  const bool cellData = scene.Mesh.HasCellScalars();
+  frame.ReportOmission(frame.Settings.ClippingPlanes.empty(), "clipping planes", "there are none");
+  frame.ReportOmission(!frame.Settings.Cropping, "cropping", "it is off");
+  frame.ReportOmission(!frame.Opaque, "opaque geometry", "nothing opaque was drawn before");
+  frame.ReportOmission(this->Preparation.GetFunctionError() == 0, "subdivided transfer function",
     "it is piecewise linear");
-  frame.LeaveOut(cellData, "scalars varying in cells", "the array is of cells");
-  frame.LeaveOut(!cellData, "constant cells", "the array is of points");
-  frame.LeaveOut(frame.Integration == "optical depth", "colours along rays",
-    scene.GetOpticalModel() == tetralux::OpticalModel::AbsorptionOnly
+  frame.ReportOmission(cellData, "scalars varying in cells", "the array is of cells");
+  frame.ReportOmission(!cellData, "constant cells", "the array is of points");
+  frame.ReportOmission(frame.Integration == tetralux::Integrator::OpticalDepth,
+    "colours along rays",
+    scene.Optics.GetModel() == tetralux::OpticalModel::AbsorptionOnly
       ? "absorption has none"
       : "all that is visible has one colour");
-  frame.LeaveOut(!scene.GetTable(), "table",
+  frame.ReportOmission(!scene.Optics.GetTable(), "table",
     scene.GetPlan().ConstantColor ? "one colour needs none" : "see segments");
-  frame.LeaveOut(!frame.Shaded, "shading",
+  frame.ReportOmission(!frame.Shaded, "shading",
     frame.Volume->GetProperty()->GetShade(0) ? "it needs a gradient, and composite or isosurface "
                                                "blending"
                                              : "Shade is off");
 
-  JsonObject statistics;
-  statistics.Set("method", frame.Method);
-  statistics.Set("aborted", frame.Aborted);
-  statistics.Set("rebuilt", this->Preparation.GetRebuilt());
-  statistics.Set("seconds", times);
-  statistics.Set("input", this->Preparation.DescribeInput());
-  statistics.Set("tables", this->Preparation.DescribeTables());
-  statistics.Set("segments", this->Preparation.DescribeSegments(frame.Integration));
+  Json statistics;
+  statistics["method"] = frame.Method;
+  statistics["aborted"] = frame.Aborted;
+  statistics["rebuilt"] = this->Preparation.GetLast().Rebuilt;
+  statistics["seconds"] = times;
+  statistics["input"] = DescribeInput(this->Preparation);
+  statistics["tables"] = DescribeTables(this->Preparation);
+  statistics["segments"] = DescribeSegments(this->Preparation, frame.Integration);
   for (const auto& [name, section] : frame.Sections)
   {
-    statistics.Set(name, section);
+    statistics[name] = section;
   }
-  statistics.Set("error", error);
-  statistics.Set("left_out", frame.LeftOut);
-  this->Statistics = statistics.ToString();
+  statistics["error"] = error;
+  statistics["left_out"] = frame.LeftOut;
+  this->Statistics = statistics.dump(2);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -314,14 +421,14 @@ vtkIdType vtkTetrahedraVolumeMapper::GetNumberOfSkippedCells()
 //------------------------------------------------------------------------------------------------
 vtkIdType vtkTetrahedraVolumeMapper::GetNumberOfRemovedCells()
 {
-  const tetralux::WalkMesh* mesh = this->Private->Preparation.Scene.GetMesh();
+  const tetralux::WalkMesh* mesh = this->Private->Preparation.Scene.Mesh.GetMesh();
   return mesh ? mesh->GetRemovedCells().Total() : 0;
 }
 
 //------------------------------------------------------------------------------------------------
 vtkIdType vtkTetrahedraVolumeMapper::GetNumberOfBlankCells()
 {
-  return this->Private->Preparation.Scene.GetNumberOfBlankCells();
+  return this->Private->Preparation.Scene.Mesh.GetNumberOfBlankCells();
 }
 
 //------------------------------------------------------------------------------------------------

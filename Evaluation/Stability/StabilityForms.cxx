@@ -168,7 +168,7 @@ public:
     {
       this->AtBack.push_back(walkMesh->GetMesh().Points[i] > 0);
     }
-    this->Volume.SetMesh(walkMesh);
+    this->Volume.Mesh.SetMesh(walkMesh);
     // Rays must not end early: the error of that is chosen, not suffered.
     this->Options.MaximumError = 1e-12;
     this->Options.Arithmetic = precision;
@@ -184,8 +184,8 @@ public:
     {
       scalars.push_back(back ? segment.BackScalar : segment.FrontScalar);
     }
-    this->Volume.SetPointScalars(std::move(scalars));
-    this->Volume.SetTransferFunction(segment.Function);
+    this->Volume.Mesh.SetPointScalars(std::move(scalars));
+    this->Volume.Optics.SetTransferFunction(segment.Function);
     RayGrid grid;
     grid.Width = grid.Height = 1;
     grid.Direction[2] = 1;

@@ -51,6 +51,18 @@ struct Box
   float Middle(int a) const { return 0.5f * (this->Lo[a] + this->Hi[a]); }
 };
 
+/// What is stored of a box.
+void SetBox(BoundaryBvh::Node& node, const Box& box, float margin)
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    node.Center[a] = box.Middle(a);
+    // The middle is rounded: measure the half edge from what it became, and round it up.
+    const float half = std::max(box.Hi[a] - node.Center[a], node.Center[a] - box.Lo[a]);
+    node.Half[a] = std::nextafter(half, std::numeric_limits<float>::max()) + margin;
+  }
+}
+
 class Builder
 {
 public:
@@ -95,13 +107,7 @@ private:
 
     const std::size_t nodeId = this->Result.Nodes.size();
     BoundaryBvh::Node node{};
-    for (int a = 0; a < 3; ++a)
-    {
-      node.Center[a] = box.Middle(a);
-      // The middle is rounded: measure the half edge from what it became, and round it up.
-      const float half = std::max(box.Hi[a] - node.Center[a], node.Center[a] - box.Lo[a]);
-      node.Half[a] = std::nextafter(half, std::numeric_limits<float>::max()) + this->Margin;
-    }
+    SetBox(node, box, this->Margin);
     const bool leaf = end - begin <= LeafSize;
     node.First = leaf ? begin : 0;
     node.Count = leaf ? end - begin : 0;
@@ -209,6 +215,31 @@ BoundaryBvh BuildBoundaryBvh(
   Span<const float> points, Span<const std::int32_t> triangles, float margin)
 {
   return Builder(points, triangles, margin).Build();
+}
+
+void RefitBoundaryBvh(
+  BoundaryBvh& bvh, Span<const float> points, Span<const std::int32_t> triangles, float margin)
+{
+  // Children stand behind their parents.
+  std::vector<Box> boxes(bvh.Nodes.size());
+  for (std::size_t n = bvh.Nodes.size(); n-- > 0;)
+  {
+    BoundaryBvh::Node& node = bvh.Nodes[n];
+    if (node.Count == 0)
+    {
+      boxes[n].Add(boxes[n + 1]);
+      boxes[n].Add(boxes[node.First]);
+    }
+    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+    {
+      const std::int32_t* corners = &triangles[3 * static_cast<std::size_t>(bvh.Triangles[i])];
+      for (int c = 0; c < 3; ++c)
+      {
+        boxes[n].Add(&points[4 * static_cast<std::size_t>(corners[c])]);
+      }
+    }
+    SetBox(node, boxes[n], margin);
+  }
 }
 
 } // namespace tetralux

@@ -41,6 +41,12 @@ struct BoundaryBvh
 TETRALUXCORE_EXPORT BoundaryBvh BuildBoundaryBvh(
   Span<const float> points, Span<const std::int32_t> triangles, float margin);
 
+/// Fits the boxes of a tree to points that moved; which triangles a node has stays. The tree is as
+/// right as a new one, and slower as far as triangles of a node moved apart. Linear time.
+/// points, triangles, margin: as for BuildBoundaryBvh.
+TETRALUXCORE_EXPORT void RefitBoundaryBvh(
+  BoundaryBvh& bvh, Span<const float> points, Span<const std::int32_t> triangles, float margin);
+
 } // namespace tetralux
 
 #endif

@@ -31,13 +31,11 @@
 // The error of both weights is below SegmentWeightError (tested against quadrature from D = 1e-12 to
 // 1e12 and for every ratio of D0 and D1). RayIntegral.h has the same in double precision.
 
+#include "Integral/SegmentWeightError.h"
 #include "Simd/Lanes.h"
 
 namespace tetralux
 {
-
-/// Largest error of a segment's weights, relative to its opacity.
-constexpr double SegmentWeightError = 5e-7;
 
 namespace TETRALUX_ISA
 {

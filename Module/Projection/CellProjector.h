@@ -2,8 +2,10 @@
 #ifndef tetralux_CellProjector_h
 #define tetralux_CellProjector_h
 
-#include "Projection/CellProjection.h"
 #include "Projection/LocalCell.h"
+#include "Projection/ProjectedCell.h"
+#include "Projection/ProjectionSettings.h"
+#include "Projection/ScreenFrame.h"
 
 #include <array>
 #include <optional>

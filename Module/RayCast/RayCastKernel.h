@@ -6,6 +6,7 @@
 // kernels themselves (RayCastKernel.inl) are compiled once for each instruction set.
 
 #include "Hierarchy/BoundaryBvh.h"
+#include "Integral/Integrator.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
 #include "Optics/SurfaceShading.h"
@@ -99,20 +100,6 @@ struct KernelCounts
 /// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1).
 using RayCastKernel = void (*)(
   const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
-
-/// The ways of integrating that there are kernels for, see RayCastModels.h.
-enum class Integrator
-{
-  ClosedForm,    ///< emission and absorption
-  LitClosedForm, ///< emission and absorption, lit; scalars at points only
-  Table,         ///< emission and absorption, scalars at points only
-  LitTable,      ///< emission and absorption, lit; scalars at points only
-  OpticalDepth,  ///< emission and absorption of a constant colour, or absorption alone
-  Emission,      ///< emission alone
-  Maximum,       ///< the largest scalar
-  Isosurfaces,   ///< scalars at points only
-  Count
-};
 
 /// The kernels of one instruction set.
 struct RayCastKernels

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCast/RayCaster.h"
 
-#include "Integral/SegmentIntegral.h"
+#include "Integral/SegmentWeightError.h"
 #include "RayCast/RayCastKernel.h"
+#include "Scene/IntegratorChoice.h"
+#include "View/MeshToWorld.h"
 
 #include <algorithm>
 #include <array>
@@ -54,48 +56,13 @@ InstructionSet GetInstructionSet(bool portable)
   return { "generic", GetRayCastKernelsGeneric() };
 }
 
-/// The cheapest way of integrating that is exact for the scene, or by table, and its name in
-/// statistics. lit: emission and absorption, by lights.
-Integrator ChooseIntegrator(VolumeScene& scene, bool lit, std::string& name)
-{
-  switch (scene.GetOpticalModel())
-  {
-    case OpticalModel::EmissionOnly:
-      name = "emission";
-      return Integrator::Emission;
-    case OpticalModel::AbsorptionOnly:
-      name = "optical depth";
-      return Integrator::OpticalDepth;
-    case OpticalModel::MaximumIntensity:
-      name = "largest scalar";
-      return Integrator::Maximum;
-    case OpticalModel::Isosurfaces:
-      name = "isosurfaces";
-      return Integrator::Isosurfaces;
-    case OpticalModel::EmissionAbsorption:
-      break;
-  }
-  if (scene.GetPlan().ConstantColor && !lit)
-  {
-    name = "optical depth";
-    return Integrator::OpticalDepth;
-  }
-  if (scene.GetTable() && !scene.HasCellScalars())
-  {
-    name = "table";
-    return lit ? Integrator::LitTable : Integrator::Table;
-  }
-  name = "closed form";
-  return lit ? Integrator::LitClosedForm : Integrator::ClosedForm;
-}
-
 /// Isosurfaces as the kernels read them.
 struct SurfaceTables
 {
   std::vector<std::array<float, 2>> Neighbors;
   std::vector<float> Colors;
 
-  SurfaceTables(const std::vector<Isosurface>& surfaces, const VolumeScene::ScalarMap& map)
+  SurfaceTables(const std::vector<Isosurface>& surfaces, const ScalarMap& map)
   {
     // Beyond all scalars of the tables, which are bounded.
     float below = -std::numeric_limits<float>::infinity();
@@ -138,7 +105,7 @@ struct OwningCrossingBuffer : CrossingBuffer
 const WalkTables* ChooseTables(
   VolumeScene& scene, const RayCastOptions& options, RayCastStatistics& statistics)
 {
-  WalkMesh& mesh = *scene.GetMesh();
+  WalkMesh& mesh = *scene.Mesh.GetMesh();
   if (options.ReentryBy == Reentry::Imaginary)
   {
     mesh.MakeConvex(options.Progress);
@@ -152,6 +119,9 @@ const WalkTables* ChooseTables(
       return &mesh.GetConvexTables();
     }
   }
+  SceneNeeds needs;
+  needs.VisibleTables = true;
+  scene.Prepare(needs);
   if (const WalkTables* visible = scene.GetVisibleTables())
   {
     statistics.TransparentCells = scene.GetNumberOfTransparentCells();
@@ -172,27 +142,27 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   }
   scene.CheckComplete();
 
+  scene.Prepare({});
+
   RayCastStatistics statistics;
-  const WalkMesh& mesh = *scene.GetMesh();
-  const OpticalModel model = scene.GetOpticalModel();
-  const bool cellData = scene.HasCellScalars();
-  const bool lit = options.Shaded && model == OpticalModel::EmissionAbsorption && !cellData;
-  const Integrator integrator = ChooseIntegrator(scene, lit, statistics.Integration);
-  const double worldRadius = scene.GetWorldRadius(grid);
+  const WalkMesh& mesh = *scene.Mesh.GetMesh();
+  const bool cellData = scene.Mesh.HasCellScalars();
+  const Integrator integrator = ChooseIntegrator(scene, options.Shaded);
+  const bool lit = IsLit(integrator);
+  const bool tabulated = IsTabulated(integrator);
+  const ErrorBudget budget =
+    MakeErrorBudget(options.MaximumError, { EndsEarly(integrator), tabulated, false });
+  const double worldRadius = mesh.GetRadius() * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
   const double geometryError = scene.EstimateGeometryError(worldRadius);
-  // Half of the error may come from ending rays early, a quarter from rounding.
+  statistics.Integration = integrator;
+  statistics.Budget = budget;
   statistics.DoublePrecision = options.Arithmetic == Precision::Double ||
     !std::isfinite(geometryError) ||
-    (options.Arithmetic == Precision::Automatic && geometryError > 0.25 * options.MaximumError);
-  const bool endsEarly =
-    model != OpticalModel::EmissionOnly && model != OpticalModel::MaximumIntensity;
-  statistics.TerminationError = endsEarly ? 0.5 * options.MaximumError : 0;
-  const bool hasWeights =
-    model != OpticalModel::MaximumIntensity && model != OpticalModel::Isosurfaces;
-  statistics.IntegralError = hasWeights ? SegmentWeightError : 0;
+    (options.Arithmetic == Precision::Automatic && geometryError > budget.Geometry);
+  statistics.TerminationError = budget.Termination;
+  statistics.IntegralError = HasWeights(integrator) ? SegmentWeightError : 0;
   statistics.GeometryError = statistics.DoublePrecision ? 0 : geometryError;
-  const bool tabulated = integrator == Integrator::Table || integrator == Integrator::LitTable;
-  statistics.TableError = tabulated ? scene.GetTableError() : 0;
+  statistics.TableError = tabulated ? scene.Optics.GetTableError() : 0;
   statistics.ErrorEstimate = statistics.TerminationError + statistics.IntegralError +
     statistics.TableError + statistics.GeometryError;
 
@@ -203,6 +173,13 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
     return statistics;
   }
   const WalkTables& tables = *chosen;
+  const bool smooth = options.Shaded && options.SmoothShading && !cellData;
+  SceneNeeds needs;
+  needs.SinglePoints = !statistics.DoublePrecision;
+  needs.DoublePoints = statistics.DoublePrecision;
+  needs.Gradients = smooth;
+  needs.FloatTexels = tabulated;
+  scene.Prepare(needs);
 
   KernelInput in{};
   in.Points = statistics.DoublePrecision ? static_cast<const void*>(scene.GetPoints<double>())
@@ -218,25 +195,25 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   in.NumberOfCells = mesh.GetNumberOfCells();
   std::copy_n(mesh.GetCenter(), 3, in.Center);
   in.Radius = mesh.GetRadius();
-  in.Intervals = scene.GetIntervalTable().Intervals.data();
-  in.NumberOfIntervals = static_cast<int>(scene.GetIntervalTable().Intervals.size());
-  const VolumeScene::ScalarMap map = scene.GetScalarMap();
-  const SurfaceTables surfaces(
-    model == OpticalModel::Isosurfaces ? scene.GetIsosurfaces() : std::vector<Isosurface>(), map);
+  const IntervalTable& intervals = scene.Optics.GetIntervalTable();
+  in.Intervals = intervals.Intervals.data();
+  in.NumberOfIntervals = static_cast<int>(intervals.Intervals.size());
+  const SurfaceTables surfaces(integrator == Integrator::Isosurfaces ? scene.Optics.GetIsosurfaces()
+                                                                     : std::vector<Isosurface>(),
+    scene.GetScalarMap());
   in.SurfaceNeighbors = surfaces.Neighbors.data();
   in.SurfaceColors = surfaces.Colors.data();
-  const SurfaceShading shading{ &mesh.GetMesh(), scene.GetScalars().data(),
-    options.Shaded && options.SmoothShading && !cellData ? scene.GetPointGradients().data()
-                                                         : nullptr,
-    grid.MeshFromWorld, options.Lights, options.Surface };
+  const SurfaceShading shading{ &mesh.GetMesh(), scene.Mesh.GetScalars().data(),
+    smooth ? scene.Mesh.GetPointGradients().data() : nullptr, grid.MeshFromWorld, options.Lights,
+    options.Surface };
   in.Shading = options.Shaded ? &shading : nullptr;
   in.DistanceRounding =
     worldRadius * (statistics.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);
   KernelTable table{};
   if (tabulated)
   {
-    const PreIntegrationTable& t = *scene.GetTable();
-    table.Texels = scene.GetFloatTexels();
+    const PreIntegrationTable& t = *scene.Optics.GetTable();
+    table.Texels = scene.Optics.GetFloatTexels();
     table.Axis = t.Scalars.Intervals.data();
     table.AxisSize = static_cast<int>(t.Scalars.Intervals.size());
     table.ScalarSize = t.Scalars.GetSize();
@@ -256,7 +233,7 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
     (lit ? FindLargestBrightness(options.Lights, options.Surface) : 1);
   in.MaximumOpacity = static_cast<float>(1 - behind);
   in.MaximumDepth = static_cast<float>(-std::log(statistics.TerminationError));
-  if (model == OpticalModel::EmissionAbsorption && scene.GetPlan().ConstantColor)
+  if (scene.Optics.GetModel() == OpticalModel::EmissionAbsorption && scene.GetPlan().ConstantColor)
   {
     std::copy_n(scene.GetPlan().Color, 3, in.Color);
   }

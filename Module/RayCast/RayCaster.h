@@ -3,6 +3,8 @@
 #define tetralux_RayCaster_h
 
 #include "Base/Span.h"
+#include "Integral/ErrorBudget.h"
+#include "Integral/Integrator.h"
 #include "Optics/OpticalModel.h"
 #include "Scene/VolumeScene.h"
 #include "TetraluxCoreModule.h"
@@ -70,9 +72,7 @@ struct RayCastStatistics
   bool Aborted = false;
   bool DoublePrecision = false;
   std::string InstructionSet;
-  /// How rays were integrated: "closed form", "table", "optical depth", "emission", "largest scalar"
-  /// or "isosurfaces".
-  std::string Integration;
+  Integrator Integration = Integrator::ClosedForm;
   int NumberOfThreads = 0;
   std::int64_t Rays = 0;
   std::int64_t Segments = 0;         ///< cells walked through, over all rays
@@ -80,6 +80,7 @@ struct RayCastStatistics
   bool ImaginaryCells = false;       ///< whether rays went through imaginary cells
   std::int64_t TransparentCells = 0; ///< left out of the walk; 0 where that would not pay
   double LaneUse = 0;                ///< share of vector lanes that carried a ray, 0..1
+  ErrorBudget Budget;                ///< how MaximumError was divided
   double ErrorEstimate = 0;          ///< sum of the five below
   double TerminationError = 0;       ///< at most, by ending rays early
   double IntegralError = 0;          ///< at most, by the weights of segments

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/VolumeScene.h"
 
-#include "Mesh/CellVolumes.h"
-
 #include "Scene/VisibleCells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 
 namespace tetralux
@@ -46,350 +43,206 @@ double EstimateEmissionAbsorptionError(
 
 } // namespace
 
-void VolumeScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
-{
-  this->Mesh = std::move(mesh);
-  this->LongestEdge = -1;
-  ++this->MeshVersion;
-  this->Scalars.clear();
-  this->FloatScalars = this->DoubleScalars = ScalarMap();
-  this->SampledRays.reset();
-  this->PointGradientsValid = false;
-  this->Invalidate();
-}
-
-void VolumeScene::SetPointScalars(std::vector<double> scalars)
-{
-  this->SetScalars(std::move(scalars), false);
-}
-
-void VolumeScene::SetCellScalars(std::vector<double> scalars)
-{
-  this->SetScalars(std::move(scalars), true);
-}
-
-void VolumeScene::SetScalars(std::vector<double> scalars, bool ofCells)
-{
-  if (!this->Mesh)
-  {
-    throw std::invalid_argument("the mesh must be set before its scalars");
-  }
-  const TetrahedralMesh& mesh = this->Mesh->GetMesh();
-  const std::size_t expected = ofCells ? mesh.GetNumberOfCells() : mesh.GetNumberOfPoints();
-  if (scalars.size() != expected)
-  {
-    throw std::invalid_argument(std::to_string(scalars.size()) + " scalars were given for " +
-      std::to_string(expected) + (ofCells ? " cells" : " points"));
-  }
-  this->Scalars = std::move(scalars);
-  this->ScalarsOfCells = ofCells;
-  this->FloatScalars = this->DoubleScalars = ScalarMap();
-  this->SampledRays.reset();
-  this->PointGradientsValid = false;
-  this->Invalidate();
-
-  bool allFinite = true;
-  bool any = false;
-  for (double s : this->Scalars)
-  {
-    if (!std::isfinite(s))
-    {
-      allFinite = false;
-      continue;
-    }
-    this->ScalarRange[0] = any ? std::min(this->ScalarRange[0], s) : s;
-    this->ScalarRange[1] = any ? std::max(this->ScalarRange[1], s) : s;
-    any = true;
-  }
-  if (!any)
-  {
-    this->ScalarRange[0] = this->ScalarRange[1] = 0;
-  }
-  this->NumberOfBlankCells = 0;
-  if (!allFinite)
-  {
-    this->CountBlankCells();
-  }
-}
-
-void VolumeScene::CountBlankCells()
-{
-  const std::vector<std::int32_t>& cells = this->Mesh->GetMesh().Cells;
-  const std::int64_t n = static_cast<std::int64_t>(cells.size() / 4);
-  for (std::int64_t t = 0; t < n; ++t)
-  {
-    const std::int32_t* p = &cells[4 * t];
-    const bool finite = this->ScalarsOfCells
-      ? std::isfinite(this->Scalars[t])
-      : std::all_of(p, p + 4, [this](std::int32_t id) { return std::isfinite(this->Scalars[id]); });
-    this->NumberOfBlankCells += !finite;
-  }
-}
-
-void VolumeScene::SetOpticalModel(OpticalModel model)
-{
-  if (model != this->Model)
-  {
-    this->Model = model;
-    this->Invalidate();
-  }
-}
-
-void VolumeScene::SetTransferFunction(const TransferFunction& function)
-{
-  this->Intervals = MakeIntervalTable(function);
-  this->Function = function;
-  this->SetTable(nullptr, 0);
-  this->Invalidate();
-}
-
-void VolumeScene::Invalidate()
-{
-  this->CellValuesValid = this->VisibleCellsValid = this->VisibleTablesValid = this->PlanValid =
-    false;
-}
-
-void VolumeScene::SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError)
-{
-  this->Table = std::move(table);
-  this->TableError = pictureError;
-  this->Texels.clear();
-  ++this->TableVersion;
-}
-
-const float* VolumeScene::GetFloatTexels()
-{
-  if (!this->Table)
-  {
-    return nullptr;
-  }
-  if (this->Table->Settings.Format == TexelFormat::Float)
-  {
-    return reinterpret_cast<const float*>(this->Table->Texels.GetData());
-  }
-  if (this->Texels.empty())
-  {
-    const int n = this->Table->Scalars.GetSize();
-    const int lengths = this->Table->Lengths.Size;
-    this->Texels.resize(4 * static_cast<std::size_t>(n) * n * lengths);
-#pragma omp parallel for schedule(static)
-    for (int length = 0; length < lengths; ++length)
-    {
-      float* texel = &this->Texels[4 * static_cast<std::size_t>(n) * n * length];
-      for (int back = 0; back < n; ++back)
-      {
-        for (int front = 0; front < n; ++front, texel += 4)
-        {
-          this->Table->GetTexel(front, back, length, texel);
-        }
-      }
-    }
-  }
-  return this->Texels.data();
-}
-
-void VolumeScene::SetIsosurfaces(std::vector<Isosurface> surfaces)
-{
-  for (const Isosurface& surface : surfaces)
-  {
-    const float* c = surface.Color;
-    if (!std::isfinite(surface.Value) || !std::isfinite(c[0] + c[1] + c[2] + surface.Opacity))
-    {
-      throw std::invalid_argument("values, colours and opacities of isosurfaces must be finite");
-    }
-  }
-  std::stable_sort(surfaces.begin(), surfaces.end(),
-    [](const Isosurface& a, const Isosurface& b) { return a.Value < b.Value; });
-  this->Surfaces.clear();
-  for (const Isosurface& surface : surfaces)
-  {
-    if (!this->Surfaces.empty() && this->Surfaces.back().Value == surface.Value)
-    {
-      this->Surfaces.pop_back();
-    }
-    this->Surfaces.push_back(surface);
-  }
-  if (this->Model == OpticalModel::Isosurfaces)
-  {
-    this->VisibleCellsValid = this->VisibleTablesValid = false;
-  }
-}
-
-const IntegrationPlan& VolumeScene::GetPlan()
-{
-  if (!this->PlanValid)
-  {
-    this->Plan = this->Model == OpticalModel::Isosurfaces
-      ? IntegrationPlan()
-      : MakeIntegrationPlan(this->Model, this->Function, this->ScalarRange);
-    this->PlanValid = true;
-  }
-  return this->Plan;
-}
-
 void VolumeScene::CheckComplete() const
 {
-  const bool isosurfaces = this->Model == OpticalModel::Isosurfaces;
-  if (!this->Mesh || (this->Intervals.Intervals.empty() && !isosurfaces))
+  const bool isosurfaces = this->Optics.GetModel() == OpticalModel::Isosurfaces;
+  const bool hasFunction = !this->Optics.GetIntervalTable().Intervals.empty();
+  if (!this->Mesh.GetMesh() || (!hasFunction && !isosurfaces))
   {
     throw std::invalid_argument("a mesh and a transfer function must be set before rays are cast");
   }
-  const TetrahedralMesh& mesh = this->Mesh->GetMesh();
-  if (this->Scalars.size() !=
-    (this->ScalarsOfCells ? mesh.GetNumberOfCells() : mesh.GetNumberOfPoints()))
+  if (!this->Mesh.IsComplete())
   {
     throw std::invalid_argument("scalars must be set after the mesh and before rays are cast");
   }
-  if (isosurfaces && this->ScalarsOfCells && !this->Scalars.empty())
+  if (isosurfaces && this->Mesh.HasCellScalars() && !this->Mesh.GetScalars().empty())
   {
     throw std::invalid_argument("isosurfaces need scalars at points: at cells they are constant");
   }
 }
 
-VolumeScene::ScalarMap VolumeScene::GetScalarMap() const
+void VolumeScene::Prepare(const SceneNeeds& needs)
 {
-  if (this->Model != OpticalModel::Isosurfaces)
+  this->PreparePlan();
+  if (this->Mesh.HasCellScalars() && this->Optics.GetModel() != OpticalModel::Isosurfaces)
   {
-    return { this->Intervals.Offset, this->Intervals.Scale };
+    this->PrepareCellValues();
+  }
+  else
+  {
+    this->CellValues.Reset();
+  }
+  if (needs.SinglePoints)
+  {
+    this->PreparePoints<float>(this->SinglePoints);
+  }
+  if (needs.DoublePoints)
+  {
+    this->PreparePoints<double>(this->DoublePoints);
+  }
+  if (needs.VisibleCells || needs.VisibleTables)
+  {
+    this->PrepareVisibleCells();
+  }
+  if (needs.VisibleTables)
+  {
+    this->PrepareVisibleTables();
+  }
+  if (needs.Gradients)
+  {
+    this->Mesh.PreparePointGradients();
+  }
+  if (needs.LongestEdge)
+  {
+    this->Mesh.PrepareLongestEdge();
+  }
+  if (needs.FloatTexels)
+  {
+    this->Optics.PrepareFloatTexels();
+  }
+}
+
+void VolumeScene::PreparePlan()
+{
+  const OpticalModel model = this->Optics.GetModel();
+  const double* range = this->Mesh.GetScalarRange();
+  this->Plan.Update(CacheKey::Of(model, this->Optics.GetFunctionVersion(), range[0], range[1]),
+    [&]
+    {
+      return model == OpticalModel::Isosurfaces
+        ? IntegrationPlan()
+        : MakeIntegrationPlan(model, this->Optics.GetTransferFunction(), range);
+    });
+}
+
+ScalarMap VolumeScene::GetScalarMap() const
+{
+  if (this->Optics.GetModel() != OpticalModel::Isosurfaces)
+  {
+    return { this->Optics.GetIntervalTable().Offset, this->Optics.GetIntervalTable().Scale };
   }
   // Halved before they are added, so that no sum overflows.
-  const double lo = 0.5 * this->ScalarRange[0];
-  const double hi = 0.5 * this->ScalarRange[1];
+  const double lo = 0.5 * this->Mesh.GetScalarRange()[0];
+  const double hi = 0.5 * this->Mesh.GetScalarRange()[1];
   return { lo + hi, hi - lo > 0 ? hi - lo : 1 };
 }
 
 double VolumeScene::GetLargestMappedScalar() const
 {
   const ScalarMap map = this->GetScalarMap();
-  return std::max(
-    { 1., std::abs(map.Map(this->ScalarRange[0])), std::abs(map.Map(this->ScalarRange[1])) });
+  const double* range = this->Mesh.GetScalarRange();
+  return std::max({ 1., std::abs(map.Map(range[0])), std::abs(map.Map(range[1])) });
 }
 
 template <class Real>
-const WalkPoint<Real>* VolumeScene::GetPoints()
+void VolumeScene::PreparePoints(CacheStamp& stamp)
 {
-  constexpr bool single = std::is_same<Real, float>::value;
-  if (this->ScalarsOfCells)
+  const bool ofCells = this->Mesh.HasCellScalars();
+  const ScalarMap map = ofCells ? ScalarMap() : this->GetScalarMap();
+  CacheKey key = CacheKey::Of(this->Mesh.GetPointsVersion(),
+    ofCells ? 0 : this->Mesh.GetScalarsVersion(), map.Offset, map.Scale);
+  if (stamp.Has(key))
+  {
+    return;
+  }
+  if (!ofCells)
+  {
+    this->Mesh.GetMesh()->SetPointScalars<Real>(this->Mesh.GetScalars(), map.Offset, map.Scale);
+  }
+  else if (!this->Mesh.GetMesh()->GetPoints<Real>())
   {
     // Coordinates in double precision are filled in together with the scalars.
-    if (!this->Mesh->GetPoints<Real>())
-    {
-      const std::vector<double> none(this->Mesh->GetMesh().GetNumberOfPoints(), 0.);
-      this->Mesh->SetPointScalars<Real>(none, 0, 1);
-    }
-    return this->Mesh->GetPoints<Real>();
+    const std::vector<double> none(this->Mesh.GetMesh()->GetMesh().GetNumberOfPoints(), 0.);
+    this->Mesh.GetMesh()->SetPointScalars<Real>(none, map.Offset, map.Scale);
   }
-  const ScalarMap map = this->GetScalarMap();
-  ScalarMap& present = single ? this->FloatScalars : this->DoubleScalars;
-  if (!(present == map))
-  {
-    this->Mesh->SetPointScalars<Real>(this->Scalars, map.Offset, map.Scale);
-    this->PointsVersion += single;
-    present = map;
-  }
-  return this->Mesh->GetPoints<Real>();
+  stamp.Set(std::move(key));
 }
 
-template const WalkPoint<float>* VolumeScene::GetPoints<float>();
-template const WalkPoint<double>* VolumeScene::GetPoints<double>();
-
-const std::vector<CellValue>& VolumeScene::GetCellValues()
+void VolumeScene::PrepareCellValues()
 {
-  if (this->CellValuesValid)
+  const OpticalModel model = this->Optics.GetModel();
+  const auto build = [&]
   {
-    return this->CellValues;
-  }
-  const ScalarMap map = this->GetScalarMap();
-  const std::int64_t n = static_cast<std::int64_t>(this->Scalars.size());
-  this->CellValues.resize(n);
+    const ScalarMap map = this->GetScalarMap();
+    const std::vector<double>& scalars = this->Mesh.GetScalars();
+    const std::int64_t n = static_cast<std::int64_t>(scalars.size());
+    std::vector<CellValue> values(n);
 #pragma omp parallel for schedule(static)
-  for (std::int64_t t = 0; t < n; ++t)
-  {
-    CellValue value{};
-    if (this->Model == OpticalModel::MaximumIntensity)
+    for (std::int64_t t = 0; t < n; ++t)
     {
-      value.Attenuation = std::isfinite(this->Scalars[t])
-        ? static_cast<float>(map.Map(this->Scalars[t]))
-        : std::numeric_limits<float>::quiet_NaN();
-    }
-    else if (std::isfinite(this->Scalars[t]))
-    {
-      const TransferFunction::Value v = Evaluate(this->Function, this->Scalars[t]);
-      value.Attenuation = static_cast<float>(v.Attenuation);
-      for (int c = 0; c < 3; ++c)
+      CellValue value{};
+      if (model == OpticalModel::MaximumIntensity)
       {
-        value.Color[c] = static_cast<float>(v.Color[c]);
+        value.Attenuation = std::isfinite(scalars[t]) ? static_cast<float>(map.Map(scalars[t]))
+                                                      : std::numeric_limits<float>::quiet_NaN();
       }
+      else if (std::isfinite(scalars[t]))
+      {
+        const TransferFunction::Value v = Evaluate(this->Optics.GetTransferFunction(), scalars[t]);
+        value.Attenuation = static_cast<float>(v.Attenuation);
+        for (int c = 0; c < 3; ++c)
+        {
+          value.Color[c] = static_cast<float>(v.Color[c]);
+        }
+      }
+      values[t] = value;
     }
-    this->CellValues[t] = value;
-  }
-  this->CellValuesValid = true;
-  ++this->CellValuesVersion;
-  return this->CellValues;
+    return values;
+  };
+  this->CellValues.Update(CacheKey::Of(model == OpticalModel::MaximumIntensity,
+                            this->Optics.GetFunctionVersion(), this->Mesh.GetScalarsVersion()),
+    build);
 }
 
-const std::vector<PointGradient>& VolumeScene::GetPointGradients()
+void VolumeScene::PrepareVisibleCells()
 {
-  if (!this->PointGradientsValid)
+  const OpticalModel model = this->Optics.GetModel();
+  const auto build = [&]
   {
-    const double range = 0.5 * this->ScalarRange[1] - 0.5 * this->ScalarRange[0];
-    this->PointGradients = MakePointGradients(
-      this->Mesh->GetMesh(), this->Scalars, this->Mesh->GetRadius(), range > 0 ? range : 1);
-    this->PointGradientsValid = true;
-  }
-  return this->PointGradients;
-}
-
-const std::vector<std::uint8_t>& VolumeScene::GetVisibleCells()
-{
-  if (this->VisibleCellsValid)
-  {
-    return this->VisibleCells;
-  }
-  const std::vector<std::int32_t>& cells = this->Mesh->GetMesh().Cells;
-  switch (this->Model)
-  {
-    case OpticalModel::MaximumIntensity: // the largest scalar may be where it is transparent
-      this->VisibleCells.clear();
-      break;
-    case OpticalModel::Isosurfaces:
+    const std::vector<std::int32_t>& cells = this->Mesh.GetMesh()->GetMesh().Cells;
+    VisibleCellFlags flags;
+    switch (model)
     {
-      // Both are rounded to single precision as they are mapped to -1..1.
-      constexpr double MappedRounding = 1. / (1 << 23);
-      this->VisibleCells = FindCrossedCells(
-        this->Surfaces, cells, this->Scalars, MappedRounding * this->GetScalarMap().Scale);
-      break;
+      case OpticalModel::MaximumIntensity: // the largest scalar may be where it is transparent
+        break;
+      case OpticalModel::Isosurfaces:
+      {
+        // Both are rounded to single precision as they are mapped to -1..1.
+        constexpr double MappedRounding = 1. / (1 << 23);
+        flags.Cells = FindCrossedCells(this->Optics.GetIsosurfaces(), cells,
+          this->Mesh.GetScalars(), MappedRounding * this->GetScalarMap().Scale);
+        break;
+      }
+      default:
+        flags.Cells = FindVisibleCells(this->Optics.GetTransferFunction(), cells,
+          this->Mesh.GetScalars(), this->Mesh.HasCellScalars());
     }
-    default:
-      this->VisibleCells =
-        FindVisibleCells(this->Function, cells, this->Scalars, this->ScalarsOfCells);
-  }
-  this->NumberOfTransparentCells =
-    std::count(this->VisibleCells.begin(), this->VisibleCells.end(), 0);
-  this->VisibleCellsValid = true;
-  return this->VisibleCells;
+    flags.NumberOfTransparent = std::count(flags.Cells.begin(), flags.Cells.end(), 0);
+    return flags;
+  };
+  const std::uint64_t optics = model == OpticalModel::Isosurfaces
+    ? this->Optics.GetSurfacesVersion()
+    : this->Optics.GetFunctionVersion();
+  this->Visible.Update(
+    CacheKey::Of(model, optics, this->Mesh.GetCellsVersion(), this->Mesh.GetScalarsVersion()),
+    build);
 }
 
-std::int64_t VolumeScene::GetNumberOfTransparentCells()
+void VolumeScene::PrepareVisibleTables()
 {
-  this->GetVisibleCells();
-  return this->NumberOfTransparentCells;
-}
-
-const WalkTables* VolumeScene::GetVisibleTables()
-{
-  if (!this->VisibleTablesValid)
+  const WalkMesh& walk = *this->Mesh.GetMesh();
+  const Span<const WalkPoint<float>> points(
+    walk.GetPoints<float>(), walk.GetMesh().GetNumberOfPoints());
+  CacheKey key = CacheKey::Of(this->Visible.GetVersion());
+  if (!this->VisibleTopology.Has(key))
   {
     this->VisibleTables = WalkTables();
-    const std::vector<std::uint8_t>& visible = this->GetVisibleCells();
-    const auto transparent = static_cast<double>(this->NumberOfTransparentCells);
+    const std::vector<std::uint8_t>& visible = this->Visible.Get().Cells;
+    const auto transparent = static_cast<double>(this->Visible.Get().NumberOfTransparent);
     if (transparent > MinimumTransparentShare * static_cast<double>(visible.size()))
     {
-      const TetrahedralMesh& mesh = this->Mesh->GetMesh();
-      const WalkTables& all = this->Mesh->GetTables();
-      const Span<const WalkPoint<float>> points(
-        this->Mesh->GetPoints<float>(), mesh.GetNumberOfPoints());
-      WalkTables tables = MakeWalkTables(all.Faces, mesh.Cells, points, visible);
+      const WalkTables& all = walk.GetTables();
+      WalkTables tables = MakeWalkTables(all.Faces, walk.GetMesh().Cells, points, visible);
       const double entriesMore =
         static_cast<double>(tables.Entries.size()) - static_cast<double>(all.Entries.size());
       if (EntryCost * entriesMore < transparent)
@@ -397,68 +250,13 @@ const WalkTables* VolumeScene::GetVisibleTables()
         this->VisibleTables = std::move(tables);
       }
     }
-    this->VisibleTablesValid = true;
-    ++this->VisibleTablesVersion;
+    this->VisibleTopology.Set(std::move(key));
   }
-  return this->VisibleTables.Faces.empty() ? nullptr : &this->VisibleTables;
-}
-
-double VolumeScene::GetLongestEdge()
-{
-  if (this->LongestEdge < 0)
+  else if (this->VisiblePointsVersion != this->Mesh.GetPointsVersion())
   {
-    this->LongestEdge = MeasureCells(this->Mesh->GetMesh()).LongestEdge;
+    RefitWalkTables(this->VisibleTables, points);
   }
-  return this->LongestEdge;
-}
-
-double VolumeScene::GetLongestSegment(const RayGrid& grid)
-{
-  // The root of the sum of squares of the inverse matrix, its cofactors over its determinant, bounds
-  // what it stretches by.
-  const double(*m)[4] = grid.MeshFromWorld;
-  double determinant = 0;
-  double squares = 0;
-  for (int row = 0; row < 3; ++row)
-  {
-    const double* a = m[(row + 1) % 3];
-    const double* b = m[(row + 2) % 3];
-    for (int column = 0; column < 3; ++column)
-    {
-      const int i = (column + 1) % 3;
-      const int j = (column + 2) % 3;
-      const double cofactor = a[i] * b[j] - a[j] * b[i];
-      squares += cofactor * cofactor;
-      determinant += row == 0 ? m[0][column] * cofactor : 0;
-    }
-  }
-  return this->GetLongestEdge() * std::sqrt(squares) / std::abs(determinant);
-}
-
-std::shared_ptr<const RaySample> VolumeScene::GetRaySample(double scale)
-{
-  if (!this->SampledRays || this->ScaleOfRays != scale)
-  {
-    this->SampledRays =
-      std::make_shared<const RaySample>(DrawMeshRays(*this->Mesh, this->Scalars, scale));
-    this->ScaleOfRays = scale;
-  }
-  return this->SampledRays;
-}
-
-double VolumeScene::GetWorldRadius(const RayGrid& grid) const
-{
-  // The shortest change in the mesh for one world unit bounds the scale from below; rows and
-  // columns do for an estimate.
-  double shortest = 0;
-  for (int column = 0; column < 3; ++column)
-  {
-    const double length = std::hypot(
-      grid.MeshFromWorld[0][column], grid.MeshFromWorld[1][column], grid.MeshFromWorld[2][column]);
-    shortest = column == 0 ? length : std::min(shortest, length);
-  }
-  const double radius = this->Mesh->GetRadius();
-  return shortest > 0 && std::isfinite(shortest) ? radius / shortest : radius;
+  this->VisiblePointsVersion = this->Mesh.GetPointsVersion();
 }
 
 double VolumeScene::EstimateGeometryError(double worldRadius) const
@@ -467,7 +265,7 @@ double VolumeScene::EstimateGeometryError(double worldRadius) const
   {
     return std::numeric_limits<double>::infinity();
   }
-  switch (this->Model)
+  switch (this->Optics.GetModel())
   {
     case OpticalModel::Isosurfaces:
       return 0;
@@ -475,11 +273,12 @@ double VolumeScene::EstimateGeometryError(double worldRadius) const
     {
       // Between three corners a scalar is interpolated with a few roundings.
       constexpr double ScalarRounding = 1. / (1 << 22);
-      return ScalarRounding * this->GetLargestMappedScalar() * FindSteepestColor(this->Intervals);
+      return ScalarRounding * this->GetLargestMappedScalar() *
+        FindSteepestColor(this->Optics.GetIntervalTable());
     }
     default:
       return EstimateEmissionAbsorptionError(
-        this->Intervals, worldRadius, this->GetLargestMappedScalar());
+        this->Optics.GetIntervalTable(), worldRadius, this->GetLargestMappedScalar());
   }
 }
 

@@ -2,195 +2,123 @@
 #ifndef tetralux_VolumeScene_h
 #define tetralux_VolumeScene_h
 
+#include "Base/Cached.h"
 #include "Integral/IntegrationPlan.h"
-#include "Mesh/PointGradients.h"
-#include "Optics/IntervalTable.h"
-#include "Optics/OpticalModel.h"
-#include "Optics/TransferFunction.h"
-#include "PreIntegration/PreIntegrationTable.h"
+#include "Scene/MeshScene.h"
+#include "Scene/SceneOptics.h"
 #include "TetraluxCoreModule.h"
-#include "View/RayGrid.h"
-#include "Walk/MeshRays.h"
-#include "Walk/WalkMesh.h"
+#include "Walk/WalkTables.h"
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace tetralux
 {
 
-/// What is rendered, the same for every method: a mesh, its scalars, an optical model and what the
-/// model needs. What is set stays valid until it is set again; what follows from it is made when it
-/// is first asked for, and kept.
+/// What a method needs of a scene beyond the plan and, of scalars at cells, their values.
+struct SceneNeeds
+{
+  bool SinglePoints = false;  ///< GetPoints<float>()
+  bool DoublePoints = false;  ///< GetPoints<double>()
+  bool VisibleCells = false;  ///< GetVisibleCells()
+  bool VisibleTables = false; ///< GetVisibleTables(), and GetVisibleCells()
+  bool Gradients = false;     ///< MeshScene::GetPointGradients()
+  bool LongestEdge = false;   ///< MeshScene::GetLongestEdge()
+  bool FloatTexels = false;   ///< SceneOptics::GetFloatTexels()
+};
+
+/// Scalars in the tables that are rendered from are x = (s - Offset) / Scale: those of the transfer
+/// function's intervals, and for isosurfaces the range of the scalars from -1 to 1.
+struct ScalarMap
+{
+  double Offset = 0;
+  double Scale = 1;
+  double Map(double scalar) const { return (scalar - this->Offset) / this->Scale; }
+};
+
+/// What is rendered, the same for every method: a mesh with scalars, what rays gather in it, and
+/// what is visible of both. Prepare makes what follows from what was set; getters only read.
 class TETRALUXCORE_EXPORT VolumeScene
 {
 public:
-  /// The mesh; scalars must be set after it.
-  void SetMesh(std::shared_ptr<WalkMesh> mesh);
-  WalkMesh* GetMesh() const { return this->Mesh.get(); }
+  MeshScene Mesh;
+  SceneOptics Optics;
 
-  /// Counts the changes of the mesh, for what was made of it.
-  std::uint64_t GetMeshVersion() const { return this->MeshVersion; }
-
-  /// One scalar for each point, or for each cell, of WalkMesh::GetMesh(); any values, those that
-  /// are not finite make the cells that touch them contribute nothing. Throws
-  /// std::invalid_argument where their number is wrong.
-  ///@{
-  void SetPointScalars(std::vector<double> scalars);
-  void SetCellScalars(std::vector<double> scalars);
-  ///@}
-  const std::vector<double>& GetScalars() const { return this->Scalars; }
-  bool HasCellScalars() const { return this->ScalarsOfCells; }
-
-  /// Least and largest finite scalar; 0 and 0 where there is none.
-  const double* GetScalarRange() const { return this->ScalarRange; }
-
-  /// Cells that touch a scalar which is not finite.
-  std::int64_t GetNumberOfBlankCells() const { return this->NumberOfBlankCells; }
-
-  /// What rays gather; at first emission and absorption.
-  void SetOpticalModel(OpticalModel model);
-  OpticalModel GetOpticalModel() const { return this->Model; }
-
-  /// Throws std::invalid_argument as MakeIntervalTable does. Isosurfaces need none.
-  void SetTransferFunction(const TransferFunction& function);
-  const TransferFunction& GetTransferFunction() const { return this->Function; }
-  const IntervalTable& GetIntervalTable() const { return this->Intervals; }
-
-  /// A table to look segments up in, of the present transfer function, instead of the closed form:
-  /// for OpticalModel::EmissionAbsorption of scalars at points; a constant colour needs none.
-  /// pictureError: what pictures by it are expected to be wrong by. nullptr: none, as it is at first
-  /// and after SetTransferFunction.
-  void SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError);
-  const PreIntegrationTable* GetTable() const { return this->Table.get(); }
-
-  /// Counts the changes of what GetTable and GetCellValues return, for copies of it.
-  ///@{
-  std::uint64_t GetTableVersion() const { return this->TableVersion; }
-  std::uint64_t GetCellValuesVersion() const { return this->CellValuesVersion; }
-  ///@}
-
-  double GetTableError() const { return this->TableError; }
-
-  /// The texels of the table in single precision, as PreIntegrationTable has them; nullptr without a
-  /// table.
-  const float* GetFloatTexels();
-
-  /// What OpticalModel::Isosurfaces shows, in any order; values that are repeated count once, the
-  /// last one. Throws std::invalid_argument where a value or a colour is not finite.
-  void SetIsosurfaces(std::vector<Isosurface> surfaces);
-  /// Ascending in value.
-  const std::vector<Isosurface>& GetIsosurfaces() const { return this->Surfaces; }
-
-  /// How segments are integrated for the present model, function and scalars, table aside.
-  const IntegrationPlan& GetPlan();
-
-  /// Throws std::invalid_argument, with one line, where something is missing, or where isosurfaces
-  /// are asked for of scalars at cells.
+  /// Throws std::invalid_argument, with one line, if something is missing, or if isosurfaces are
+  /// asked for of scalars at cells.
   void CheckComplete() const;
 
-  /// Scalars in the tables that are rendered from are x = (s - Offset) / Scale: those of the
-  /// transfer function's intervals, and for isosurfaces the range of the scalars from -1 to 1.
-  struct ScalarMap
-  {
-    double Offset = 0;
-    double Scale = 0; ///< 0: the table has no scalars yet
-    double Map(double scalar) const { return (scalar - this->Offset) / this->Scale; }
-    bool operator==(const ScalarMap& other) const
-    {
-      return this->Offset == other.Offset && this->Scale == other.Scale;
-    }
-  };
+  /// Brings up to date what is needed, and nothing else; what is up to date costs nothing. Call it
+  /// after any change of Mesh or Optics and before the getters below. The mesh must be set.
+  void Prepare(const SceneNeeds& needs);
+
+  /// How segments are integrated for the present model, function and scalars, table aside.
+  const IntegrationPlan& GetPlan() const { return this->Plan.Get(); }
+
   ScalarMap GetScalarMap() const;
 
-  /// Fills the mesh's points with their mapped scalars, unless that is done already; with 0 where
-  /// scalars are at cells. real: float or double.
-  ///@{
+  /// The mesh's points with their mapped scalars, 0 if scalars are at cells. Real: float or double.
   template <class Real>
-  const WalkPoint<Real>* GetPoints();
+  const WalkPoint<Real>* GetPoints() const
+  {
+    return this->Mesh.GetMesh()->template GetPoints<Real>();
+  }
+
+  /// Attenuation and colour of each cell of scalars at cells (0 if the scalar is not finite); for
+  /// OpticalModel::MaximumIntensity the mapped scalar in place of the attenuation, not-a-number if
+  /// it is not finite. Empty for scalars at points.
+  const std::vector<CellValue>& GetCellValues() const { return this->CellValues.Get(); }
+
+  /// For each cell 1 if it contributes anything, 0 if it is fully transparent; empty: all may
+  /// contribute.
+  const std::vector<std::uint8_t>& GetVisibleCells() const { return this->Visible.Get().Cells; }
+  std::int64_t GetNumberOfTransparentCells() const
+  {
+    return this->Visible.Get().NumberOfTransparent;
+  }
+
+  /// The topology of the visible cells alone; nullptr if leaving the others out would not pay.
+  const WalkTables* GetVisibleTables() const
+  {
+    return this->VisibleTables.Faces.empty() ? nullptr : &this->VisibleTables;
+  }
+
+  /// Versions of what the getters return, for copies of it; 0: not made yet.
+  ///@{
+  std::uint64_t GetPointsVersion() const { return this->SinglePoints.GetVersion(); }
+  std::uint64_t GetCellValuesVersion() const { return this->CellValues.GetVersion(); }
+  std::uint64_t GetVisibleTablesVersion() const { return this->VisibleTopology.GetVersion(); }
   ///@}
-
-  /// Counts the changes of what GetPoints<float>() returns; 0 before the first. For copies of it.
-  std::uint64_t GetPointsVersion() const { return this->PointsVersion; }
-
-  /// Attenuation and colour of each cell of scalars at cells (0 where the scalar is not finite); for
-  /// OpticalModel::MaximumIntensity the mapped scalar in place of the attenuation, not-a-number
-  /// where it is not finite.
-  const std::vector<CellValue>& GetCellValues();
-
-  /// Gradients of scalars at points, for smooth lighting: MakePointGradients in units of the mesh's
-  /// radius and of half of the scalars' range.
-  const std::vector<PointGradient>& GetPointGradients();
-
-  /// For each cell 1 where it contributes anything, 0 where it is fully transparent; empty where all
-  /// do, as far as is known.
-  const std::vector<std::uint8_t>& GetVisibleCells();
-  std::int64_t GetNumberOfTransparentCells();
-
-  /// The topology of the visible cells alone; nullptr where leaving the others out would not pay.
-  const WalkTables* GetVisibleTables();
-
-  /// Counts the changes of what GetVisibleTables() returns; 0 before the first. For copies of it.
-  std::uint64_t GetVisibleTablesVersion() const { return this->VisibleTablesVersion; }
-
-  /// Of the mesh, in its units; measured once.
-  double GetLongestEdge();
-
-  /// No segment of a ray is longer, world units: the longest edge, where it is stretched most.
-  double GetLongestSegment(const RayGrid& grid);
-
-  /// DrawMeshRays, of scalars at points: the same until the mesh, the scalars or the scale change.
-  std::shared_ptr<const RaySample> GetRaySample(double scale);
-
-  /// Radius of the mesh in the world, world units: along its longest extent, where MeshFromWorld of
-  /// the grid stretches it.
-  double GetWorldRadius(const RayGrid& grid) const;
 
   /// Estimated error of a channel by single precision coordinates and scalars: their rounding moves
   /// every face along a ray by about worldRadius 2^-23 and every scalar by its largest value 2^-24,
-  /// which matters as far as the attenuation changes over that. Infinite where the mesh is so small
-  /// or so large that distances in it leave the range of single precision.
+  /// which matters as far as the attenuation changes over that. Infinite if the mesh is so small or
+  /// so large that distances in it leave the range of single precision.
+  /// worldRadius: of the mesh, world units.
   double EstimateGeometryError(double worldRadius) const;
 
 private:
-  void SetScalars(std::vector<double> scalars, bool ofCells);
-  void CountBlankCells();
-  double GetLargestMappedScalar() const;
-  void Invalidate();
+  struct VisibleCellFlags
+  {
+    std::vector<std::uint8_t> Cells;
+    std::int64_t NumberOfTransparent = 0;
+  };
 
-  std::shared_ptr<WalkMesh> Mesh;
-  std::vector<double> Scalars;
-  bool ScalarsOfCells = false;
-  double ScalarRange[2] = { 0, 0 }; ///< of the finite ones
-  std::int64_t NumberOfBlankCells = 0;
-  OpticalModel Model = OpticalModel::EmissionAbsorption;
-  TransferFunction Function;
-  IntervalTable Intervals;
-  IntegrationPlan Plan; ///< of model, function and scalars
-  std::shared_ptr<const PreIntegrationTable> Table;
-  std::vector<float> Texels; ///< of Table, where it has another format
-  double TableError = 0;
-  std::vector<Isosurface> Surfaces; ///< ascending in value
-  std::vector<CellValue> CellValues;
-  std::vector<PointGradient> PointGradients;
-  std::vector<std::uint8_t> VisibleCells;
-  WalkTables VisibleTables; ///< empty where rays are walked through all cells
-  std::int64_t NumberOfTransparentCells = 0;
-  ScalarMap FloatScalars, DoubleScalars; ///< of the mesh's tables
-  std::uint64_t MeshVersion = 0;
-  double LongestEdge = -1;                      ///< of the mesh; negative: not measured yet
-  std::shared_ptr<const RaySample> SampledRays; ///< nullptr: not drawn yet
-  double ScaleOfRays = 0;
-  std::uint64_t PointsVersion = 0;
-  std::uint64_t TableVersion = 0;
-  std::uint64_t CellValuesVersion = 0;
-  std::uint64_t VisibleTablesVersion = 0;
-  bool CellValuesValid = false;
-  bool PointGradientsValid = false;
-  bool PlanValid = false;
-  bool VisibleCellsValid = false;
-  bool VisibleTablesValid = false;
+  void PreparePlan();
+  void PrepareCellValues();
+  template <class Real>
+  void PreparePoints(CacheStamp& stamp);
+  void PrepareVisibleCells();
+  void PrepareVisibleTables();
+  double GetLargestMappedScalar() const;
+
+  Cached<IntegrationPlan> Plan;
+  Cached<std::vector<CellValue>> CellValues;
+  CacheStamp SinglePoints, DoublePoints; ///< of the mesh's tables
+  Cached<VisibleCellFlags> Visible;
+  WalkTables VisibleTables; ///< empty: rays are walked through all cells
+  CacheStamp VisibleTopology;
+  std::uint64_t VisiblePointsVersion = 0; ///< of the mesh that the boxes of VisibleTables are of
 };
 
 } // namespace tetralux

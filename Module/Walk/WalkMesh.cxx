@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace tetralux
 {
@@ -70,6 +72,48 @@ WalkMesh::WalkMesh(TetrahedralMesh mesh)
   this->Removed = RemoveUnusableCells(this->Mesh);
   OrderSpatially(this->Mesh);
 
+  this->MeasureBox();
+  this->FillCoordinates<float>();
+
+  const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
+  const FaceNeighbors neighbors = FindFaceNeighbors(this->Mesh.Cells, numberOfPoints);
+  this->NumberOfNonManifoldFaces = neighbors.NumberOfNonManifoldFaces;
+  this->NumberOfComponents = neighbors.NumberOfComponents;
+
+  this->Tables =
+    MakeWalkTables(MakeFaces(this->Mesh.Cells, neighbors), this->Mesh.Cells, this->FloatPoints);
+}
+
+bool WalkMesh::SetPoints(const std::vector<double>& points)
+{
+  if (points.size() != this->Mesh.Points.size())
+  {
+    throw std::invalid_argument(std::to_string(points.size()) + " coordinates were given for " +
+      std::to_string(this->Mesh.GetNumberOfPoints()) + " points");
+  }
+  const bool allFinite =
+    std::all_of(points.begin(), points.end(), [](double x) { return std::isfinite(x); });
+  if (!allFinite || this->Removed.NonFiniteCoordinates > 0)
+  {
+    return false;
+  }
+  this->Mesh.Points = points;
+  this->Convex.reset();
+  this->Convexity.reset();
+  this->ConvexTables = WalkTables();
+  this->SteinerPoints.clear();
+  this->MeasureBox();
+  this->FillCoordinates<float>();
+  if (!this->DoublePoints.empty())
+  {
+    this->FillCoordinates<double>();
+  }
+  RefitWalkTables(this->Tables, this->FloatPoints);
+  return true;
+}
+
+void WalkMesh::MeasureBox()
+{
   const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
   double lo[3], hi[3];
   std::fill_n(lo, 3, std::numeric_limits<double>::max());
@@ -93,14 +137,6 @@ WalkMesh::WalkMesh(TetrahedralMesh mesh)
     }
     this->Radius = radius > 0 ? radius : 1;
   }
-  this->FillCoordinates<float>();
-
-  const FaceNeighbors neighbors = FindFaceNeighbors(this->Mesh.Cells, numberOfPoints);
-  this->NumberOfNonManifoldFaces = neighbors.NumberOfNonManifoldFaces;
-  this->NumberOfComponents = neighbors.NumberOfComponents;
-
-  this->Tables =
-    MakeWalkTables(MakeFaces(this->Mesh.Cells, neighbors), this->Mesh.Cells, this->FloatPoints);
 }
 
 bool WalkMesh::IsConvex()

@@ -53,6 +53,13 @@ public:
   const double* GetCenter() const { return this->Center; }
   double GetRadius() const { return this->Radius; }
 
+  /// Moves the points: new coordinates of the points of GetMesh(), three each. Cells, their order
+  /// and their neighbours stay; what follows from coordinates is made anew, and the boxes over the
+  /// boundary are fitted. What MakeConvex added is dropped. Returns false, and changes nothing, if
+  /// cells would have to come or go: a coordinate is not finite, or cells were removed since theirs
+  /// were not. Throws std::invalid_argument if the number of coordinates is wrong.
+  bool SetPoints(const std::vector<double>& points);
+
   /// The scalars of the points of GetMesh(), as (s - offset) / scale. Values that are not finite
   /// become not-a-number; cells that touch one contribute nothing.
   /// real: float or double, whichever table the next rays need; the other one is left as it was.
@@ -87,6 +94,7 @@ public:
   const BoundaryBvh& GetBvh() const { return this->Tables.Bvh; }
 
 private:
+  void MeasureBox(); ///< center and radius
   template <class Real>
   std::vector<WalkPoint<Real>>& GetPointTable();
   template <class Real>

@@ -15,6 +15,11 @@ constexpr float BoxMargin = 1.f / (1 << 19);
 /// Cells that are numbered in one go; fixed, so that numbers do not depend on the threads.
 constexpr std::int64_t ChunkSize = 1 << 14;
 
+Span<const float> GetCoordinates(Span<const WalkPoint<float>> points)
+{
+  return { reinterpret_cast<const float*>(points.data()), 4 * points.size() };
+}
+
 } // namespace
 
 std::size_t WalkTables::GetSize() const
@@ -91,10 +96,19 @@ WalkTables MakeWalkTables(std::vector<WalkFace> faces, Span<const std::int32_t> 
       }
     }
   }
-  const Span<const float> coordinates(
-    reinterpret_cast<const float*>(points.data()), 4 * points.size());
-  tables.Bvh = BuildBoundaryBvh(coordinates, triangles, BoxMargin);
+  tables.Bvh = BuildBoundaryBvh(GetCoordinates(points), triangles, BoxMargin);
   return tables;
+}
+
+void RefitWalkTables(WalkTables& tables, Span<const WalkPoint<float>> points)
+{
+  std::vector<std::int32_t> triangles;
+  triangles.reserve(3 * tables.Entries.size());
+  for (const WalkEntry& entry : tables.Entries)
+  {
+    triangles.insert(triangles.end(), entry.Points, entry.Points + 3);
+  }
+  RefitBoundaryBvh(tables.Bvh, GetCoordinates(points), triangles, BoxMargin);
 }
 
 } // namespace tetralux

@@ -54,6 +54,9 @@ TETRALUXCORE_EXPORT WalkTables MakeWalkTables(std::vector<WalkFace> faces,
   Span<const std::int32_t> cells, Span<const WalkPoint<float>> points,
   Span<const std::uint8_t> selected = {});
 
+/// Fits the boxes over the boundary to points that moved; all else stays.
+TETRALUXCORE_EXPORT void RefitWalkTables(WalkTables& tables, Span<const WalkPoint<float>> points);
+
 } // namespace tetralux
 
 #endif

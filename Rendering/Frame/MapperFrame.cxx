@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/MapperFrame.h"
 
-#include "vtkTetrahedraVolumeMapper.h"
-
-#include "vtkCommand.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
-#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
-#include "vtkOpenGLRenderWindow.h"
-#include "vtkPlane.h"
-#include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -68,11 +61,11 @@ Span<float> GetArray(vtkImageData* image, const char* name, int components)
 
 } // namespace
 
-void MapperFrame::LeaveOut(bool leftOut, const char* feature, const char* reason)
+void MapperFrame::ReportOmission(bool omitted, const char* feature, const char* reason)
 {
-  if (leftOut)
+  if (omitted)
   {
-    this->LeftOut.Set(feature, reason);
+    this->LeftOut[feature] = reason;
   }
 }
 
@@ -83,30 +76,23 @@ RayGrid MapperFrame::MakeGrid(const CameraRays& rays) const
   return grid;
 }
 
-RayLimits MapperFrame::MakeLimits(const CameraRays& rays)
+RayLimits MapperFrame::MakeLimits(const CameraRays& rays) const
 {
   RayLimits limits;
   rays.AddClippingRange(limits);
-  vtkPlaneCollection* planes = this->Mapper->GetClippingPlanes();
-  for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
-  {
-    vtkPlane* plane = planes->GetItem(i);
-    const double* normal = plane->GetNormal();
-    limits.Planes.push_back(
-      { normal[0], normal[1], normal[2], -vtkMath::Dot(normal, plane->GetOrigin()) });
-    this->Clipped = true;
-  }
-  limits.Cropping = this->Mapper->GetCropping() != 0;
-  this->Mapper->GetCroppingRegionPlanes(limits.CroppingPlanes);
-  limits.CroppingFlags = static_cast<std::uint32_t>(this->Mapper->GetCroppingRegionFlags());
+  limits.Planes.insert(limits.Planes.end(), this->Settings.ClippingPlanes.begin(),
+    this->Settings.ClippingPlanes.end());
+  limits.Cropping = this->Settings.Cropping;
+  std::copy_n(this->Settings.CroppingRegionPlanes, 6, limits.CroppingPlanes);
+  limits.CroppingFlags = this->Settings.CroppingRegionFlags;
   return limits;
 }
 
-bool MapperFrame::MayHaveOpaqueGeometry() const
+bool MapperFrame::HasOpaqueGeometry() const
 {
   // Nothing opaque was drawn before, unless by a render pass, which counts elsewhere, or by another
   // renderer of which this one keeps the depths.
-  return this->Mapper->GetIntermixIntersectingGeometry() &&
+  return this->Settings.IntermixIntersectingGeometry &&
     (this->Renderer->GetNumberOfPropsRendered() > 0 || this->Renderer->GetPass() ||
       this->Renderer->GetPreserveDepthBuffer());
 }
@@ -118,12 +104,6 @@ void MapperFrame::PrepareImage(
   colors = GetArray(image, "RGBA", 4);
   depths = GetArray(image, "Depth", 1);
   image->GetPointData()->SetActiveScalars("RGBA");
-}
-
-bool MapperFrame::Continue(double fraction) const
-{
-  this->Mapper->InvokeEvent(vtkCommand::VolumeMapperRenderProgressEvent, &fraction);
-  return !this->Window->CheckAbortStatus();
 }
 
 } // namespace tetralux

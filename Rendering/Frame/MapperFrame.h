@@ -4,8 +4,11 @@
 
 #include "Base/Span.h"
 #include "Frame/CameraRays.h"
+#include "Frame/FrameSettings.h"
+#include "Integral/ErrorBudget.h"
+#include "Integral/Integrator.h"
 #include "Optics/OpticalModel.h"
-#include "Report/JsonObject.h"
+#include "Report/Json.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
@@ -17,7 +20,6 @@
 class vtkImageData;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
-class vtkTetrahedraVolumeMapper;
 class vtkVolume;
 
 namespace tetralux
@@ -25,11 +27,12 @@ namespace tetralux
 
 class VolumeScene;
 
-/// One frame of a mapper: what it is drawn from, and what it tells about itself.
-/// vtkTetrahedraVolumeMapper::Render fills the first part, DrawFrame of its subclasses the second.
+/// One frame of a mapper: what it is drawn from, and what it tells about itself. The mapper fills
+/// the first part, its method the second.
 struct MapperFrame
 {
-  vtkTetrahedraVolumeMapper* Mapper = nullptr;
+  FrameSettings Settings;
+  double MaximumError = 1e-4;
   vtkRenderer* Renderer = nullptr;
   vtkVolume* Volume = nullptr;
   vtkOpenGLRenderWindow* Window = nullptr;
@@ -41,44 +44,47 @@ struct MapperFrame
   std::vector<Light> Lights;
   Material Surface;
 
+  /// Told how much of the drawing is done, 0..1; returns whether to go on. Empty: go on.
+  std::function<bool(double)> Progress;
+  bool ReportProgress(double fraction) const { return !this->Progress || this->Progress(fraction); }
+
   // What was drawn, for the statistics.
 
   std::string Method; ///< as the command line calls it
   bool Aborted = false;
-  std::vector<std::pair<std::string, double>> Seconds;      ///< of the stages of DrawFrame
-  std::string Integration;                                  ///< how segments were integrated
-  std::vector<std::pair<std::string, JsonObject>> Sections; ///< of the mapper itself
+  std::vector<std::pair<std::string, double>> Seconds; ///< of the stages of DrawFrame
+  Integrator Integration = Integrator::ClosedForm;
+  std::vector<std::pair<std::string, Json>> Sections; ///< of the mapper itself
+
+  /// What the method spent of MaximumError.
+  ErrorBudget Budget;
 
   /// Contributions to the largest error of a channel, absolute, 0..1; their sum is the estimate.
   std::vector<std::pair<std::string, double>> Errors;
 
   /// What the scene did not need, and why.
-  JsonObject LeftOut;
-  void LeaveOut(bool leftOut, const char* feature, const char* reason);
+  Json LeftOut = Json::object();
+  void ReportOmission(bool omitted, const char* feature, const char* reason);
 
-  bool Clipped = false; ///< by clipping planes: set by MakeLimits
-  bool Opaque = false;  ///< opaque geometry was drawn before and is honoured
+  bool Opaque = false; ///< opaque geometry was drawn before and is honoured
 
-  /// Fills Image, where the picture is not read from the graphics card in each frame: called when
+  /// Fills Image, if the picture is not read from the graphics card in each frame: called when
   /// somebody asks for the picture.
   std::function<void(vtkImageData*)> ReadPicture;
 
   /// The rays with the inverse of the volume's matrix. Throws std::invalid_argument, with one line,
-  /// where it has none.
+  /// if it has none.
   RayGrid MakeGrid(const CameraRays& rays) const;
 
   /// Near and far plane, clipping planes and cropping; no opaque geometry.
-  RayLimits MakeLimits(const CameraRays& rays);
+  RayLimits MakeLimits(const CameraRays& rays) const;
 
   /// Whether the depth buffer may hold geometry that rays have to end at.
-  bool MayHaveOpaqueGeometry() const;
+  bool HasOpaqueGeometry() const;
 
   /// The arrays RGBA, the scalars, and Depth of an image of this size, made where they are missing.
   static void PrepareImage(
     vtkImageData* image, int width, int height, Span<float>& colors, Span<float>& depths);
-
-  /// Tells how much of the drawing is done, 0..1, and asks whether to go on; false: abort.
-  bool Continue(double fraction) const;
 };
 
 } // namespace tetralux

@@ -15,6 +15,7 @@
 #include "IntegrateShadedSegmentDec.h"
 #include "IsosurfacesDec.h"
 #include "ScalarBucketsDec.h"
+#include "Scene/IntegratorChoice.h"
 #include "Scene/VolumeScene.h"
 #include "SegmentWeightsDec.h"
 #include "TransferIntervalsDec.h"
@@ -50,31 +51,29 @@ float MakeNode(float scalar)
 
 } // namespace
 
-SegmentSource MakeSegmentSource(VolumeScene& scene)
+SegmentSource MakeSegmentSource(const VolumeScene& scene, bool shaded)
 {
   SegmentSource source;
-  source.Model = scene.GetOpticalModel();
-  source.Intervals = &scene.GetIntervalTable();
-  source.ConstantColor = scene.GetPlan().ConstantColor;
-  std::copy_n(scene.GetPlan().Color, 3, source.Color);
-  if (scene.GetOpticalModel() == OpticalModel::Isosurfaces)
+  source.Integrator = ChooseIntegrator(scene, shaded);
+  source.Intervals = &scene.Optics.GetIntervalTable();
+  if (scene.Optics.GetModel() == OpticalModel::EmissionAbsorption)
   {
-    source.Surfaces = scene.GetIsosurfaces();
+    std::copy_n(scene.GetPlan().Color, 3, source.Color);
+  }
+  if (source.Integrator == Integrator::Isosurfaces)
+  {
+    source.ShadedSurfaces = shaded;
+    source.Surfaces = scene.Optics.GetIsosurfaces();
     for (Isosurface& surface : source.Surfaces)
     {
       surface.Value = scene.GetScalarMap().Map(surface.Value);
     }
+    return source;
   }
-  else if (!scene.HasCellScalars())
-  {
-    source.Table = scene.GetTable();
-    source.TableVersion = scene.GetTableVersion();
-  }
-  else
-  {
-    source.CellValues = scene.GetCellValues();
-    source.CellValuesVersion = scene.GetCellValuesVersion();
-  }
+  source.Table = scene.Optics.GetTable();
+  source.TableVersion = scene.Optics.GetTableVersion();
+  source.CellValues = scene.GetCellValues();
+  source.CellValuesVersion = scene.GetCellValuesVersion();
   return source;
 }
 
@@ -84,43 +83,22 @@ GpuSegmentIntegral::~GpuSegmentIntegral() = default;
 
 void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSource& source)
 {
-  this->Model = source.Model;
-  this->Shaded = source.Shaded;
+  this->Integrator = source.Integrator;
+  this->Shaded = source.ShadedSurfaces || IsLit(source.Integrator);
   this->OfCells = !source.CellValues.empty();
-  this->OpticalDepth = source.Model == OpticalModel::AbsorptionOnly ||
-    (source.Model == OpticalModel::EmissionAbsorption && source.ConstantColor);
-  this->ByTable = source.Model == OpticalModel::EmissionAbsorption && source.Table &&
-    !this->OfCells && !this->OpticalDepth;
-  this->OnlyThin = source.Model == OpticalModel::EmissionAbsorption && source.Intervals &&
+  const bool emitsAndAbsorbs =
+    source.Integrator == Integrator::ClosedForm || source.Integrator == Integrator::LitClosedForm;
+  this->OnlyThin = emitsAndAbsorbs && source.Intervals &&
     source.Intervals->MaximumAttenuation * source.LongestSegment <= ThinDepth;
   for (int c = 0; c < 3; ++c)
   {
-    this->Color[c] =
-      source.Model == OpticalModel::EmissionAbsorption ? static_cast<float>(source.Color[c]) : 0.f;
+    this->Color[c] = static_cast<float>(source.Color[c]);
   }
-  switch (source.Model)
-  {
-    case OpticalModel::EmissionAbsorption:
-      this->Name = this->OpticalDepth ? "optical depth" : this->ByTable ? "table" : "closed form";
-      break;
-    case OpticalModel::AbsorptionOnly:
-      this->Name = "optical depth";
-      break;
-    case OpticalModel::EmissionOnly:
-      this->Name = "emission";
-      break;
-    case OpticalModel::MaximumIntensity:
-      this->Name = "largest scalar";
-      break;
-    case OpticalModel::Isosurfaces:
-      this->Name = "isosurfaces";
-      break;
-  }
-  if (source.Model == OpticalModel::Isosurfaces)
+  if (source.Integrator == Integrator::Isosurfaces)
   {
     this->UpdateSurfaces(window, source.Surfaces);
   }
-  else if (this->ByTable)
+  else if (IsTabulated(source.Integrator))
   {
     this->Table.Update(window, *source.Table, source.TableVersion, source.FilterInShader);
   }
@@ -183,14 +161,14 @@ void GpuSegmentIntegral::UpdateSurfaces(
 
 std::string GpuSegmentIntegral::GetDeclarations() const
 {
-  const char* shaded = this->Model == OpticalModel::Isosurfaces ? IntegrateShadedIsosurfacesDec
-                                                                : IntegrateShadedSegmentDec;
+  const char* shaded = this->Integrator == Integrator::Isosurfaces ? IntegrateShadedIsosurfacesDec
+                                                                   : IntegrateShadedSegmentDec;
   return this->GetFlatDeclarations() + (this->Shaded ? shaded : "");
 }
 
 std::string GpuSegmentIntegral::GetFlatDeclarations() const
 {
-  if (this->ByTable)
+  if (IsTabulated(this->Integrator))
   {
     return this->Table.GetDeclarations();
   }
@@ -199,7 +177,7 @@ std::string GpuSegmentIntegral::GetFlatDeclarations() const
   {
     code += std::string(SegmentWeightsDec) + CellValuesDec;
   }
-  else if (this->Model == OpticalModel::Isosurfaces)
+  else if (this->Integrator == Integrator::Isosurfaces)
   {
     return std::string(IsosurfacesDec) + IntegrateIsosurfacesDec;
   }
@@ -208,16 +186,16 @@ std::string GpuSegmentIntegral::GetFlatDeclarations() const
     code += this->OnlyThin ? "#define ONLY_THIN_SEGMENTS\n" : "";
     code += std::string(SegmentWeightsDec) + ScalarBucketsDec + TransferIntervalsDec;
   }
-  if (this->Model == OpticalModel::MaximumIntensity)
+  if (this->Integrator == Integrator::Maximum)
   {
     code += this->OfCells ? std::string(ScalarBucketsDec) + TransferIntervalsDec : "";
     return code + ClassifyLargestDec;
   }
-  if (this->OpticalDepth)
+  if (this->Integrator == Integrator::OpticalDepth)
   {
     return code + (this->OfCells ? IntegrateCellOpticalDepthDec : IntegrateOpticalDepthDec);
   }
-  if (this->Model == OpticalModel::EmissionOnly)
+  if (this->Integrator == Integrator::Emission)
   {
     return code + (this->OfCells ? IntegrateCellEmissionDec : IntegrateEmissionDec);
   }
@@ -226,14 +204,14 @@ std::string GpuSegmentIntegral::GetFlatDeclarations() const
 
 void GpuSegmentIntegral::Activate(vtkShaderProgram* program)
 {
-  if (this->Model == OpticalModel::Isosurfaces)
+  if (this->Integrator == Integrator::Isosurfaces)
   {
     this->Surfaces.Activate(program, "isosurfaces");
     program->SetUniformi(
       "numberOfIsosurfaces", static_cast<int>(this->SurfaceTexels.size() / (4 * TexelsOfSurface)));
     return;
   }
-  if (this->ByTable)
+  if (IsTabulated(this->Integrator))
   {
     this->Table.Activate(program);
     return;
@@ -242,12 +220,12 @@ void GpuSegmentIntegral::Activate(vtkShaderProgram* program)
   {
     this->CellValues.Activate(program, "cellValues");
   }
-  if (!this->OfCells || this->Model == OpticalModel::MaximumIntensity)
+  if (!this->OfCells || this->Integrator == Integrator::Maximum)
   {
     this->Intervals.Activate(program, "transferIntervals");
     this->Buckets.Activate(program, "transferBuckets");
   }
-  if (this->OpticalDepth)
+  if (this->Integrator == Integrator::OpticalDepth)
   {
     program->SetUniform3f("constantColor", this->Color);
   }

@@ -7,6 +7,7 @@
 
 #include "Base/Span.h"
 #include "GpuIntegral/GpuSegmentTable.h"
+#include "Integral/Integrator.h"
 #include "OpenGL/TextureBuffer.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
@@ -30,10 +31,9 @@ class VolumeScene;
 /// What segments are integrated of.
 struct SegmentSource
 {
-  OpticalModel Model = OpticalModel::EmissionAbsorption;
+  tetralux::Integrator Integrator = tetralux::Integrator::ClosedForm;
 
-  /// EmissionAbsorption: whatever contributes has the colour Color, see IntegrationPlan.
-  bool ConstantColor = false;
+  /// Of Integrator::OpticalDepth: what contributes has this colour; absorption alone has none, 0.
   double Color[3] = { 0, 0, 0 };
 
   /// The transfer function; of no use to Isosurfaces. Scalars at points are mapped as in this table.
@@ -42,8 +42,7 @@ struct SegmentSource
   /// Isosurfaces: ascending in value, their values mapped as the scalars are.
   std::vector<Isosurface> Surfaces;
 
-  /// EmissionAbsorption of scalars at points, where the colour is not constant: the table to look
-  /// segments up in, nullptr for the closed form. Another version tells that it changed.
+  /// Of tabulated integrators: the table. Another version tells that it changed.
   const PreIntegrationTable* Table = nullptr;
   std::uint64_t TableVersion = 0;
 
@@ -55,8 +54,8 @@ struct SegmentSource
   /// ones need.
   double LongestSegment = std::numeric_limits<double>::infinity();
 
-  /// Whether segments are lit: emission and absorption, and isosurfaces, of scalars at points.
-  bool Shaded = false;
+  /// Whether isosurfaces are lit; of volumes the integrator tells.
+  bool ShadedSurfaces = false;
 
   /// Scalars at cells: one value for each; empty where scalars are at points. Another version tells
   /// that they changed.
@@ -64,9 +63,9 @@ struct SegmentSource
   std::uint64_t CellValuesVersion = 0;
 };
 
-/// Of a scene that is complete, as long as it does not change; not lit, its segments of any length, see
-/// VolumeScene::GetLongestSegment.
-TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(VolumeScene& scene);
+/// Of a scene that is prepared, as long as it does not change; its segments of any length. shaded:
+/// whether lights shine on what can be lit.
+TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(const VolumeScene& scene, bool shaded);
 
 /// GLSL 1.50 functions for what a source asks for; all colours are premultiplied.
 ///
@@ -111,9 +110,8 @@ public:
   /// The functions, to be put into a shader before its own; they change only where the name does.
   std::string GetDeclarations() const;
 
-  /// How segments are integrated, for statistics: "closed form", "table", "optical depth",
-  /// "emission", "largest scalar" or "isosurfaces".
-  const std::string& GetName() const { return this->Name; }
+  /// How segments are integrated: that of the last source.
+  tetralux::Integrator GetIntegrator() const { return this->Integrator; }
 
   /// For a program that has the declarations and is in use: its uniforms, and the arrays bound to
   /// texture units until Deactivate.
@@ -132,14 +130,11 @@ private:
   void UpdateIntervals(vtkOpenGLRenderWindow* window, const IntervalTable& table);
   void UpdateSurfaces(vtkOpenGLRenderWindow* window, const std::vector<Isosurface>& surfaces);
 
-  OpticalModel Model = OpticalModel::EmissionAbsorption;
+  tetralux::Integrator Integrator = tetralux::Integrator::ClosedForm;
   bool OfCells = false;
-  bool OpticalDepth = false;
-  bool ByTable = false;
   bool Shaded = false;
   bool OnlyThin = false;
   float Color[3] = { 0, 0, 0 };
-  std::string Name;
 
   TextureBuffer Intervals;
   std::vector<float> IntervalTexels; ///< as they were sent

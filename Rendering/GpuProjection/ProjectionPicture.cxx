@@ -8,6 +8,7 @@
 #include "LargestPictureFS.h"
 #include "RayGridDec.h"
 #include "Scene/VolumeScene.h"
+#include "View/MeshToWorld.h"
 #include "View/RayLimits.h"
 
 #include "vtkOpenGLRenderWindow.h"
@@ -115,21 +116,20 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
     }
     this->Window = window;
   }
-  SegmentSource source = MakeSegmentSource(*scene.Volume);
-  source.LongestSegment = scene.Volume->GetLongestSegment(scene.Grid);
-  source.Shaded = scene.Shaded;
-  source.ConstantColor = source.ConstantColor && !scene.Shaded;
+  SegmentSource source = MakeSegmentSource(*scene.Volume, scene.Shaded);
+  source.LongestSegment = scene.Volume->Mesh.GetLongestEdge() *
+    MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest; // no segment is longer
   this->Integral.Update(window, source);
   if (scene.Shaded)
   {
-    const WalkMesh& mesh = *scene.Volume->GetMesh();
+    const WalkMesh& mesh = *scene.Volume->Mesh.GetMesh();
     this->Lighting.Update(
       scene.Lights, scene.Surface, scene.Grid, mesh.GetCenter(), mesh.GetRadius());
     this->Rays.emplace(scene.Grid, RayLimits(), mesh.GetCenter(), mesh.GetRadius());
   }
   const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
   this->Colors.Prepare(window, MakeSettings(scene.Grid, 4, scene.Format));
-  if (scene.Volume->GetOpticalModel() == OpticalModel::MaximumIntensity)
+  if (scene.Volume->Optics.GetModel() == OpticalModel::MaximumIntensity)
   {
     this->Scalars.Prepare(window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));
     this->Last = this->DrawCells(Pass::LargestScalars, this->Scalars, scene, progress);
@@ -152,7 +152,7 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   {
     case Pass::Colors:
       state->vtkglBlendEquation(GL_FUNC_ADD);
-      if (scene.Volume->GetOpticalModel() == OpticalModel::EmissionOnly)
+      if (scene.Volume->Optics.GetModel() == OpticalModel::EmissionOnly)
       {
         state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
       }
@@ -192,14 +192,14 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
     program->SetUniform2fv("opaquePlaces", 4, scene.OpaquePlaces);
   }
   const bool ofLargest = pass == Pass::FirstDistances &&
-    scene.Volume->GetOpticalModel() == OpticalModel::MaximumIntensity;
+    scene.Volume->Optics.GetModel() == OpticalModel::MaximumIntensity;
   if (ofLargest)
   {
     this->Scalars.GetTexture(0)->Activate();
     program->SetUniformi("largestScalars", this->Scalars.GetTexture(0)->GetTextureUnit());
   }
 
-  const std::vector<std::int32_t>& cells = scene.Volume->GetMesh()->GetMesh().Cells;
+  const std::vector<std::int32_t>& cells = scene.Volume->Mesh.GetMesh()->GetMesh().Cells;
   ProjectionSettings settings;
   settings.Width = scene.Grid.Width;
   settings.Height = scene.Grid.Height;
@@ -213,17 +213,17 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   settings.Shift = FindShift(*scene.Frame, settings, scene.Points, cells);
   CellData data;
   data.Keys = scene.Dither;
-  data.Ids = scene.Volume->HasCellScalars();
-  data.FaceScalars = scene.Volume->GetOpticalModel() == OpticalModel::Isosurfaces;
+  data.Ids = scene.Volume->Mesh.HasCellScalars();
+  data.FaceScalars = scene.Volume->Optics.GetModel() == OpticalModel::Isosurfaces;
   if (shaded && scene.SmoothShading)
   {
     data.Gradients = CellData::Gradient::Points;
-    data.PointGradients = scene.Volume->GetPointGradients();
+    data.PointGradients = scene.Volume->Mesh.GetPointGradients();
   }
   else if (shaded)
   {
     data.Gradients = CellData::Gradient::Cells;
-    data.Coordinates = scene.Volume->GetMesh()->GetMesh().Points;
+    data.Coordinates = scene.Volume->Mesh.GetMesh()->GetMesh().Points;
   }
 
   Result result;
@@ -271,8 +271,8 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
     defines += !scene.OpaqueDepth ? "" : "#define OPAQUE\n";
     defines += scene.Cropping.empty() ? "" : "#define CROPPED\n";
   }
-  const OpticalModel model = scene.Volume->GetOpticalModel();
-  const bool ofCells = scene.Volume->HasCellScalars();
+  const OpticalModel model = scene.Volume->Optics.GetModel();
+  const bool ofCells = scene.Volume->Mesh.HasCellScalars();
   const bool largest = model == OpticalModel::MaximumIntensity;
   const std::string cell = "int(cellData.x) * " + std::to_string(CellIdBase) + " + int(cellData.y)";
   shader.Segment = (pass == Pass::FirstDistances ? this->Pieces : this->Integral).GetDeclarations();
@@ -407,8 +407,8 @@ void ProjectionPicture::Read(const ProjectionScene& scene, Span<float> colors, S
   this->Colors.Read(0, colors);
   const vtkOpenGLState::ScopedglActiveTexture unit(this->Window->GetState());
   // A table does not tell where in a segment the function first contributes.
-  SegmentSource source = MakeSegmentSource(*scene.Volume);
-  source.Table = nullptr;
+  SegmentSource source = MakeSegmentSource(*scene.Volume, false);
+  source.Integrator = IsTabulated(source.Integrator) ? Integrator::ClosedForm : source.Integrator;
   this->Pieces.Update(this->Window, source);
   this->Distances.Prepare(this->Window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));
   this->DrawCells(Pass::FirstDistances, this->Distances, scene, {});

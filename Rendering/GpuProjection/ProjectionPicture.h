@@ -35,7 +35,7 @@ class VolumeScene;
 /// What a picture of projected cells is drawn from.
 struct ProjectionScene
 {
-  VolumeScene* Volume = nullptr;
+  const VolumeScene* Volume = nullptr; ///< with its longest edge, and gradients for smooth shading
   RayGrid Grid;
   std::unique_ptr<ScreenFrame> Frame; ///< of Grid
   Span<const ScreenPoint> Points;     ///< of the mesh
@@ -92,8 +92,8 @@ public:
   /// The colours, premultiplied.
   vtkTextureObject* GetTexture() const;
 
-  /// How segments were integrated, for statistics.
-  const std::string& GetIntegration() const { return this->Integral.GetName(); }
+  /// How segments were integrated.
+  Integrator GetIntegrator() const { return this->Integral.GetIntegrator(); }
 
   /// Whether the last picture was drawn in that window, whose resources are still there.
   bool IsOf(vtkOpenGLRenderWindow* window) const { return this->Window && this->Window == window; }

@@ -186,10 +186,9 @@ public:
   GpuRayCastStatistics Draw()
   {
     GpuRayCastStatistics statistics;
-    statistics.Variant = this->Integral.GetName();
     for (const std::string& name : this->GetWalkDefines())
     {
-      statistics.Variant += ' ' + name;
+      statistics.Variant += (statistics.Variant.empty() ? "" : " ") + name;
     }
     this->Self.Targets.Clear(
       this->Options.LargestScalar ? -std::numeric_limits<float>::max() : 0.f);
@@ -252,12 +251,12 @@ private:
   /// What finds the place of the first contribution in a segment; empty where there is no place.
   std::string GetFirstContribution() const
   {
-    const std::string& name = this->Integral.GetName();
-    if (this->Options.CellData || name == "table" || name == "largest scalar")
+    const Integrator integrator = this->Integral.GetIntegrator();
+    if (this->Options.CellData || IsTabulated(integrator) || integrator == Integrator::Maximum)
     {
       return {};
     }
-    return name == "isosurfaces" ? FirstSurfaceDec : FirstPieceDec;
+    return integrator == Integrator::Isosurfaces ? FirstSurfaceDec : FirstPieceDec;
   }
 
   std::vector<std::string> GetEntryDefines() const
@@ -288,7 +287,7 @@ private:
     const bool lit = this->Options.Lighting != nullptr;
     define(lit, "LIT");
     define(lit && this->Options.SmoothGradients, "SMOOTH_GRADIENTS");
-    define(lit && this->Integral.GetName() == "isosurfaces", "ISOSURFACES");
+    define(lit && this->Integral.GetIntegrator() == Integrator::Isosurfaces, "ISOSURFACES");
     return names;
   }
 

@@ -8,19 +8,37 @@
 
 namespace tetralux
 {
-void WalkTextures::SetTopology(vtkOpenGLRenderWindow* window, const WalkTables& tables,
-  Span<const std::uint8_t> positive, const Version& version)
+
+void WalkTextures::UpdateFaces(
+  vtkOpenGLRenderWindow* window, const WalkTables& tables, const Version& version)
 {
-  this->TopologyVersion.clear();
+  if (this->HasFaces(window, version))
+  {
+    return;
+  }
+  this->FacesVersion.clear();
   if (this->Window != window)
   {
+    this->BoundaryVersion.clear();
     this->PointsVersion.clear();
     this->GradientsVersion.clear();
     this->Window = window;
   }
-  const WalkTexels texels = MakeWalkTexels(tables, positive);
   this->Faces.Upload(window, reinterpret_cast<const std::int32_t*>(tables.Faces.data()),
     tables.Faces.size(), 2, "the table of faces");
+  this->UploadedBytes += this->Faces.GetNumberOfBytes();
+  this->FacesVersion = version;
+}
+
+void WalkTextures::UpdateBoundary(vtkOpenGLRenderWindow* window, const WalkTables& tables,
+  Span<const std::uint8_t> positive, const Version& version)
+{
+  if (this->BoundaryVersion == version)
+  {
+    return;
+  }
+  this->BoundaryVersion.clear();
+  const WalkTexels texels = MakeWalkTexels(tables, positive);
   this->Entries.Upload(
     window, texels.Entries.data(), texels.Entries.size() / 4, 4, "the table of boundary faces");
   this->Boxes.Upload(
@@ -29,9 +47,9 @@ void WalkTextures::SetTopology(vtkOpenGLRenderWindow* window, const WalkTables& 
     window, texels.Links.data(), texels.Links.size() / 2, 2, "the hierarchy over the boundary");
   this->NumberOfNodes = static_cast<int>(texels.Links.size() / 2);
   this->NumberOfEntries = static_cast<int>(tables.Entries.size());
-  this->UploadedBytes += this->Faces.GetNumberOfBytes() + this->Entries.GetNumberOfBytes() +
-    this->Boxes.GetNumberOfBytes() + this->Links.GetNumberOfBytes();
-  this->TopologyVersion = version;
+  this->UploadedBytes += this->Entries.GetNumberOfBytes() + this->Boxes.GetNumberOfBytes() +
+    this->Links.GetNumberOfBytes();
+  this->BoundaryVersion = version;
 }
 
 void WalkTextures::UpdatePoints(
@@ -129,7 +147,8 @@ void WalkTextures::ReleaseGraphicsResources(vtkWindow* window)
     buffer->ReleaseGraphicsResources(window);
   }
   this->Window = nullptr;
-  this->TopologyVersion.clear();
+  this->FacesVersion.clear();
+  this->BoundaryVersion.clear();
   this->PointsVersion.clear();
   this->GradientsVersion.clear();
 }

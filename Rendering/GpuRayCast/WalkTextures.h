@@ -28,17 +28,21 @@ public:
   /// Whatever tells contents apart; never empty.
   using Version = std::vector<std::uint64_t>;
 
-  bool HasTopology(vtkOpenGLRenderWindow* window, const Version& version) const
+  bool HasFaces(vtkOpenGLRenderWindow* window, const Version& version) const
   {
-    return this->Window == window && this->TopologyVersion == version;
+    return this->Window == window && this->FacesVersion == version;
   }
 
-  /// Sends a topology. positive: see MakeWalkTexels.
-  void SetTopology(vtkOpenGLRenderWindow* window, const WalkTables& tables,
+  /// Sends what lies behind each face of the cells, unless it has this version already.
+  void UpdateFaces(vtkOpenGLRenderWindow* window, const WalkTables& tables, const Version& version);
+
+  /// Sends the boundary and the hierarchy over it, unless they have this version already. positive:
+  /// see MakeWalkTexels. Call it after UpdateFaces.
+  void UpdateBoundary(vtkOpenGLRenderWindow* window, const WalkTables& tables,
     Span<const std::uint8_t> positive, const Version& version);
 
-  /// Sends points with their scalars, unless they have this version already. To be called after
-  /// SetTopology.
+  /// Sends points with their scalars, unless they have this version already. Call it after
+  /// UpdateFaces.
   void UpdatePoints(
     vtkOpenGLRenderWindow* window, Span<const WalkPoint<float>> points, const Version& version);
 
@@ -51,8 +55,8 @@ public:
   static std::string FindObstacle(
     vtkOpenGLRenderWindow* window, const WalkTables& tables, std::size_t numberOfPoints);
 
-  /// For a program in use: the arrays that RayEntryFS.glsl, RayLayerFS.glsl or RayWalkFS.glsl reads, bound to texture
-  /// units until Deactivate.
+  /// For a program in use: the arrays that RayEntryFS.glsl, RayLayerFS.glsl or RayWalkFS.glsl reads,
+  /// bound to texture units until Deactivate.
   ///@{
   void ActivateForEntry(vtkShaderProgram* program);
   void ActivateForLayer(vtkShaderProgram* program);
@@ -81,7 +85,8 @@ private:
   int NumberOfNodes = 0;
   int NumberOfEntries = 0;
   vtkOpenGLRenderWindow* Window = nullptr; ///< only compared
-  Version TopologyVersion;
+  Version FacesVersion;
+  Version BoundaryVersion;
   Version PointsVersion;
   Version GradientsVersion;
   std::size_t UploadedBytes = 0;

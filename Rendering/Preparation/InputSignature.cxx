@@ -16,6 +16,7 @@
 #include "vtkMatrix3x3.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkStructuredGrid.h"
@@ -23,6 +24,7 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolumeProperty.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace tetralux
@@ -30,137 +32,215 @@ namespace tetralux
 namespace
 {
 
-void Add(Signature& signature, vtkObject* object)
+void Add(CacheKey& key, vtkObject* object)
 {
-  signature.push_back(reinterpret_cast<std::uintptr_t>(object));
-  signature.push_back(object ? object->GetMTime() : 0);
+  key.Add(object);
+  key.Add(object ? object->GetMTime() : 0);
 }
 
-void Add(Signature& signature, std::int64_t number)
+template <class Number>
+void Add(CacheKey& key, const Number* numbers, int count)
 {
-  signature.push_back(static_cast<std::uint64_t>(number));
+  std::for_each(numbers, numbers + count, [&key](Number number) { key.Add(number); });
 }
 
-void Add(Signature& signature, const double* numbers, int count)
+void AddPoints(CacheKey& key, vtkPoints* points)
 {
-  for (int i = 0; i < count; ++i)
-  {
-    std::uint64_t bits;
-    std::memcpy(&bits, numbers + i, sizeof(bits));
-    signature.push_back(bits);
-  }
+  Add(key, points ? points->GetData() : nullptr);
+  key.Add(points ? points->GetMTime() : 0);
 }
 
-void AddPoints(Signature& signature, vtkPoints* points)
+void AddCells(CacheKey& key, vtkDataSet* dataSet)
 {
-  Add(signature, points ? points->GetData() : nullptr);
-  Add(signature, points ? points->GetMTime() : 0);
-}
-
-void AddCells(Signature& signature, vtkUnstructuredGrid* grid)
-{
-  vtkCellArray* cells = grid->GetCells();
-  Add(signature, cells ? cells->GetConnectivityArray() : nullptr);
-  Add(signature, cells ? cells->GetOffsetsArray() : nullptr);
-  Add(signature, cells ? cells->GetMTime() : 0);
-  Add(signature, grid->GetCellTypesArray());
-  Add(signature, grid->GetFaces());
-  Add(signature, grid->GetFaceLocations());
-}
-
-void AddGeometry(Signature& signature, vtkDataSet* dataSet)
-{
+  key.Add(dataSet->GetDataObjectType());
+  key.Add(dataSet->GetNumberOfPoints());
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(dataSet))
   {
-    AddPoints(signature, grid->GetPoints());
-    AddCells(signature, grid);
+    vtkCellArray* cells = grid->GetCells();
+    Add(key, cells ? cells->GetConnectivityArray() : nullptr);
+    Add(key, cells ? cells->GetOffsetsArray() : nullptr);
+    key.Add(cells ? cells->GetMTime() : 0);
+    Add(key, grid->GetCellTypesArray());
+    Add(key, grid->GetFaces());
+    Add(key, grid->GetFaceLocations());
   }
   else if (auto* structured = vtkStructuredGrid::SafeDownCast(dataSet))
   {
-    AddPoints(signature, structured->GetPoints());
-    for (int c = 0; c < 6; ++c)
-    {
-      Add(signature, structured->GetExtent()[c]);
-    }
+    Add(key, structured->GetExtent(), 6);
   }
   else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(dataSet))
   {
-    Add(signature, rectilinear->GetXCoordinates());
-    Add(signature, rectilinear->GetYCoordinates());
-    Add(signature, rectilinear->GetZCoordinates());
-    for (int c = 0; c < 6; ++c)
-    {
-      Add(signature, rectilinear->GetExtent()[c]);
-    }
+    Add(key, rectilinear->GetExtent(), 6);
   }
   else if (auto* image = vtkImageData::SafeDownCast(dataSet))
   {
-    Add(signature, image->GetOrigin(), 3);
-    Add(signature, image->GetSpacing(), 3);
-    Add(signature, image->GetDirectionMatrix()->GetData(), 9);
-    for (int c = 0; c < 6; ++c)
-    {
-      Add(signature, image->GetExtent()[c]);
-    }
+    Add(key, image->GetExtent(), 6);
   }
   else
   {
-    Add(signature, dataSet);
+    Add(key, dataSet);
   }
+  const char* ghosts = vtkDataSetAttributes::GhostArrayName();
+  Add(key, dataSet->GetPointData()->GetArray(ghosts));
+  Add(key, dataSet->GetCellData()->GetArray(ghosts));
 }
+
+/// Two independent multiplicative hashes of 64-bit words.
+class Digester
+{
+public:
+  void Add(std::uint64_t word)
+  {
+    constexpr std::uint64_t FirstFactor = 0x9e3779b97f4a7c15;
+    constexpr std::uint64_t SecondFactor = 0xc2b2ae3d27d4eb4f;
+    this->State[0] = Rotate((this->State[0] ^ word) * FirstFactor);
+    this->State[1] = Rotate((this->State[1] + word) * SecondFactor);
+  }
+
+  void Add(const void* bytes, std::size_t size)
+  {
+    this->Add(size);
+    const auto* next = static_cast<const unsigned char*>(bytes);
+    for (; size > 0; size -= std::min(size, sizeof(std::uint64_t)))
+    {
+      std::uint64_t word = 0;
+      std::memcpy(&word, next, std::min(size, sizeof(word)));
+      next += std::min(size, sizeof(word));
+      this->Add(word);
+    }
+  }
+
+  void Add(vtkDataArray* array)
+  {
+    if (!array)
+    {
+      this->Add(std::uint64_t{ 0 });
+      return;
+    }
+    this->Add(static_cast<std::uint64_t>(array->GetDataType()));
+    this->Add(array->GetVoidPointer(0),
+      static_cast<std::size_t>(array->GetNumberOfValues()) * array->GetDataTypeSize());
+  }
+
+  const CellsDigest& Get() const { return this->State; }
+
+private:
+  static std::uint64_t Rotate(std::uint64_t x) { return (x << 31) | (x >> 33); }
+
+  CellsDigest State{ 0x243f6a8885a308d3, 0x13198a2e03707344 };
+};
 
 } // namespace
 
-Signature GetMeshSignature(vtkDataObject* input)
+CacheKey GetCellsKey(vtkDataObject* input)
 {
-  Signature signature;
+  CacheKey key;
   for (const DataSetBlock& block : CollectDataSets(input))
   {
-    Add(signature, block.DataSet->GetDataObjectType());
-    AddGeometry(signature, block.DataSet);
-    const char* ghosts = vtkDataSetAttributes::GhostArrayName();
-    Add(signature, block.DataSet->GetPointData()->GetArray(ghosts));
-    Add(signature, block.DataSet->GetCellData()->GetArray(ghosts));
+    AddCells(key, block.DataSet);
   }
-  return signature;
+  return key;
 }
 
-Signature GetScalarsSignature(vtkDataObject* input, const ScalarSelection& selection)
+CacheKey GetPointsKey(vtkDataObject* input)
 {
-  Signature signature;
-  Add(signature, selection.ScalarMode);
-  Add(signature, selection.VectorMode);
-  Add(signature, selection.VectorComponent);
+  CacheKey key;
+  for (const DataSetBlock& block : CollectDataSets(input))
+  {
+    if (auto* grid = vtkPointSet::SafeDownCast(block.DataSet))
+    {
+      AddPoints(key, grid->GetPoints());
+    }
+    else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(block.DataSet))
+    {
+      Add(key, rectilinear->GetXCoordinates());
+      Add(key, rectilinear->GetYCoordinates());
+      Add(key, rectilinear->GetZCoordinates());
+    }
+    else if (auto* image = vtkImageData::SafeDownCast(block.DataSet))
+    {
+      Add(key, image->GetOrigin(), 3);
+      Add(key, image->GetSpacing(), 3);
+      Add(key, image->GetDirectionMatrix()->GetData(), 9);
+    }
+  }
+  return key;
+}
+
+CellsDigest DigestCells(vtkDataObject* input)
+{
+  Digester digester;
+  for (const DataSetBlock& block : CollectDataSets(input))
+  {
+    vtkDataSet* dataSet = block.DataSet;
+    digester.Add(static_cast<std::uint64_t>(dataSet->GetDataObjectType()));
+    digester.Add(static_cast<std::uint64_t>(dataSet->GetNumberOfPoints()));
+    if (auto* grid = vtkUnstructuredGrid::SafeDownCast(dataSet))
+    {
+      vtkCellArray* cells = grid->GetCells();
+      digester.Add(cells ? cells->GetConnectivityArray() : nullptr);
+      digester.Add(cells ? cells->GetOffsetsArray() : nullptr);
+      digester.Add(grid->GetCellTypesArray());
+      digester.Add(grid->GetFaces());
+      digester.Add(grid->GetFaceLocations());
+    }
+    else if (auto* structured = vtkStructuredGrid::SafeDownCast(dataSet))
+    {
+      digester.Add(structured->GetExtent(), 6 * sizeof(int));
+    }
+    else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(dataSet))
+    {
+      digester.Add(rectilinear->GetExtent(), 6 * sizeof(int));
+    }
+    else if (auto* image = vtkImageData::SafeDownCast(dataSet))
+    {
+      digester.Add(image->GetExtent(), 6 * sizeof(int));
+    }
+    else
+    {
+      digester.Add(MakeVersion()); // never the same
+    }
+    const char* ghosts = vtkDataSetAttributes::GhostArrayName();
+    digester.Add(dataSet->GetPointData()->GetArray(ghosts));
+    digester.Add(dataSet->GetCellData()->GetArray(ghosts));
+  }
+  return digester.Get();
+}
+
+CacheKey GetScalarsKey(vtkDataObject* input, const ScalarSelection& selection)
+{
+  CacheKey key;
+  key.Add(selection.ScalarMode);
+  key.Add(selection.VectorMode);
+  key.Add(selection.VectorComponent);
   for (const DataSetBlock& block : CollectDataSets(input))
   {
     int ofCells = 0;
-    Add(signature,
+    Add(key,
       vtkAbstractMapper::GetAbstractScalars(block.DataSet, selection.ScalarMode,
         selection.ArrayAccessMode, selection.ArrayId, selection.ArrayName.c_str(), ofCells));
-    Add(signature, ofCells);
+    key.Add(ofCells);
   }
-  return signature;
+  return key;
 }
 
-Signature GetPropertySignature(vtkVolumeProperty* property)
+CacheKey GetPropertyKey(vtkVolumeProperty* property)
 {
-  Signature signature;
-  const double unitDistance = property->GetScalarOpacityUnitDistance(0);
-  Add(signature, &unitDistance, 1);
-  Add(signature, property->GetScalarOpacity(0));
+  CacheKey key;
+  key.Add(property->GetScalarOpacityUnitDistance(0));
+  Add(key, property->GetScalarOpacity(0));
   if (property->GetColorChannels(0) == 3)
   {
-    Add(signature, property->GetRGBTransferFunction(0));
+    Add(key, property->GetRGBTransferFunction(0));
   }
   else
   {
-    Add(signature, property->GetGrayTransferFunction(0));
+    Add(key, property->GetGrayTransferFunction(0));
   }
   // Values count, not the time: a property makes its list of them when it is first asked.
   vtkContourValues* surfaces = property->GetIsoSurfaceValues();
-  const int count = surfaces->GetNumberOfContours();
-  Add(signature, surfaces->GetValues(), count);
-  return signature;
+  Add(key, surfaces->GetValues(), surfaces->GetNumberOfContours());
+  return key;
 }
 
 } // namespace tetralux

@@ -2,10 +2,11 @@
 #ifndef tetralux_InputSignature_h
 #define tetralux_InputSignature_h
 
+#include "Base/Cached.h"
 #include "Intake/ScalarExtraction.h"
 
+#include <array>
 #include <cstdint>
-#include <vector>
 
 class vtkDataObject;
 class vtkVolumeProperty;
@@ -13,21 +14,26 @@ class vtkVolumeProperty;
 namespace tetralux
 {
 
-/// What something was built from: objects and their modification times. Equal signatures mean that
-/// nothing has changed. Pointers are never followed; a new object at an old address has a later
-/// time.
-using Signature = std::vector<std::uint64_t>;
+// What something was built from: objects and their modification times. Equal keys mean that nothing
+// has changed. Pointers are never followed; a new object at an old address has a later time.
 
-/// Of all that tetrahedra depend on: points, cells and ghost flags of each data set, but no other
-/// array. A data set that a pipeline made anew from the same points and cells has the same
-/// signature. Data sets that are none of VTK's grids are changed by anything.
-Signature GetMeshSignature(vtkDataObject* input);
+/// Of the cells that tetrahedra are made of: cells and ghost flags of each data set, but neither
+/// points nor any other array. Data sets that are none of VTK's grids are changed by anything.
+CacheKey GetCellsKey(vtkDataObject* input);
+
+/// Of the coordinates of the points.
+CacheKey GetPointsKey(vtkDataObject* input);
+
+/// 128 bits of what GetCellsKey is of, by content: a reader of a time series makes new arrays of the
+/// same cells in every step. Linear time, some five milliseconds a million tetrahedra.
+using CellsDigest = std::array<std::uint64_t, 2>;
+CellsDigest DigestCells(vtkDataObject* input);
 
 /// Of all that scalars depend on beside the mesh: the selected array of each data set.
-Signature GetScalarsSignature(vtkDataObject* input, const ScalarSelection& selection);
+CacheKey GetScalarsKey(vtkDataObject* input, const ScalarSelection& selection);
 
 /// Of all that TransferFunctionFromProperty reads, and of the values of isosurfaces.
-Signature GetPropertySignature(vtkVolumeProperty* property);
+CacheKey GetPropertyKey(vtkVolumeProperty* property);
 
 } // namespace tetralux
 

@@ -2,86 +2,103 @@
 #ifndef tetralux_ScenePreparation_h
 #define tetralux_ScenePreparation_h
 
+#include "Base/Cached.h"
 #include "Intake/TetrahedraIntake.h"
 #include "Preparation/InputSignature.h"
+#include "Preparation/MapperSettings.h"
 #include "Preparation/SegmentTable.h"
-#include "Report/JsonObject.h"
 #include "Report/OnceWarning.h"
 #include "Scene/VolumeScene.h"
+#include "TetraluxRenderingModule.h"
 
 #include <functional>
 #include <string>
 #include <vector>
 
 class vtkDataObject;
-class vtkTetrahedraVolumeMapper;
-class vtkVolume;
+class vtkMatrix4x4;
 class vtkVolumeProperty;
 
 namespace tetralux
 {
 
-/// Makes a VolumeScene of a mapper's input, its properties and those of the volume, and keeps it:
-/// each stage is done again only where what it depends on has changed. Reports what was done.
-class ScenePreparation
+/// What a scene is made of.
+struct SceneInput
+{
+  vtkDataObject* Data = nullptr;
+  vtkVolumeProperty* Property = nullptr;
+  vtkMatrix4x4* Matrix = nullptr; ///< of the volume: world from mesh
+  bool Interactive = false;       ///< a frame that has to be there soon: a coarse table will do
+};
+
+/// Makes a VolumeScene of a data set and a property, and keeps it: each stage is done again only if
+/// what it depends on has changed. Cells, points, scalars, transfer function and table are a stage
+/// each, so that a new time step rebuilds what it changes.
+class TETRALUXRENDERING_EXPORT ScenePreparation
 {
 public:
-  explicit ScenePreparation(vtkTetrahedraVolumeMapper* mapper);
+  /// source: gives the warnings, once for each cause.
+  explicit ScenePreparation(vtkObject* source);
 
-  /// Brings the scene up to date. progress: told the share that is done, 0..1, while the mesh is built;
-  /// where it returns false, so does Update. Throws std::invalid_argument, with one line, where the
-  /// input or the property can't be rendered.
-  bool Update(vtkVolume* volume, const std::function<bool(double)>& progress);
+  /// Brings the scene up to date. progress: told the share that is done, 0..1, while the mesh is
+  /// built; where it returns false, so does Update. Throws std::invalid_argument, with one line, if
+  /// the input or the property can't be rendered.
+  bool Update(const MapperSettings& settings, const SceneInput& input,
+    const std::function<bool(double)>& progress);
 
   VolumeScene Scene;
   TetrahedraIntakeReport Intake;
 
-  /// Whether the property's Shade counts: for isosurfaces and for emission with absorption, where
+  /// Whether the property's Shade counts: for isosurfaces and for emission with absorption, if
   /// scalars at points have a gradient.
   bool IsShaded(vtkVolumeProperty* property) const;
 
   /// Error of a channel by approximating the property's functions.
   double GetFunctionError() const { return this->FunctionError; }
 
-  // Statistics, of the last Update where it is about time.
+  const std::string& GetArrayName() const { return this->ArrayName; }
+  const SegmentTable& GetTable() const { return this->Table; }
+  TableUse GetTableUse() const { return this->Use; }
 
-  const std::vector<std::string>& GetRebuilt() const { return this->Rebuilt; }
-  void WriteSeconds(JsonObject& seconds) const;
-  JsonObject DescribeInput() const;
-  JsonObject DescribeTables() const;
-  JsonObject DescribeSegments(const std::string& integration);
+  /// The last Update: which stages were made anew, and seconds that they took.
+  struct Record
+  {
+    std::vector<std::string> Rebuilt;
+    double IntakeSeconds = 0;
+    double MeshSeconds = 0;
+    double ScalarsSeconds = 0;
+    double FunctionSeconds = 0;
+    double TableSeconds = 0;
+  };
+  const Record& GetLast() const { return this->Last; }
 
 private:
   bool PrepareMesh(vtkDataObject* input, const std::function<bool(double)>& progress);
-  void PrepareScalars(vtkDataObject* input);
-  void PrepareFunction(vtkVolume* volume);
-  void PrepareTable(vtkVolume* volume);
+  bool MovePoints(vtkDataObject* input);
+  void PrepareScalars(vtkDataObject* input, const ScalarSelection& selection);
+  void PrepareFunction(const MapperSettings& settings, const SceneInput& input);
+  void PrepareTable(const MapperSettings& settings, const SceneInput& input);
   void WarnOfMesh();
   void WarnOfShade(vtkVolumeProperty* property);
-  std::string GetIntegrationReason();
 
-  vtkTetrahedraVolumeMapper* Mapper;
+  vtkObject* Source;
 
-  // What was built, and from what.
-  Signature MeshSignature;
-  Signature ScalarsSignature;
-  Signature FunctionSignature;
-  double FunctionMaximumError = 0;
-  double FunctionLongestPath = 0;
+  // What the stages were made from.
+  CacheKey CellsKey;
+  CellsDigest Cells{};
+  CacheKey PointsKey;
+  CacheStamp Scalars;
+  CacheStamp Function;
+  bool FunctionIsExact = false; ///< so it does not depend on the error that is allowed
+
   std::string ArrayName;
   double FunctionError = 0;
   SegmentTable Table;
-  bool TableSet = false; ///< the scene has Table
+  TableUse Use = TableUse::Automatic;
+  std::uint64_t TableOfFunction = 0; ///< version of the function that the scene has Table for
   OnceWarning ShadeWarning;
   OnceWarning MeshWarning;
-
-  // The last Update.
-  std::vector<std::string> Rebuilt;
-  double IntakeSeconds = 0;
-  double MeshSeconds = 0;
-  double ScalarsSeconds = 0;
-  double FunctionSeconds = 0;
-  double TableSeconds = 0;
+  Record Last;
 };
 
 } // namespace tetralux

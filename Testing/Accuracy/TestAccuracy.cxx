@@ -132,16 +132,16 @@ void CompareScene(const std::string& name, const Scene& scene)
     scalars.push_back(scene.Scalars[id]);
   }
   VolumeScene volume;
-  volume.SetMesh(mesh);
+  volume.Mesh.SetMesh(mesh);
   if (scene.CellScalars)
   {
-    volume.SetCellScalars(scalars);
+    volume.Mesh.SetCellScalars(scalars);
   }
   else
   {
-    volume.SetPointScalars(scalars);
+    volume.Mesh.SetPointScalars(scalars);
   }
-  volume.SetTransferFunction(scene.Function);
+  volume.Optics.SetTransferFunction(scene.Function);
   const std::size_t pixels = static_cast<std::size_t>(scene.Grid.Width) * scene.Grid.Height;
   std::vector<float> colors(4 * pixels);
   std::vector<float> depths(pixels);

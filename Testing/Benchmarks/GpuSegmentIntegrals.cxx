@@ -138,9 +138,9 @@ int main()
       Measure(window, "closed form, only thin" + suffix, source, cellSize, 0.05f);
       source.LongestSegment = std::numeric_limits<double>::infinity();
       Measure(window, "closed form, thick" + suffix, source, cellSize, 5);
-      source.ConstantColor = true;
+      source.Integrator = tetralux::Integrator::OpticalDepth;
       Measure(window, "optical depth" + suffix, source, cellSize, 0.05f);
-      source.ConstantColor = false;
+      source.Integrator = tetralux::Integrator::ClosedForm;
       std::uint64_t version = 0;
       for (const TexelFormat format : { TexelFormat::Float, TexelFormat::UNorm8 })
       {
@@ -155,6 +155,7 @@ int main()
           table.LongestSegment = 5;
           PreIntegrationTable texels;
           BuildPreIntegrationTable(function, table, texels);
+          source.Integrator = tetralux::Integrator::Table;
           source.Table = &texels;
           source.TableVersion = ++version;
           for (const bool filtering : { false, true })
@@ -168,7 +169,6 @@ int main()
           }
         }
       }
-      source.Table = nullptr;
     }
   }
   return 0;

@@ -125,8 +125,8 @@ void CastBall(benchmark::State& state, std::int64_t size, const CastKind& kind)
   const GeneratedMesh& ball = GetBall(size);
   const auto mesh = std::make_shared<WalkMesh>(ball.Mesh);
   VolumeScene volume;
-  volume.SetMesh(mesh);
-  volume.SetTransferFunction(MakeFunction(ball.Scalars));
+  volume.Mesh.SetMesh(mesh);
+  volume.Optics.SetTransferFunction(MakeFunction(ball.Scalars));
   std::vector<double> scalars;
   if (kind.CellScalars)
   {
@@ -134,7 +134,7 @@ void CastBall(benchmark::State& state, std::int64_t size, const CastKind& kind)
     {
       scalars.push_back(ball.Scalars[ball.Mesh.Cells[4 * cell]]);
     }
-    volume.SetCellScalars(std::move(scalars));
+    volume.Mesh.SetCellScalars(std::move(scalars));
   }
   else
   {
@@ -142,7 +142,7 @@ void CastBall(benchmark::State& state, std::int64_t size, const CastKind& kind)
     {
       scalars.push_back(ball.Scalars[point]);
     }
-    volume.SetPointScalars(std::move(scalars));
+    volume.Mesh.SetPointScalars(std::move(scalars));
   }
 
   const RayGrid grid = MakeGrid();

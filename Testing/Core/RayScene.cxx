@@ -49,7 +49,7 @@ VolumeScene RayScene::MakeVolumeScene() const
 {
   VolumeScene volume;
   const auto walkMesh = std::make_shared<WalkMesh>(this->Mesh);
-  volume.SetMesh(walkMesh);
+  volume.Mesh.SetMesh(walkMesh);
   const TetrahedralMesh& mesh = walkMesh->GetMesh();
   const auto& originals = this->CellScalars ? mesh.OriginalCells : mesh.OriginalPoints;
   std::vector<double> scalars;
@@ -60,15 +60,15 @@ VolumeScene RayScene::MakeVolumeScene() const
   }
   if (this->CellScalars)
   {
-    volume.SetCellScalars(std::move(scalars));
+    volume.Mesh.SetCellScalars(std::move(scalars));
   }
   else
   {
-    volume.SetPointScalars(std::move(scalars));
+    volume.Mesh.SetPointScalars(std::move(scalars));
   }
-  volume.SetTransferFunction(this->Function);
-  volume.SetOpticalModel(this->Model);
-  volume.SetIsosurfaces(this->Isosurfaces);
+  volume.Optics.SetTransferFunction(this->Function);
+  volume.Optics.SetModel(this->Model);
+  volume.Optics.SetIsosurfaces(this->Isosurfaces);
   return volume;
 }
 

@@ -209,15 +209,15 @@ TEST(Stability, RayCasterLosesAtMostOneRoundingForEachSegment)
       scalars.push_back(mesh->GetMesh().Points[i]);
     }
     VolumeScene volume;
-    volume.SetMesh(mesh);
-    volume.SetPointScalars(scalars);
+    volume.Mesh.SetMesh(mesh);
+    volume.Mesh.SetPointScalars(scalars);
     for (const double depth : { 1e-6, 1e-3, 0.1, 1., 10. })
     {
       const TransferFunction::Value left = { { 1, 0.5, 0 }, depth };
       const TransferFunction::Value right = { { 0.25, 1, 0.75 }, 1.5 * depth };
       TransferFunction function;
       function.Nodes = { { 0, left, left }, { 1, right, right } };
-      volume.SetTransferFunction(function);
+      volume.Optics.SetTransferFunction(function);
       RayGrid grid;
       grid.Width = grid.Height = 1;
       grid.Origin[0] = 0.05;

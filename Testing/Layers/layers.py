@@ -73,7 +73,7 @@ class IncludeGraph:
 
     def find_cycles(self):
         """Sets of files that include each other in a ring; a source and its header are one."""
-        unit = {file: file.with_suffix("") for file in self.files}
+        unit = {f: f if f.suffix == ".inl" else f.with_suffix("") for f in self.files}
         graph = {}
         for file, targets in self.includes.items():
             edges = graph.setdefault(unit[file], set())

@@ -238,15 +238,14 @@ TEST_F(GpuLightingTest, LitSegments)
   constexpr double Front = 0.75;
   constexpr double Back = -0.5;
   constexpr double Length = 1.5;
-  for (const tetralux::OpticalModel model :
-    { tetralux::OpticalModel::EmissionAbsorption, tetralux::OpticalModel::Isosurfaces })
+  for (const bool volume : { true, false })
   {
-    const bool volume = model == tetralux::OpticalModel::EmissionAbsorption;
     tetralux::SegmentSource source;
-    source.Model = model;
+    source.Integrator =
+      volume ? tetralux::Integrator::LitClosedForm : tetralux::Integrator::Isosurfaces;
     source.Intervals = &table;
     source.Surfaces = surfaces;
-    source.Shaded = true;
+    source.ShadedSurfaces = !volume;
     const std::vector<Result> results = this->EvaluateSegments(lighting, source, cases,
       "IntegrateShadedSegment(0.75, -0.5, 1.5, vec3(0.5, -1.0, 2.0), vec3(0.5, -1.0, 2.0), "
       "a.xyz, a.xyz + 1.5 * b.xyz, b.xyz)");
@@ -284,9 +283,9 @@ TEST_F(GpuLightingTest, GradientsAndPlacesRunAlongASegment)
   const LightCases cases = this->MakeCases();
   const std::vector<tetralux::Isosurface> surfaces = { { 0.25, { 1, 0.5f, 0.25f }, 1 } };
   tetralux::SegmentSource source;
-  source.Model = tetralux::OpticalModel::Isosurfaces;
+  source.Integrator = tetralux::Integrator::Isosurfaces;
   source.Surfaces = surfaces;
-  source.Shaded = true;
+  source.ShadedSurfaces = true;
   const std::vector<Result> results = this->EvaluateSegments(lighting, source, cases,
     "IntegrateShadedSegment(0.0, 1.0, 1.0, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.5), "
     "a.xyz, a.xyz + b.xyz, b.xyz)");

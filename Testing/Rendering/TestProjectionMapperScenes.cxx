@@ -3,6 +3,7 @@
 // which is right to 1e-6 (Testing/Accuracy): within 1/255 at every pixel, and 99.9 % within a quarter
 // of that; but where cells hide each other in a cycle, which have no right order.
 #include "RayCastScene.h"
+#include "Statistics.h"
 
 #include "Generate/GeneratedMeshes.h"
 #include "ReferenceScenes.h"
@@ -136,11 +137,7 @@ private:
       }
       picture.Errors.push_back(covered || error > 0 ? 255 * error : Uncovered);
     }
-    const std::string statistics = mapper->GetStatistics();
-    const std::string name = "\"cycles\": ";
-    const std::size_t found = statistics.find(name);
-    EXPECT_NE(found, std::string::npos);
-    picture.NumberOfCycles = std::atoi(statistics.c_str() + found + name.size());
+    picture.NumberOfCycles = std::stoi(GetStatistic(mapper, "cycles"));
     return picture;
   }
 

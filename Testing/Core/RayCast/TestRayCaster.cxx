@@ -1028,7 +1028,7 @@ TEST(RayCaster, WhatIsSetAgainReplacesWhatWas)
   };
 
   RayScene scene = Steps(); // another range of nodes
-  volume.SetTransferFunction(scene.Function);
+  volume.Optics.SetTransferFunction(scene.Function);
   expectFresh(scene, "transfer function");
 
   for (TransferFunction::Node& node : scene.Function.Nodes)
@@ -1036,23 +1036,23 @@ TEST(RayCaster, WhatIsSetAgainReplacesWhatWas)
     node.Right.Color[0] *= 0.5; // the same range
     node.Right.Attenuation *= 2;
   }
-  volume.SetTransferFunction(scene.Function);
+  volume.Optics.SetTransferFunction(scene.Function);
   expectFresh(scene, "values of the transfer function");
 
   for (double& s : scene.Scalars)
   {
     s = 0.8 * s + 0.05;
   }
-  volume.SetPointScalars(inOrder(scene, volume.GetMesh()->GetMesh().OriginalPoints));
+  volume.Mesh.SetPointScalars(inOrder(scene, volume.Mesh.GetMesh()->GetMesh().OriginalPoints));
   expectFresh(scene, "point scalars");
 
   const RayScene cells = CellScalars();
   scene.CellScalars = true;
   scene.Scalars = cells.Scalars;
-  volume.SetCellScalars(inOrder(scene, volume.GetMesh()->GetMesh().OriginalCells));
+  volume.Mesh.SetCellScalars(inOrder(scene, volume.Mesh.GetMesh()->GetMesh().OriginalCells));
   expectFresh(scene, "cell scalars");
 
-  volume.SetTransferFunction(cells.Function);
+  volume.Optics.SetTransferFunction(cells.Function);
   scene.Function = cells.Function;
   expectFresh(scene, "transfer function of cell scalars");
 }
@@ -1114,7 +1114,7 @@ TEST(RayCaster, ClearWhereThereIsNothing)
   scene = MakeBoxScene(3);
   std::fill(scene.Scalars.begin(), scene.Scalars.end(), NaN);
   expectClear(scene, "no scalars");
-  EXPECT_EQ(scene.MakeVolumeScene().GetNumberOfBlankCells(), 3 * 3 * 3 * 5);
+  EXPECT_EQ(scene.MakeVolumeScene().Mesh.GetNumberOfBlankCells(), 3 * 3 * 3 * 5);
 
   scene = MakeBoxScene(3);
   scene.Grid = LookAtUnitCube({ 3, 2, 2 });
@@ -1197,14 +1197,14 @@ TEST(RayCaster, RefusesWhatDoesNotFitInOneLine)
 {
   const RayScene scene = MakeBoxScene(3);
   VolumeScene volume = scene.MakeVolumeScene();
-  const std::size_t points = volume.GetMesh()->GetMesh().GetNumberOfPoints();
+  const std::size_t points = volume.Mesh.GetMesh()->GetMesh().GetNumberOfPoints();
   ASSERT_EQ(points, 64u);
   EXPECT_EQ(GetError(
               [&] {
-                volume.SetPointScalars({ 1, 2, 3 });
+                volume.Mesh.SetPointScalars({ 1, 2, 3 });
               }),
     "3 scalars were given for 64 points");
-  EXPECT_EQ(GetError([&] { volume.SetCellScalars(std::vector<double>(64)); }),
+  EXPECT_EQ(GetError([&] { volume.Mesh.SetCellScalars(std::vector<double>(64)); }),
     "64 scalars were given for 135 cells");
 
   std::vector<float> colors(4 * ImageSize * ImageSize);
@@ -1223,12 +1223,12 @@ TEST(RayCaster, RefusesWhatDoesNotFitInOneLine)
   EXPECT_EQ(GetError([&] { cast(bare); }),
     "a mesh and a transfer function must be set before rays are cast");
   EXPECT_EQ(
-    GetError([&] { bare.SetPointScalars({ 1 }); }), "the mesh must be set before its scalars");
-  bare.SetMesh(std::make_shared<WalkMesh>(scene.Mesh));
-  bare.SetTransferFunction(scene.Function);
+    GetError([&] { bare.Mesh.SetPointScalars({ 1 }); }), "the mesh must be set before its scalars");
+  bare.Mesh.SetMesh(std::make_shared<WalkMesh>(scene.Mesh));
+  bare.Optics.SetTransferFunction(scene.Function);
   EXPECT_EQ(
     GetError([&] { cast(bare); }), "scalars must be set after the mesh and before rays are cast");
-  EXPECT_NE(GetError([&] { bare.SetTransferFunction({}); }), "no error");
+  EXPECT_NE(GetError([&] { bare.Optics.SetTransferFunction({}); }), "no error");
 }
 
 } // namespace

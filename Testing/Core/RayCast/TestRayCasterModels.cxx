@@ -213,7 +213,8 @@ TEST_P(Models, AgreeWithReference)
       options.PortableKernels = portable;
       options.Arithmetic = precision;
       const RayPicture picture = Cast(volume, scene, options);
-      SCOPED_TRACE((portable ? "portable, " : "") + picture.Statistics.Integration +
+      SCOPED_TRACE(std::string(portable ? "portable, " : "") + "integrator " +
+        std::to_string(static_cast<int>(picture.Statistics.Integration)) +
         (picture.Statistics.DoublePrecision ? ", double" : ", single"));
 
       std::vector<double> errors(pixels, 0);
@@ -291,17 +292,17 @@ TEST(RayCasterModels, ConstantColorIsIntegratedByOpticalDepth)
     VolumeScene volume = scene.MakeVolumeScene();
     return Cast(volume, scene).Statistics.Integration;
   };
-  EXPECT_EQ(getIntegration(MakeScene(Emitter)), "closed form");
-  EXPECT_EQ(getIntegration(OneColor(MakeScene(Emitter))), "optical depth");
+  EXPECT_EQ(getIntegration(MakeScene(Emitter)), Integrator::ClosedForm);
+  EXPECT_EQ(getIntegration(OneColor(MakeScene(Emitter))), Integrator::OpticalDepth);
 
   // Colours where nothing is attenuated do not count.
   RayScene scene = OneColor(MakeScene(Emitter));
   scene.Function.Nodes.front().Left.Color[0] = 0;
   ASSERT_EQ(scene.Function.Nodes.front().Left.Attenuation, 0);
-  EXPECT_EQ(getIntegration(scene), "optical depth");
+  EXPECT_EQ(getIntegration(scene), Integrator::OpticalDepth);
   scene.Function.Nodes.back().Right.Color[0] = 0;
   ASSERT_GT(scene.Function.Nodes.back().Right.Attenuation, 0);
-  EXPECT_EQ(getIntegration(scene), "closed form");
+  EXPECT_EQ(getIntegration(scene), Integrator::ClosedForm);
 }
 
 TEST(RayCasterModels, SurfacesLeaveCellsOutThatTheyDoNotCross)
@@ -314,7 +315,7 @@ TEST(RayCasterModels, SurfacesLeaveCellsOutThatTheyDoNotCross)
 
   // Other surfaces, other cells.
   scene.Isosurfaces = MakeScene(Surfaces).Isosurfaces;
-  volume.SetIsosurfaces(scene.Isosurfaces);
+  volume.Optics.SetIsosurfaces(scene.Isosurfaces);
   VolumeScene fresh = scene.MakeVolumeScene();
   EXPECT_EQ(Cast(volume, scene).Colors, Cast(fresh, scene).Colors);
 }
@@ -328,7 +329,7 @@ TEST(RayCasterModels, SwitchingModelsLeavesNothingBehind)
     { Emitter, Surfaces, Largest, Emission, Surfaces, Absorption, Emitter })
   {
     scene.Model = model;
-    volume.SetOpticalModel(model);
+    volume.Optics.SetModel(model);
     VolumeScene fresh = scene.MakeVolumeScene();
     EXPECT_EQ(Cast(volume, scene).Colors, Cast(fresh, scene).Colors);
   }
@@ -340,7 +341,7 @@ TEST(RayCasterModels, RefusesSurfacesOfCellsAndOfNoNumber)
   VolumeScene volume = scene.MakeVolumeScene();
   EXPECT_THROW(Cast(volume, scene), std::invalid_argument);
   EXPECT_THROW(
-    volume.SetIsosurfaces({ { std::numeric_limits<double>::quiet_NaN(), { 1, 1, 1 }, 1 } }),
+    volume.Optics.SetIsosurfaces({ { std::numeric_limits<double>::quiet_NaN(), { 1, 1, 1 }, 1 } }),
     std::invalid_argument);
 }
 

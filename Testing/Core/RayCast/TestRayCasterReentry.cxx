@@ -68,7 +68,7 @@ TEST_P(Reentries, SeeTheSame)
     options.ReentryBy = Reentry::Imaginary;
     const RayPicture imaginary = Cast(volume, scene, options);
     ASSERT_TRUE(imaginary.Statistics.ImaginaryCells)
-      << volume.GetMesh()->GetConvexification()->Refusal;
+      << volume.Mesh.GetMesh()->GetConvexification()->Refusal;
 
     double largest = 0;
     for (std::size_t i = 0; i < boundary.Colors.size(); ++i)
@@ -119,7 +119,7 @@ TEST(RayCasterReentry, AConvexMeshNeedsNoImaginaryCells)
     MakePerspectiveGrid({ 3.1, 2.2, 2.7 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0.2 }, 30, 32, 32);
   VolumeScene volume = scene.MakeVolumeScene();
   ExpectNoImaginaryCells(volume, scene);
-  EXPECT_TRUE(volume.GetMesh()->GetConvexification()->Convex);
+  EXPECT_TRUE(volume.Mesh.GetMesh()->GetConvexification()->Convex);
 }
 
 TEST(RayCasterReentry, AMeshThatCannotBeMadeConvexIsEnteredByItsBoundary)
@@ -139,7 +139,7 @@ TEST(RayCasterReentry, AMeshThatCannotBeMadeConvexIsEnteredByItsBoundary)
   scene.Grid = MakePerspectiveGrid({ 3.1, 2.2, 2.7 }, { 1, 1, 1 }, { 0.1, 1, 0.2 }, 40, 32, 32);
   VolumeScene volume = scene.MakeVolumeScene();
   ExpectNoImaginaryCells(volume, scene);
-  EXPECT_NE(volume.GetMesh()->GetConvexification()->Refusal, "");
+  EXPECT_NE(volume.Mesh.GetMesh()->GetConvexification()->Refusal, "");
 }
 
 TEST(RayCasterReentry, AbortsWhileImaginaryCellsAreMade)

@@ -84,7 +84,7 @@ TEST(RayCasterTable, IsTheClosedFormButForTheErrorOfTheTable)
         const PreIntegrationError error = EstimatePreIntegrationError(scene.Function, *table);
         // A ray of this scene crosses at most 40 cells.
         const double bound = GetPictureError(error, std::sqrt(3.), 40);
-        volume.SetTable(table, bound);
+        volume.Optics.SetTable(table, bound);
         for (const bool portable : { false, true })
         {
           for (const Precision precision : { Precision::Single, Precision::Double })
@@ -93,7 +93,7 @@ TEST(RayCasterTable, IsTheClosedFormButForTheErrorOfTheTable)
             options.Arithmetic = precision;
             options.PortableKernels = portable;
             const RayPicture picture = Cast(volume, scene, options);
-            EXPECT_EQ(picture.Statistics.Integration, "table");
+            EXPECT_EQ(picture.Statistics.Integration, Integrator::Table);
             EXPECT_EQ(picture.Statistics.TableError, bound);
             const double difference = GetLargestDifference(exact.Colors, picture.Colors);
             EXPECT_LE(difference, bound);
@@ -121,7 +121,7 @@ TEST(RayCasterTable, LooksUpAsTheTableDoes)
     for (const ScalarAxis axis : { ScalarAxis::Uniform, ScalarAxis::Nodes })
     {
       const auto table = MakeTable(scene, MakeSettings(scale, axis, TexelFormat::Float));
-      volume.SetTable(table, 1);
+      volume.Optics.SetTable(table, 1);
       RayCastOptions options;
       options.Arithmetic = Precision::Double;
       const RayPicture picture = Cast(volume, scene, options);
@@ -161,11 +161,11 @@ TEST(RayCasterTable, AnotherTransferFunctionNeedsAnotherTable)
 {
   RayScene scene = MakeScene();
   VolumeScene volume = scene.MakeVolumeScene();
-  volume.SetTable(
+  volume.Optics.SetTable(
     MakeTable(scene, MakeSettings(LengthScale::Linear, ScalarAxis::Nodes, TexelFormat::Float)), 1);
-  EXPECT_EQ(Cast(volume, scene).Statistics.Integration, "table");
-  volume.SetTransferFunction(MakeColorfulFunction(5));
-  EXPECT_EQ(Cast(volume, scene).Statistics.Integration, "closed form");
+  EXPECT_EQ(Cast(volume, scene).Statistics.Integration, Integrator::Table);
+  volume.Optics.SetTransferFunction(MakeColorfulFunction(5));
+  EXPECT_EQ(Cast(volume, scene).Statistics.Integration, Integrator::ClosedForm);
 }
 
 } // namespace

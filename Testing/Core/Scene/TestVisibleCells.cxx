@@ -132,9 +132,9 @@ TEST(VisibleCells, LeavingTransparentCellsOutChangesNoPixel)
     scalars.push_back(radii[p]);
   }
   VolumeScene volume;
-  volume.SetMesh(mesh);
-  volume.SetPointScalars(scalars);
-  volume.SetTransferFunction(function);
+  volume.Mesh.SetMesh(mesh);
+  volume.Mesh.SetPointScalars(scalars);
+  volume.Optics.SetTransferFunction(function);
   std::vector<float> colors(4 * 64 * 64), depths(64 * 64);
   const RayCastStatistics statistics =
     CastRays(volume, grid, RayLimits(), RayCastOptions(), colors, depths);

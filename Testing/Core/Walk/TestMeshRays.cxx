@@ -210,7 +210,7 @@ double MeasurePictures(
   RayCastOptions options;
   options.Arithmetic = Precision::Double;
   options.MaximumError = 1e-7;
-  const WalkMesh& mesh = *volume.GetMesh();
+  const WalkMesh& mesh = *volume.Mesh.GetMesh();
   double largest = 0;
   using Vector = std::array<double, 3>;
   for (const Vector& direction :
@@ -224,9 +224,9 @@ double MeasurePictures(
     }
     constexpr int Size = 128;
     scene.Grid = MakePerspectiveGrid(eye, center, { 0.1, 1, 0.2 }, 32, Size, Size);
-    volume.SetTable(nullptr, 0);
+    volume.Optics.SetTable(nullptr, 0);
     const RayPicture exact = Cast(volume, scene, options);
-    volume.SetTable(table, 0);
+    volume.Optics.SetTable(table, 0);
     const RayPicture picture = Cast(volume, scene, options);
     for (std::size_t i = 0; i < exact.Colors.size(); ++i)
     {
@@ -261,10 +261,10 @@ void ForEachScene(const Visit& visit)
       VolumeScene volume = scene.MakeVolumeScene();
       for (TransferFunction::Node& node : scene.Function.Nodes)
       {
-        node.Left.Attenuation *= c.Density / volume.GetMesh()->GetRadius();
-        node.Right.Attenuation *= c.Density / volume.GetMesh()->GetRadius();
+        node.Left.Attenuation *= c.Density / volume.Mesh.GetMesh()->GetRadius();
+        node.Right.Attenuation *= c.Density / volume.Mesh.GetMesh()->GetRadius();
       }
-      volume.SetTransferFunction(scene.Function);
+      volume.Optics.SetTransferFunction(scene.Function);
       visit(std::string(c.Mesh) + ", " + named.Name, scene, volume);
     }
   }
@@ -295,11 +295,12 @@ TEST(TableEstimates, AreAsLargeAsTheErrorsOfPictures)
         settings.StepsPerDoubling = std::max(size.Steps, 1);
         settings.Axis = size.Axis;
         settings.Format = size.Format;
-        settings.LongestSegment = volume.GetLongestEdge();
+        volume.Mesh.PrepareLongestEdge();
+        settings.LongestSegment = volume.Mesh.GetLongestEdge();
         const auto table = std::make_shared<PreIntegrationTable>();
         BuildPreIntegrationTable(scene.Function, settings, *table);
         const double estimate =
-          EstimatePictureError(scene.Function, *table, *volume.GetRaySample(1));
+          EstimatePictureError(scene.Function, *table, *volume.Mesh.DrawRays(1));
         const double error = MeasurePictures(volume, scene, table);
         ratios.push_back(estimate / error);
         EXPECT_GE(estimate, error / 3) << name << ", " << size.Scalars << " scalars";
@@ -326,8 +327,9 @@ TEST(TableEstimates, ChosenTablesAreRightEnough)
       goal.MaximumError = 0.02;
       goal.MaximumBytes = std::size_t{ 1 } << 24;
       goal.LookupCost = 0;
-      goal.Rays = volume.GetRaySample(1);
-      goal.LongestSegment = volume.GetLongestEdge();
+      goal.Rays = volume.Mesh.DrawRays(1);
+      volume.Mesh.PrepareLongestEdge();
+      goal.LongestSegment = volume.Mesh.GetLongestEdge();
       const TableChoice choice = ChoosePreIntegrationTable(scene.Function, goal);
       if (choice.Table)
       {

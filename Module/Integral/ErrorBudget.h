@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ErrorBudget_h
+#define tetralux_ErrorBudget_h
+
+namespace tetralux
+{
+
+/// What a frame spends of the error that is allowed, on top of what every frame spends.
+struct ErrorSpending
+{
+  bool EndsEarly = false; ///< rays end where little is left to see
+  bool Tabulated = false; ///< segments are looked up in a table
+  bool Buffered = false;  ///< colours are composited in a buffer of less than single precision
+};
+
+/// How MaximumError is divided: the shares add up to it. Each choice that trades error for time
+/// stays within its own share, so the picture stays within MaximumError.
+struct ErrorBudget
+{
+  // Of every frame.
+  double Functions = 0; ///< approximating functions of the property that are not piecewise linear
+  double Geometry = 0;  ///< single precision coordinates and scalars; more takes double precision
+  double Rounding = 0;  ///< weights of segments, and adding them up
+
+  // Of frames that spend it, else 0.
+  double Termination = 0; ///< ending rays early
+  double Table = 0;       ///< looking segments up
+  double Buffer = 0;      ///< rounding what is in the frame buffer
+
+  double GetSum() const
+  {
+    return this->Functions + this->Geometry + this->Rounding + this->Termination + this->Table +
+      this->Buffer;
+  }
+};
+
+/// Functions take an eighth, geometry a quarter and rounding an eighth. Of the other half a table
+/// and a buffer take a quarter each, and ending rays early takes what they leave. What nobody spends
+/// is not given away, so that a table's share does not depend on what else is chosen.
+inline ErrorBudget MakeErrorBudget(double maximumError, const ErrorSpending& spending)
+{
+  ErrorBudget budget;
+  budget.Functions = 0.125 * maximumError;
+  budget.Geometry = 0.25 * maximumError;
+  budget.Rounding = 0.125 * maximumError;
+  budget.Table = spending.Tabulated ? 0.25 * maximumError : 0;
+  budget.Buffer = spending.Buffered ? 0.25 * maximumError : 0;
+  budget.Termination = spending.EndsEarly ? 0.5 * maximumError - budget.Table - budget.Buffer : 0;
+  return budget;
+}
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_IntegratorChoice_h
+#define tetralux_IntegratorChoice_h
+
+#include "Integral/Integrator.h"
+#include "TetraluxCoreModule.h"
+
+namespace tetralux
+{
+
+class VolumeScene;
+
+/// The cheapest way of integrating that is exact for a prepared scene, or the table if it has one;
+/// for every method. shaded: whether lights shine on what can be lit, which is emission and
+/// absorption of scalars at points, and isosurfaces.
+TETRALUXCORE_EXPORT Integrator ChooseIntegrator(const VolumeScene& scene, bool shaded);
+
+} // namespace tetralux
+
+#endif

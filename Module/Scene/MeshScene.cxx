@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scene/MeshScene.h"
+
+#include "Mesh/CellVolumes.h"
+#include "Walk/MeshRays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace tetralux
+{
+
+void MeshScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
+{
+  this->Mesh = std::move(mesh);
+  this->Scalars.clear();
+  this->CellsVersion = MakeVersion();
+  this->PointsVersion = MakeVersion();
+  this->ScalarsVersion = 0;
+}
+
+bool MeshScene::SetPoints(const std::vector<double>& points)
+{
+  if (!this->Mesh || !this->Mesh->SetPoints(points))
+  {
+    return false;
+  }
+  this->PointsVersion = MakeVersion();
+  return true;
+}
+
+void MeshScene::SetPointScalars(std::vector<double> scalars)
+{
+  this->SetScalars(std::move(scalars), false);
+}
+
+void MeshScene::SetCellScalars(std::vector<double> scalars)
+{
+  this->SetScalars(std::move(scalars), true);
+}
+
+void MeshScene::SetScalars(std::vector<double> scalars, bool ofCells)
+{
+  if (!this->Mesh)
+  {
+    throw std::invalid_argument("the mesh must be set before its scalars");
+  }
+  const TetrahedralMesh& mesh = this->Mesh->GetMesh();
+  const std::size_t expected = ofCells ? mesh.GetNumberOfCells() : mesh.GetNumberOfPoints();
+  if (scalars.size() != expected)
+  {
+    throw std::invalid_argument(std::to_string(scalars.size()) + " scalars were given for " +
+      std::to_string(expected) + (ofCells ? " cells" : " points"));
+  }
+  this->Scalars = std::move(scalars);
+  this->ScalarsOfCells = ofCells;
+  this->ScalarsVersion = MakeVersion();
+
+  bool allFinite = true;
+  bool any = false;
+  for (double s : this->Scalars)
+  {
+    if (!std::isfinite(s))
+    {
+      allFinite = false;
+      continue;
+    }
+    this->ScalarRange[0] = any ? std::min(this->ScalarRange[0], s) : s;
+    this->ScalarRange[1] = any ? std::max(this->ScalarRange[1], s) : s;
+    any = true;
+  }
+  if (!any)
+  {
+    this->ScalarRange[0] = this->ScalarRange[1] = 0;
+  }
+  this->NumberOfBlankCells = 0;
+  if (!allFinite)
+  {
+    this->CountBlankCells();
+  }
+}
+
+void MeshScene::CountBlankCells()
+{
+  const std::vector<std::int32_t>& cells = this->Mesh->GetMesh().Cells;
+  const std::int64_t n = static_cast<std::int64_t>(cells.size() / 4);
+  for (std::int64_t t = 0; t < n; ++t)
+  {
+    const std::int32_t* p = &cells[4 * t];
+    const bool finite = this->ScalarsOfCells
+      ? std::isfinite(this->Scalars[t])
+      : std::all_of(p, p + 4, [this](std::int32_t id) { return std::isfinite(this->Scalars[id]); });
+    this->NumberOfBlankCells += !finite;
+  }
+}
+
+bool MeshScene::IsComplete() const
+{
+  if (!this->Mesh)
+  {
+    return false;
+  }
+  const TetrahedralMesh& mesh = this->Mesh->GetMesh();
+  return this->Scalars.size() ==
+    (this->ScalarsOfCells ? mesh.GetNumberOfCells() : mesh.GetNumberOfPoints());
+}
+
+void MeshScene::PrepareLongestEdge()
+{
+  this->LongestEdge.Update(CacheKey::Of(this->PointsVersion),
+    [this] { return MeasureCells(this->Mesh->GetMesh()).LongestEdge; });
+}
+
+void MeshScene::PreparePointGradients()
+{
+  this->Gradients.Update(CacheKey::Of(this->PointsVersion, this->ScalarsVersion),
+    [this]
+    {
+      const double range = 0.5 * this->ScalarRange[1] - 0.5 * this->ScalarRange[0];
+      return MakePointGradients(
+        this->Mesh->GetMesh(), this->Scalars, this->Mesh->GetRadius(), range > 0 ? range : 1);
+    });
+}
+
+std::shared_ptr<const RaySample> MeshScene::DrawRays(double scale)
+{
+  this->Rays.Update(CacheKey::Of(this->PointsVersion, this->ScalarsVersion, scale),
+    [&]
+    { return std::make_shared<const RaySample>(DrawMeshRays(*this->Mesh, this->Scalars, scale)); });
+  return this->Rays.Get();
+}
+
+} // namespace tetralux

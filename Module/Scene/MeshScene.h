@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_MeshScene_h
+#define tetralux_MeshScene_h
+
+#include "Base/Cached.h"
+#include "Integral/RaySegments.h"
+#include "Mesh/PointGradients.h"
+#include "TetraluxCoreModule.h"
+#include "Walk/WalkMesh.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace tetralux
+{
+
+/// A mesh and its scalars, of one time step, and what follows from both alone.
+///
+/// Cells, points and scalars are replaced each by itself. Versions say which of them changed; what
+/// follows is made anew only if a version that it depends on did.
+class TETRALUXCORE_EXPORT MeshScene
+{
+public:
+  /// Replaces cells and points. Scalars must be set after it.
+  void SetMesh(std::shared_ptr<WalkMesh> mesh);
+
+  /// Moves the points of the same cells: WalkMesh::SetPoints. Scalars stay. Returns false, and
+  /// changes nothing, where the mesh has to be made anew.
+  bool SetPoints(const std::vector<double>& points);
+
+  WalkMesh* GetMesh() const { return this->Mesh.get(); }
+
+  /// Replaces the scalars: one for each point, or for each cell, of WalkMesh::GetMesh(). Cells that
+  /// touch a scalar which is not finite contribute nothing. Throws std::invalid_argument if their
+  /// number is wrong or there is no mesh.
+  ///@{
+  void SetPointScalars(std::vector<double> scalars);
+  void SetCellScalars(std::vector<double> scalars);
+  ///@}
+  const std::vector<double>& GetScalars() const { return this->Scalars; }
+  bool HasCellScalars() const { return this->ScalarsOfCells; }
+
+  /// Whether there are as many scalars as the mesh needs.
+  bool IsComplete() const;
+
+  /// Least and largest finite scalar; 0 and 0 if there is none.
+  const double* GetScalarRange() const { return this->ScalarRange; }
+
+  /// Cells that touch a scalar which is not finite.
+  std::int64_t GetNumberOfBlankCells() const { return this->NumberOfBlankCells; }
+
+  /// Versions of the cells, of the coordinates of their points, and of the scalars; 0: none. New
+  /// cells are new points, too.
+  ///@{
+  std::uint64_t GetCellsVersion() const { return this->CellsVersion; }
+  std::uint64_t GetPointsVersion() const { return this->PointsVersion; }
+  std::uint64_t GetScalarsVersion() const { return this->ScalarsVersion; }
+  ///@}
+
+  /// Brings the longest edge, or the gradients, up to date.
+  ///@{
+  void PrepareLongestEdge();
+  void PreparePointGradients();
+  ///@}
+
+  /// Of the mesh, in its units. After PrepareLongestEdge.
+  double GetLongestEdge() const { return this->LongestEdge.Get(); }
+
+  /// Gradients of scalars at points, for smooth lighting: MakePointGradients in units of the mesh's
+  /// radius and of half of the scalars' range. After PreparePointGradients.
+  const std::vector<PointGradient>& GetPointGradients() const { return this->Gradients.Get(); }
+
+  /// DrawMeshRays, of scalars at points; the same until the mesh, the scalars or the scale change.
+  std::shared_ptr<const RaySample> DrawRays(double scale);
+
+private:
+  void SetScalars(std::vector<double> scalars, bool ofCells);
+  void CountBlankCells();
+
+  std::shared_ptr<WalkMesh> Mesh;
+  std::vector<double> Scalars;
+  bool ScalarsOfCells = false;
+  double ScalarRange[2] = { 0, 0 }; ///< of the finite ones
+  std::int64_t NumberOfBlankCells = 0;
+  std::uint64_t CellsVersion = 0;
+  std::uint64_t PointsVersion = 0;
+  std::uint64_t ScalarsVersion = 0;
+  Cached<double> LongestEdge;
+  Cached<std::vector<PointGradient>> Gradients;
+  Cached<std::shared_ptr<const RaySample>> Rays;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scene/SceneOptics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+std::vector<float> ConvertTexels(const PreIntegrationTable& table)
+{
+  const int n = table.Scalars.GetSize();
+  const int lengths = table.Lengths.Size;
+  std::vector<float> texels(4 * static_cast<std::size_t>(n) * n * lengths);
+#pragma omp parallel for schedule(static)
+  for (int length = 0; length < lengths; ++length)
+  {
+    float* texel = &texels[4 * static_cast<std::size_t>(n) * n * length];
+    for (int back = 0; back < n; ++back)
+    {
+      for (int front = 0; front < n; ++front, texel += 4)
+      {
+        table.GetTexel(front, back, length, texel);
+      }
+    }
+  }
+  return texels;
+}
+
+} // namespace
+
+void SceneOptics::SetTransferFunction(const TransferFunction& function)
+{
+  this->Intervals = MakeIntervalTable(function);
+  this->Function = function;
+  this->FunctionVersion = MakeVersion();
+  this->SetTable(nullptr, 0);
+}
+
+void SceneOptics::SetIsosurfaces(std::vector<Isosurface> surfaces)
+{
+  for (const Isosurface& surface : surfaces)
+  {
+    const float* c = surface.Color;
+    if (!std::isfinite(surface.Value) || !std::isfinite(c[0] + c[1] + c[2] + surface.Opacity))
+    {
+      throw std::invalid_argument("values, colours and opacities of isosurfaces must be finite");
+    }
+  }
+  std::stable_sort(surfaces.begin(), surfaces.end(),
+    [](const Isosurface& a, const Isosurface& b) { return a.Value < b.Value; });
+  this->Surfaces.clear();
+  for (const Isosurface& surface : surfaces)
+  {
+    if (!this->Surfaces.empty() && this->Surfaces.back().Value == surface.Value)
+    {
+      this->Surfaces.pop_back();
+    }
+    this->Surfaces.push_back(surface);
+  }
+  this->SurfacesVersion = MakeVersion();
+}
+
+void SceneOptics::SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError)
+{
+  this->Table = std::move(table);
+  this->TableError = pictureError;
+  this->TableVersion = MakeVersion();
+}
+
+void SceneOptics::PrepareFloatTexels()
+{
+  if (this->Table && this->Table->Settings.Format != TexelFormat::Float)
+  {
+    this->Texels.Update(
+      CacheKey::Of(this->TableVersion), [this] { return ConvertTexels(*this->Table); });
+  }
+  else
+  {
+    this->Texels.Reset();
+  }
+}
+
+const float* SceneOptics::GetFloatTexels() const
+{
+  if (!this->Table)
+  {
+    return nullptr;
+  }
+  return this->Table->Settings.Format == TexelFormat::Float
+    ? reinterpret_cast<const float*>(this->Table->Texels.GetData())
+    : this->Texels.Get().data();
+}
+
+} // namespace tetralux

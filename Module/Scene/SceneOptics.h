@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_SceneOptics_h
+#define tetralux_SceneOptics_h
+
+#include "Base/Cached.h"
+#include "Optics/IntervalTable.h"
+#include "Optics/OpticalModel.h"
+#include "Optics/TransferFunction.h"
+#include "PreIntegration/PreIntegrationTable.h"
+#include "TetraluxCoreModule.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace tetralux
+{
+
+/// What rays gather, whatever the mesh: an optical model, a transfer function or isosurfaces, and a
+/// pre-integration table of the function.
+class TETRALUXCORE_EXPORT SceneOptics
+{
+public:
+  /// At first emission and absorption.
+  void SetModel(OpticalModel model) { this->Model = model; }
+  OpticalModel GetModel() const { return this->Model; }
+
+  /// Replaces the function, and removes the table. Throws std::invalid_argument as MakeIntervalTable
+  /// does. Isosurfaces need no function.
+  void SetTransferFunction(const TransferFunction& function);
+  const TransferFunction& GetTransferFunction() const { return this->Function; }
+  const IntervalTable& GetIntervalTable() const { return this->Intervals; }
+
+  /// Sets what OpticalModel::Isosurfaces shows, in any order; of equal values the last one counts.
+  /// Throws std::invalid_argument if a value or a colour is not finite.
+  void SetIsosurfaces(std::vector<Isosurface> surfaces);
+  /// Ascending in value.
+  const std::vector<Isosurface>& GetIsosurfaces() const { return this->Surfaces; }
+
+  /// Sets a table of the present function to look segments up in, in place of the closed form: for
+  /// OpticalModel::EmissionAbsorption of scalars at points. pictureError: what pictures by it are
+  /// expected to be wrong by. nullptr: no table.
+  void SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError);
+  const PreIntegrationTable* GetTable() const { return this->Table.get(); }
+  double GetTableError() const { return this->TableError; }
+
+  /// Versions of function, surfaces and table; 0: never set.
+  ///@{
+  std::uint64_t GetFunctionVersion() const { return this->FunctionVersion; }
+  std::uint64_t GetSurfacesVersion() const { return this->SurfacesVersion; }
+  std::uint64_t GetTableVersion() const { return this->TableVersion; }
+  ///@}
+
+  /// Brings the texels of the table in single precision up to date.
+  void PrepareFloatTexels();
+
+  /// In the order of PreIntegrationTable; nullptr without a table. After PrepareFloatTexels.
+  const float* GetFloatTexels() const;
+
+private:
+  OpticalModel Model = OpticalModel::EmissionAbsorption;
+  TransferFunction Function;
+  IntervalTable Intervals;
+  std::vector<Isosurface> Surfaces;
+  std::shared_ptr<const PreIntegrationTable> Table;
+  double TableError = 0;
+  std::uint64_t FunctionVersion = 0;
+  std::uint64_t SurfacesVersion = 0;
+  std::uint64_t TableVersion = 0;
+  Cached<std::vector<float>> Texels; ///< of a table that has another format
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Preparation/SceneReport.h"
+
+#include "Preparation/ScenePreparation.h"
+#include "Report/IntegratorName.h"
+
+namespace tetralux
+{
+namespace
+{
+
+const char* GetModelName(OpticalModel model)
+{
+  switch (model)
+  {
+    case OpticalModel::EmissionOnly:
+      return "emission only";
+    case OpticalModel::AbsorptionOnly:
+      return "absorption only";
+    case OpticalModel::MaximumIntensity:
+      return "maximum intensity";
+    case OpticalModel::Isosurfaces:
+      return "isosurfaces";
+    default:
+      return "emission and absorption";
+  }
+}
+
+const char* GetFormatName(TexelFormat format)
+{
+  switch (format)
+  {
+    case TexelFormat::UNorm8:
+      return "8-bit";
+    case TexelFormat::UNorm16:
+      return "16-bit";
+    case TexelFormat::Half:
+      return "half";
+    default:
+      return "float";
+  }
+}
+
+std::string GetIntegrationReason(const ScenePreparation& preparation, Integrator integrator)
+{
+  if (preparation.Scene.Optics.GetModel() != OpticalModel::EmissionAbsorption)
+  {
+    return "exact for this optical model";
+  }
+  if (integrator == Integrator::OpticalDepth)
+  {
+    return "all that is visible has one colour";
+  }
+  if (preparation.Scene.Mesh.HasCellScalars())
+  {
+    return "closed form: cells are constant";
+  }
+  if (preparation.GetTableUse() == TableUse::Never)
+  {
+    return "closed form: asked for";
+  }
+  return preparation.GetTable().GetReason();
+}
+
+} // namespace
+
+void DescribeSeconds(const ScenePreparation& preparation, Json& seconds)
+{
+  const ScenePreparation::Record& last = preparation.GetLast();
+  seconds["intake"] = last.IntakeSeconds;
+  seconds["mesh"] = last.MeshSeconds;
+  seconds["scalars"] = last.ScalarsSeconds;
+  seconds["transfer_function"] = last.FunctionSeconds;
+  seconds["table"] = last.TableSeconds;
+}
+
+Json DescribeInput(const ScenePreparation& preparation)
+{
+  const TetrahedraIntakeReport& intake = preparation.Intake;
+  Json input;
+  input["points"] = intake.NumberOfPoints;
+  input["cells"] = intake.NumberOfCells;
+  input["ghost_cells"] = intake.GhostCells;
+  input["blanked_cells"] = intake.BlankedCells;
+  input["lower_dimensional_cells"] = intake.LowerDimensionalCells;
+  input["invalid_cells"] = intake.InvalidCells;
+  input["skipped_cells"] = intake.GetNumberOfSkippedCells();
+  input["skipped_cell_types"] = intake.DescribeSkippedCells();
+  input["skipped_blocks"] = intake.SkippedBlocks;
+  input["array"] = preparation.GetArrayName();
+  input["array_of"] = preparation.Scene.Mesh.HasCellScalars() ? "cells" : "points";
+  return input;
+}
+
+Json DescribeTables(const ScenePreparation& preparation)
+{
+  const VolumeScene& scene = preparation.Scene;
+  const WalkMesh& mesh = *scene.Mesh.GetMesh();
+  const RemovedCells& removed = mesh.GetRemovedCells();
+  Json removedCells;
+  removedCells["invalid_point_ids"] = removed.InvalidPointIds;
+  removedCells["non_finite_coordinates"] = removed.NonFiniteCoordinates;
+  removedCells["repeated_points"] = removed.RepeatedPoints;
+  removedCells["duplicates"] = removed.Duplicates;
+
+  Json tables;
+  tables["tetrahedra"] = mesh.GetNumberOfCells();
+  tables["points"] = mesh.GetMesh().GetNumberOfPoints();
+  tables["boundary_faces"] = mesh.GetNumberOfBoundaryFaces();
+  tables["non_manifold_faces"] = mesh.GetNumberOfNonManifoldFaces();
+  tables["components"] = mesh.GetNumberOfComponents();
+  tables["blank_tetrahedra"] = scene.Mesh.GetNumberOfBlankCells();
+  tables["removed_tetrahedra"] = removedCells;
+  tables["transfer_function_nodes"] = scene.Optics.GetTransferFunction().Nodes.size();
+  tables["bytes"] = mesh.GetTableSize();
+  if (const Convexification* convex = mesh.GetConvexification())
+  {
+    tables["imaginary_cells"] = convex->GetNumberOfCells();
+    tables["steiner_points"] = convex->GetNumberOfSteinerPoints();
+    tables["convexification_seconds"] = convex->GetSeconds();
+    tables["convexification_refusal"] = convex->Refusal;
+  }
+  return tables;
+}
+
+Json DescribeSegments(const ScenePreparation& preparation, Integrator integrator)
+{
+  const SceneOptics& optics = preparation.Scene.Optics;
+  Json segments;
+  segments["optical_model"] = GetModelName(optics.GetModel());
+  segments["integration"] = GetName(integrator);
+  segments["reason"] = GetIntegrationReason(preparation, integrator);
+  if (const PreIntegrationTable* table = optics.GetTable())
+  {
+    segments["table_scalar_size"] = table->Scalars.GetSize();
+    segments["table_length_size"] = table->Lengths.Size;
+    segments["table_length_scale"] =
+      table->Lengths.Scale == LengthScale::Linear ? "linear" : "logarithmic";
+    segments["table_scalar_axis"] =
+      table->Settings.Axis == ScalarAxis::Uniform ? "uniform" : "nodes";
+    segments["table_format"] = GetFormatName(table->Settings.Format);
+    segments["table_bytes"] = table->GetNumberOfBytes();
+    segments["table_is_coarse"] = preparation.GetTable().IsCoarse();
+  }
+  return segments;
+}
+
+} // namespace tetralux
