@@ -4,6 +4,7 @@
 #include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationError.h"
 #include "PreIntegration/PreIntegrationKernel.h"
+#include "Simd/InstructionSet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,7 @@ constexpr double LargestDepth = 1e30;
 PreIntegrationKernels GetKernels()
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2)
+  if (GetInstructionSet() == InstructionSet::Avx2)
   {
     return GetPreIntegrationKernelsAvx2();
   }
@@ -79,7 +79,7 @@ struct LengthSamples
     std::vector<float> Weights; ///< PointsPerPanel for each row
   };
 
-  std::vector<float> Lengths; ///< padded to a multiple of eight
+  std::vector<float> Lengths; ///< padded to a multiple of LaneCount
   int Count = 0;
   std::vector<Panel> Panels; ///< empty: point k is texel k + 1 itself
 
@@ -105,7 +105,7 @@ struct LengthSamples
       }
     }
     this->Count = static_cast<int>(this->Lengths.size());
-    while (this->Lengths.size() % 8 != 0)
+    while (this->Lengths.size() % LaneCount != 0)
     {
       this->Lengths.push_back(this->Lengths.back());
     }

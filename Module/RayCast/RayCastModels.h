@@ -30,7 +30,7 @@ namespace
 /// Largest optical depth of a segment that is told from opaque; keeps products finite.
 constexpr float LargestDepth = 1e30f;
 
-using ColorsOfLanes = float[4][Width];
+using ColorsOfLanes = float[4][LaneCount];
 
 /// A single precision number in the precision of the geometry.
 template <class V>
@@ -84,7 +84,7 @@ TETRALUX_INLINE void CutAtNodes(
   {
     // Neighbouring rays are mostly in the same interval: one load for all of them.
     const unsigned bits = Bits(valid);
-    std::int32_t indices[Width];
+    std::int32_t indices[LaneCount];
     Store(indices, interval);
     int leader = 0;
     while (!((bits >> leader) & 1u))
@@ -248,9 +248,9 @@ public:
   TETRALUX_NOINLINE void Find(
     const KernelInput& in, Mask8 valid, Int8 cell, V z, Float8 (&scale)[3], Float8 (&add)[3]) const
   {
-    std::int32_t cells[Width];
-    double distances[Width], origins[3][Width], directions[3][Width];
-    float scales[3][Width] = {}, adds[3][Width] = {};
+    std::int32_t cells[LaneCount];
+    double distances[LaneCount], origins[3][LaneCount], directions[3][LaneCount];
+    float scales[3][LaneCount] = {}, adds[3][LaneCount] = {};
     Store(cells, cell);
     Store(distances, this->Start + Widen(z));
     for (int a = 0; a < 3; ++a)
@@ -259,7 +259,7 @@ public:
       Store(directions[a], this->Rays.Direction[a]);
     }
     const unsigned bits = Bits(valid);
-    for (int i = 0; i < Width; ++i)
+    for (int i = 0; i < LaneCount; ++i)
     {
       if (!((bits >> i) & 1u))
       {
@@ -524,10 +524,10 @@ public:
 
   void GetColors(const KernelInput& in, ColorsOfLanes& colors)
   {
-    Real largest[Width], distance[Width];
+    Real largest[LaneCount], distance[LaneCount];
     Store(largest, this->Largest);
     Store(distance, this->First.Distance);
-    for (int i = 0; i < Width; ++i)
+    for (int i = 0; i < LaneCount; ++i)
     {
       float color[4] = { 0, 0, 0, 0 };
       if (largest[i] > -std::numeric_limits<Real>::infinity())

@@ -3,6 +3,7 @@
 
 #include "Integral/SegmentIntegral.h"
 #include "RayCast/RayCastKernel.h"
+#include "Simd/InstructionSet.h"
 
 #include <algorithm>
 #include <array>
@@ -34,24 +35,16 @@ constexpr std::chrono::milliseconds ReportInterval(5);
 constexpr double SingleDistanceRounding = 1. / (1 << 20);
 constexpr double DoubleDistanceRounding = SingleDistanceRounding / (1 << 29);
 
-struct InstructionSet
-{
-  const char* Name;
-  RayCastKernels Kernels;
-};
-
-/// The best instruction set of this processor.
-InstructionSet GetInstructionSet(bool portable)
+RayCastKernels GetKernels(InstructionSet set)
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2 && !portable)
+  if (set == InstructionSet::Avx2)
   {
-    return { "AVX2", GetRayCastKernelsAvx2() };
+    return GetRayCastKernelsAvx2();
   }
 #endif
-  static_cast<void>(portable);
-  return { "generic", GetRayCastKernelsGeneric() };
+  static_cast<void>(set);
+  return GetRayCastKernelsGeneric();
 }
 
 /// The cheapest way of integrating that is exact for the scene, or by table, and its name in
@@ -128,8 +121,7 @@ struct OwningCrossingBuffer : CrossingBuffer
   {
     auto& self = static_cast<OwningCrossingBuffer&>(buffer);
     self.Capacity *= 2;
-    constexpr std::size_t Lanes = 8;
-    self.Storage.resize(Lanes * static_cast<std::size_t>(self.Capacity));
+    self.Storage.resize(LaneCount * static_cast<std::size_t>(self.Capacity));
     self.Crossings = self.Storage.data();
   }
 };
@@ -263,9 +255,11 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   in.Colors = colors.data();
   in.Depths = depths.data();
 
-  const InstructionSet set = GetInstructionSet(options.PortableKernels);
-  const RayCastKernels::Pair& kernels = cellData ? set.Kernels.Cells[static_cast<int>(integrator)]
-                                                 : set.Kernels.Points[static_cast<int>(integrator)];
+  const InstructionSet set =
+    options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();
+  const RayCastKernels all = GetKernels(set);
+  const RayCastKernels::Pair& kernels =
+    cellData ? all.Cells[static_cast<int>(integrator)] : all.Points[static_cast<int>(integrator)];
   const RayCastKernel kernel = statistics.DoublePrecision ? kernels.Double : kernels.Single;
 
   const int tilesX = (grid.Width + TileSize - 1) / TileSize;
@@ -351,7 +345,7 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   {
     options.Progress(1); // too late to abort
   }
-  statistics.InstructionSet = set.Name;
+  statistics.InstructionSet = GetName(set);
   statistics.NumberOfThreads = threads;
   statistics.Rays = static_cast<std::int64_t>(pixels);
   statistics.Segments = counts.Segments;
@@ -364,7 +358,7 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
     statistics.ErrorEstimate += statistics.SummationError;
   }
   statistics.LaneUse = counts.Steps
-    ? static_cast<double>(counts.Segments) / (8. * static_cast<double>(counts.Steps))
+    ? static_cast<double>(counts.Segments) / (LaneCount * static_cast<double>(counts.Steps))
     : 0;
   return statistics;
 }
