@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreIntegration/PreIntegrationBuilder.h"
 
+#include "Integral/SegmentIntegral.h"
 #include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationError.h"
 #include "PreIntegration/PreIntegrationKernel.h"
@@ -18,9 +19,6 @@ namespace tetralux
 {
 namespace
 {
-
-/// Largest optical depth of a piece that is told from opaque; keeps products finite.
-constexpr double LargestDepth = 1e30;
 
 PreIntegrationKernels GetKernels()
 {
@@ -63,8 +61,8 @@ LengthPanels GetPanels(double largestDepth)
   LengthPanels panels;
   if (largestDepth > FirstDepth)
   {
-    panels.Halvings =
-      static_cast<int>(std::ceil(std::log2(std::min(largestDepth, LargestDepth) / FirstDepth)));
+    panels.Halvings = static_cast<int>(
+      std::ceil(std::log2(std::min(largestDepth, LargestSingleDepth) / FirstDepth)));
   }
   return panels;
 }
@@ -250,7 +248,7 @@ private:
     }
     SegmentPiece piece;
     const double largest = std::max(values[0].Attenuation, values[1].Attenuation);
-    const double length = std::min(share * this->Longest, LargestDepth / largest);
+    const double length = std::min(share * this->Longest, LargestSingleDepth / largest);
     for (int end = 0; end < 2; ++end)
     {
       piece.Depth[end] = static_cast<float>(values[end].Attenuation * length);

@@ -109,7 +109,7 @@ struct KernelCounts
 using RayCastKernel = void (*)(
   const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
 
-/// The ways of integrating that there are kernels for, see RayCastModels.h.
+/// The ways of integrating that there are kernels for, see RayCastGather.h.
 enum class Integrator
 {
   ClosedForm,    ///< emission and absorption

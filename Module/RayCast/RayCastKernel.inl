@@ -25,7 +25,9 @@
 // the nearest one strikes off the one where the walk ends, and the next one left is a re-entry.
 
 #include "RayCast/RayCastCrossings.h"
+#include "RayCast/RayCastIsosurfaces.h"
 #include "RayCast/RayCastLimits.h"
+#include "RayCast/RayCastMaximum.h"
 #include "RayCast/RayCastModels.h"
 #include "RayCast/RayCastTable.h"
 
