@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stability/SegmentLanes.h"
 
+#include "Simd/InstructionSet.h"
+
 namespace tetralux
 {
 
@@ -13,7 +15,7 @@ std::vector<SegmentLanes> GetSegmentLanes()
 {
   std::vector<SegmentLanes> all{ GetSegmentLanesGeneric() };
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+  if (GetInstructionSet() == InstructionSet::Avx2)
   {
     all.push_back(GetSegmentLanesAvx2());
   }

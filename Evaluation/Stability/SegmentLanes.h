@@ -2,13 +2,15 @@
 #ifndef tetralux_SegmentLanes_h
 #define tetralux_SegmentLanes_h
 
+#include "Simd/LaneCount.h"
+
 #include <vector>
 
 namespace tetralux
 {
 
-/// The functions of SegmentIntegral.h as compiled for one instruction set: a call computes eight
-/// lanes, from arrays of eight to arrays of eight.
+/// The functions of SegmentIntegral.h as compiled for one instruction set: a call computes
+/// LaneCount results from arrays of LaneCount numbers.
 struct SegmentLanes
 {
   using Function = void (*)(const float* x, float* result);

@@ -2,6 +2,7 @@
 
 // Compiled once for each instruction set, with the options that the kernels are compiled with.
 #include "Integral/SegmentIntegral.h"
+#include "Simd/InstructionSet.h"
 #include "Stability/SegmentLanes.h"
 
 namespace tetralux
@@ -11,10 +12,10 @@ namespace TETRALUX_ISA
 namespace
 {
 
-SegmentLanes MakeSegmentLanes(const char* name)
+SegmentLanes MakeSegmentLanes(InstructionSet set)
 {
   SegmentLanes lanes{};
-  lanes.Name = name;
+  lanes.Name = GetName(set);
   lanes.ExpMinus = [](const float* x, float* result) { Store(result, ExpMinus(LoadFloat8(x))); };
   lanes.Erfcx = [](const float* x, float* result) { Store(result, Erfcx(LoadFloat8(x))); };
   lanes.Dawson = [](const float* x, float* result) { Store(result, Dawson(LoadFloat8(x))); };

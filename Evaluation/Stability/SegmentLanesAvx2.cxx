@@ -4,6 +4,6 @@
 namespace tetralux
 {
 
-SegmentLanes GetSegmentLanesAvx2() { return TETRALUX_ISA::MakeSegmentLanes("AVX2"); }
+SegmentLanes GetSegmentLanesAvx2() { return TETRALUX_ISA::MakeSegmentLanes(InstructionSet::Avx2); }
 
 } // namespace tetralux

@@ -4,6 +4,9 @@
 namespace tetralux
 {
 
-SegmentLanes GetSegmentLanesGeneric() { return TETRALUX_ISA::MakeSegmentLanes("generic"); }
+SegmentLanes GetSegmentLanesGeneric()
+{
+  return TETRALUX_ISA::MakeSegmentLanes(InstructionSet::Generic);
+}
 
 } // namespace tetralux

@@ -54,10 +54,9 @@ StabilityResult IntegrateSingle(const SegmentLanes& lanes, const StabilityCase& 
       const Extended& length)
     {
       // All lanes alike.
-      constexpr int Lanes = 8;
-      float d0[Lanes], d1[Lanes], w0[Lanes], w1[Lanes], t[Lanes];
-      std::fill_n(d0, Lanes, static_cast<float>(front.Attenuation * length));
-      std::fill_n(d1, Lanes, static_cast<float>(back.Attenuation * length));
+      float d0[LaneCount], d1[LaneCount], w0[LaneCount], w1[LaneCount], t[LaneCount];
+      std::fill_n(d0, LaneCount, static_cast<float>(front.Attenuation * length));
+      std::fill_n(d1, LaneCount, static_cast<float>(back.Attenuation * length));
       lanes.IntegrateSegment(d0, d1, w0, w1, t);
       for (int c = 0; c < 3; ++c)
       {

@@ -90,8 +90,9 @@ void ForEachPiece(
   }
 }
 
-/// Largest optical depth that is told from opaque; keeps products finite.
-constexpr double LargestDepth = 1e100;
+/// Largest optical depth in double precision, opaque by far. A larger one is taken for this, which
+/// keeps products of depths finite.
+constexpr double LargestDoubleDepth = 1e100;
 
 /// Optical depth up to which the power series is used; beyond it the difference of the thick form
 /// loses less than one bit.
@@ -152,8 +153,8 @@ struct Weights
 /// d0, d1: attenuation at both ends times the length.
 Weights IntegratePiece(double d0, double d1)
 {
-  d0 = std::min(d0, LargestDepth);
-  d1 = std::min(d1, LargestDepth);
+  d0 = std::min(d0, LargestDoubleDepth);
+  d1 = std::min(d1, LargestDoubleDepth);
   const double depth = 0.5 * d0 + 0.5 * d1;
   const double b = 0.5 * d1 - 0.5 * d0;
   if (depth <= ThinDepth)

@@ -37,6 +37,10 @@
 namespace tetralux
 {
 
+/// Largest optical depth of a segment in single precision, opaque by far. A larger one is taken for
+/// this, which keeps products of depths finite.
+constexpr double LargestSingleDepth = 1e30;
+
 namespace TETRALUX_ISA
 {
 
@@ -117,7 +121,7 @@ TETRALUX_INLINE void IntegrateConstant(Float8 depth, Float8& opacity, Float8& tr
     Select(Float8(ThinDepth) < depth, Float8(1.f) - transmittance, Float8(2.f) * root * Sinh(half));
 }
 
-/// Weights of a segment from its optical depths, both at least 0 and at most 1e30.
+/// Weights of a segment from its optical depths, both at least 0 and at most LargestSingleDepth.
 TETRALUX_INLINE SegmentWeights IntegrateSegment(Float8 d0, Float8 d1)
 {
   const Float8 depth = Float8(0.5f) * (d0 + d1);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreIntegration/PreIntegrationBuilder.h"
 
+#include "Integral/SegmentIntegral.h"
 #include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationError.h"
 #include "PreIntegration/PreIntegrationKernel.h"
+#include "Simd/InstructionSet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +20,10 @@ namespace tetralux
 namespace
 {
 
-/// Largest optical depth of a piece that is told from opaque; keeps products finite.
-constexpr double LargestDepth = 1e30;
-
 PreIntegrationKernels GetKernels()
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2)
+  if (GetInstructionSet() == InstructionSet::Avx2)
   {
     return GetPreIntegrationKernelsAvx2();
   }
@@ -63,8 +61,8 @@ LengthPanels GetPanels(double largestDepth)
   LengthPanels panels;
   if (largestDepth > FirstDepth)
   {
-    panels.Halvings =
-      static_cast<int>(std::ceil(std::log2(std::min(largestDepth, LargestDepth) / FirstDepth)));
+    panels.Halvings = static_cast<int>(
+      std::ceil(std::log2(std::min(largestDepth, LargestSingleDepth) / FirstDepth)));
   }
   return panels;
 }
@@ -79,7 +77,7 @@ struct LengthSamples
     std::vector<float> Weights; ///< PointsPerPanel for each row
   };
 
-  std::vector<float> Lengths; ///< padded to a multiple of eight
+  std::vector<float> Lengths; ///< padded to a multiple of LaneCount
   int Count = 0;
   std::vector<Panel> Panels; ///< empty: point k is texel k + 1 itself
 
@@ -105,7 +103,7 @@ struct LengthSamples
       }
     }
     this->Count = static_cast<int>(this->Lengths.size());
-    while (this->Lengths.size() % 8 != 0)
+    while (this->Lengths.size() % LaneCount != 0)
     {
       this->Lengths.push_back(this->Lengths.back());
     }
@@ -250,7 +248,7 @@ private:
     }
     SegmentPiece piece;
     const double largest = std::max(values[0].Attenuation, values[1].Attenuation);
-    const double length = std::min(share * this->Longest, LargestDepth / largest);
+    const double length = std::min(share * this->Longest, LargestSingleDepth / largest);
     for (int end = 0; end < 2; ++end)
     {
       piece.Depth[end] = static_cast<float>(values[end].Attenuation * length);

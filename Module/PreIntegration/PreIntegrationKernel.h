@@ -5,6 +5,7 @@
 // The inner loops that fill a pre-integration table, compiled once for each instruction set.
 
 #include "PreIntegration/PreIntegrationTable.h"
+#include "Simd/LaneCount.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +23,7 @@ struct SegmentPiece
 struct PreIntegrationKernels
 {
   /// One segment at several lengths, in closed form. The pieces, front to back, are those of the
-  /// longest segment; lengths are fractions of it. count: a multiple of 8. values: channel c of
+  /// longest segment; lengths are fractions of it. count: a multiple of LaneCount. values: channel c of
   /// length k goes to values[k stride + c].
   void (*IntegrateLengths)(const SegmentPiece* pieces, int numberOfPieces, const float* lengths,
     int count, float* values, int stride);

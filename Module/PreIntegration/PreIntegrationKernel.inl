@@ -16,7 +16,7 @@ namespace
 void IntegrateLengths(const SegmentPiece* pieces, int numberOfPieces, const float* lengths,
   int count, float* values, int stride)
 {
-  for (int k = 0; k < count; k += Width)
+  for (int k = 0; k < count; k += LaneCount)
   {
     const Float8 length = LoadFloat8(lengths + k);
     Float8 transmittance = 1.f;
@@ -37,12 +37,12 @@ void IntegrateLengths(const SegmentPiece* pieces, int numberOfPieces, const floa
       transmittance = transmittance * w.Transmittance;
     }
     channels[3] = Min(channels[3], Float8(1.f));
-    alignas(32) float lanes[4][Width];
+    alignas(32) float lanes[4][LaneCount];
     for (int c = 0; c < 4; ++c)
     {
       Store(lanes[c], channels[c]);
     }
-    for (int i = 0; i < Width; ++i)
+    for (int i = 0; i < LaneCount; ++i)
     {
       float* value = values + static_cast<long long>(k + i) * stride;
       for (int c = 0; c < 4; ++c)
@@ -57,6 +57,12 @@ void IntegrateLengths(const SegmentPiece* pieces, int numberOfPieces, const floa
 /// term, and each number that is loaded serves several.
 constexpr int RowsAtOnce = 4;
 constexpr int RegistersAtOnce = 2;
+
+/// Beyond every channel.
+constexpr float Unbounded = 3e38f;
+
+/// The bound of a channel: an opacity, the last one, is 1 or less.
+constexpr float GetLargestChannel(int channel) { return channel == 3 ? 1.f : Unbounded; }
 
 template <int Rows, int Registers>
 TETRALUX_INLINE void CombineRegisters(const float* values, int stride, int numberOfValues,
@@ -76,7 +82,7 @@ TETRALUX_INLINE void CombineRegisters(const float* values, int stride, int numbe
     Float8 value[Registers];
     for (int j = 0; j < Registers; ++j)
     {
-      value[j] = LoadFloat8(row + j * Width);
+      value[j] = LoadFloat8(row + j * LaneCount);
     }
     for (int r = 0; r < Rows; ++r)
     {
@@ -91,7 +97,7 @@ TETRALUX_INLINE void CombineRegisters(const float* values, int stride, int numbe
   {
     for (int j = 0; j < Registers; ++j)
     {
-      Store(result + r * resultStride + j * Width, Min(Max(sums[r][j], least), most));
+      Store(result + r * resultStride + j * LaneCount, Min(Max(sums[r][j], least), most));
     }
   }
 }
@@ -100,16 +106,19 @@ template <int Rows>
 TETRALUX_INLINE void Combine(const float* values, int stride, int numberOfValues,
   const float* weights, Float8 least, float* result, long long resultStride, int size)
 {
-  alignas(32) static constexpr float largest[Width] = { 3e38f, 3e38f, 3e38f, 1.f, 3e38f, 3e38f,
-    3e38f, 1.f };
+  float largest[LaneCount];
+  for (int lane = 0; lane < LaneCount; ++lane)
+  {
+    largest[lane] = GetLargestChannel(lane % 4);
+  }
   const Float8 most = LoadFloat8(largest);
   int i = 0;
-  for (; i + RegistersAtOnce * Width <= size; i += RegistersAtOnce * Width)
+  for (; i + RegistersAtOnce * LaneCount <= size; i += RegistersAtOnce * LaneCount)
   {
     CombineRegisters<Rows, RegistersAtOnce>(
       values + i, stride, numberOfValues, weights, least, most, result + i, resultStride);
   }
-  for (; i + Width <= size; i += Width)
+  for (; i + LaneCount <= size; i += LaneCount)
   {
     CombineRegisters<Rows, 1>(
       values + i, stride, numberOfValues, weights, least, most, result + i, resultStride);
@@ -125,7 +134,8 @@ TETRALUX_INLINE void Combine(const float* values, int stride, int numberOfValues
         sum = Fma(Float8(weights[r * numberOfValues + k]),
           Float8(values[static_cast<long long>(k) * stride + i]), sum);
       }
-      result[r * resultStride + i] = Lane(Min(Max(sum, least), Float8(largest[i % 4])), 0);
+      result[r * resultStride + i] =
+        Lane(Min(Max(sum, least), Float8(GetLargestChannel(i % 4))), 0);
     }
   }
 }
@@ -133,7 +143,7 @@ TETRALUX_INLINE void Combine(const float* values, int stride, int numberOfValues
 void CombineRows(const float* values, int stride, int numberOfValues, const float* weights,
   int numberOfRows, bool keepNegative, float* result, long long resultStride, int size)
 {
-  const Float8 least = keepNegative ? -3e38f : 0.f;
+  const Float8 least = keepNegative ? -Unbounded : 0.f;
   int row = 0;
   for (; row + RowsAtOnce <= numberOfRows; row += RowsAtOnce)
   {

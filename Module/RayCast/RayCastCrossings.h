@@ -42,16 +42,17 @@ TETRALUX_INLINE TriangleHit<Real> TestTriangle(
     q = IsPositive(t.CA, c, a);
     r = IsPositive(t.AB, a, b);
   }
-  const Mask8 all = MaskFromBits(0xff);
+  const Mask8 all = MaskFromBits(AllLanes);
   t.Clockwise = AndNot(all, p | q | r);
   t.Hit = (p & q & r) | t.Clockwise;
   return t;
 }
 
-/// The crossings of eight rays with the boundary, each ray's in ascending distance.
+/// The number of each ray's crossings with the boundary, which CrossingBuffer holds in ascending
+/// distance.
 struct PacketCrossings
 {
-  int Count[Width];
+  int Count[LaneCount];
 };
 
 /// Adds where rays cross a face of the boundary. False where the buffer was too small; it is larger
@@ -75,7 +76,7 @@ TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays,
   {
     return true;
   }
-  Real z[Width];
+  Real z[LaneCount];
   const auto scale = typename LanesOf<Real>::Type(Real(1)) / (t.BC + t.CA + t.AB);
   Store(z, Blend(t.CA * scale, t.AB * scale, corners[0].Z, corners[1].Z, corners[2].Z));
   for (int lane = 0; bits != 0; ++lane, bits >>= 1)

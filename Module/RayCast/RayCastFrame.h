@@ -120,22 +120,28 @@ TETRALUX_INLINE V Blend(V wb, V wc, V a, V b, V c)
   return Fma(wb, b - a, Fma(wc, c - a, a));
 }
 
-/// The rays of eight pixels, four in a row and two rows, in the world.
+/// Where a lane's pixel is in its packet: row by row.
+///@{
+constexpr int GetLaneColumn(int lane) { return lane % PacketWidth; }
+constexpr int GetLaneRow(int lane) { return lane / PacketWidth; }
+///@}
+
+/// The rays of a packet in the world.
 struct WorldRays
 {
   Double8 Origin[3], Direction[3]; ///< directions of length 1
 };
 
-/// The rays of the pixels from (px, py).
+/// The rays of the packet whose first pixel is (px, py).
 TETRALUX_INLINE WorldRays MakeWorldRays(const RayGrid& grid, int px, int py)
 {
-  double laneX[Width], laneY[Width];
-  for (int i = 0; i < Width; ++i)
+  double laneX[LaneCount], laneY[LaneCount];
+  for (int i = 0; i < LaneCount; ++i)
   {
-    const int column = i % 4;
-    const int row = i / 4;
-    laneX[i] = px + column;
-    laneY[i] = py + row;
+    const int x = px + GetLaneColumn(i);
+    const int y = py + GetLaneRow(i);
+    laneX[i] = x;
+    laneY[i] = y;
   }
   const Double8 x = LoadDouble8(laneX);
   const Double8 y = LoadDouble8(laneY);

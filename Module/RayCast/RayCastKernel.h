@@ -11,6 +11,7 @@
 #include "Optics/OpticalModel.h"
 #include "Optics/SurfaceShading.h"
 #include "PreIntegration/PreIntegrationTable.h"
+#include "Simd/LaneCount.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 #include "Walk/WalkMesh.h"
@@ -20,6 +21,14 @@
 
 namespace tetralux
 {
+
+/// Pixels of a packet, whose rays are cast together, one in each lane. Nearly square, so that the
+/// rays stay in the same cells for long.
+///@{
+constexpr int PacketWidth = 4;
+constexpr int PacketHeight = LaneCount / PacketWidth;
+///@}
+static_assert(PacketWidth * PacketHeight == LaneCount, "a ray for each lane");
 
 /// A pre-integration table with texels in single precision.
 struct KernelTable
@@ -93,7 +102,7 @@ struct CrossingBuffer
 struct KernelCounts
 {
   std::int64_t Segments = 0; ///< cells walked through, over all rays
-  std::int64_t Steps = 0;    ///< steps of packets; Segments / (8 Steps) is the share of busy lanes
+  std::int64_t Steps = 0;    ///< steps of packets, each of LaneCount lanes
   std::int64_t Paths = 0;    ///< entries into the mesh
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cell-to-cell ray casting of packets of eight rays (Garrity 1990; Weiler et al. 2003, section 3),
+// Cell-to-cell ray casting of packets of rays (Garrity 1990; Weiler et al. 2003, section 3),
 // by two-dimensional edge tests that carry the entry face along.
 //
 // Each ray sees the mesh in a frame of its own: x and y across the ray, z along it, the ray at
@@ -25,7 +25,9 @@
 // the nearest one strikes off the one where the walk ends, and the next one left is a re-entry.
 
 #include "RayCast/RayCastCrossings.h"
+#include "RayCast/RayCastIsosurfaces.h"
 #include "RayCast/RayCastLimits.h"
+#include "RayCast/RayCastMaximum.h"
 #include "RayCast/RayCastModels.h"
 #include "RayCast/RayCastTable.h"
 
@@ -37,7 +39,7 @@ namespace TETRALUX_ISA
 {
 namespace
 {
-/// Eight rays of neighbouring pixels on their way through the mesh.
+/// Rays of neighbouring pixels on their way through the mesh.
 ///
 /// The rays that are in the mesh take one cell each in every step.
 template <class Real, class Model, bool CellData>
@@ -59,9 +61,10 @@ public:
     , Limits(LimitRays(in, x, y, World, Ray.Start))
     , Gathered(World, Ray.Start)
   {
-    for (int i = 0; i < Width; ++i)
+    for (int i = 0; i < LaneCount; ++i)
     {
-      this->Inside |= static_cast<unsigned>(x + i % 4 < x1 && y + i / 4 < y1) << i;
+      this->Inside |= static_cast<unsigned>(x + GetLaneColumn(i) < x1 && y + GetLaneRow(i) < y1)
+        << i;
     }
   }
 
@@ -118,7 +121,7 @@ private:
     this->WB = wb;
     Replace(this->A, dropA, p);
     Replace(this->B, dropB, p);
-    Replace(this->C, AndNot(MaskFromBits(0xff), keepC), p);
+    Replace(this->C, AndNot(MaskFromBits(AllLanes), keepC), p);
   }
 
   /// The integral over the cells of the last Walk, and what follows for rays at their end.
@@ -227,7 +230,7 @@ private:
       {
       }
       unsigned hit = 0;
-      for (int i = 0; i < Width; ++i)
+      for (int i = 0; i < LaneCount; ++i)
       {
         this->Cursor[i] = 0;
         hit |= static_cast<unsigned>(this->Crossings.Count[i] > 0) << i;
@@ -283,8 +286,8 @@ private:
   /// Puts the rays of some lanes at their next entry into the mesh, if they have one.
   void Enter(unsigned lanes)
   {
-    std::int32_t cells[Width] = {}, opposites[Width] = {}, corners[3][Width] = {};
-    for (int lane = 0; lane < Width; ++lane)
+    std::int32_t cells[LaneCount] = {}, opposites[LaneCount] = {}, corners[3][LaneCount] = {};
+    for (int lane = 0; lane < LaneCount; ++lane)
     {
       if (!((lanes >> lane) & 1u))
       {
@@ -332,12 +335,12 @@ private:
   {
     const unsigned leaving = this->Running & outsideBits & ~doneBits;
     this->Running &= ~(doneBits | outsideBits);
-    std::int32_t exits[Width];
+    std::int32_t exits[LaneCount];
     Store(exits, this->Cell);
     // Lanes at rest go on from cell to cell without effect; what they load must exist.
     this->Cell = Select(outside, Int8(0), this->Cell);
     this->Point = Select(outside, Int8(0), this->Point);
-    for (int lane = 0; lane < Width; ++lane)
+    for (int lane = 0; lane < LaneCount; ++lane)
     {
       if (!((leaving >> lane) & 1u))
       {
@@ -367,20 +370,20 @@ private:
   void WritePixels()
   {
     ColorsOfLanes colors;
-    Real first[Width];
-    double start[Width];
+    Real first[LaneCount];
+    double start[LaneCount];
     this->Gathered.GetColors(this->In, colors);
     Store(first, this->Gathered.First.Distance);
     Store(start, this->Ray.Start);
-    for (int i = 0; i < Width; ++i)
+    for (int i = 0; i < LaneCount; ++i)
     {
       if (!((this->Inside >> i) & 1u))
       {
         continue;
       }
       const std::int64_t pixel =
-        static_cast<std::int64_t>(this->PixelY + i / 4) * this->In.Grid->Width + this->PixelX +
-        i % 4;
+        static_cast<std::int64_t>(this->PixelY + GetLaneRow(i)) * this->In.Grid->Width +
+        this->PixelX + GetLaneColumn(i);
       float* color = this->In.Colors + 4 * pixel;
       for (int c = 0; c < 4; ++c)
       {
@@ -404,9 +407,9 @@ private:
   Rays<Real> Ray;
   Intervals Limits;
   int Part = 0; ///< of the limits
-  double FarOf[Width];
+  double FarOf[LaneCount];
   PacketCrossings Crossings;
-  int Cursor[Width]; ///< first crossing of each ray that may still be an entry
+  int Cursor[LaneCount]; ///< first crossing of each ray that may still be an entry
 
   // Where the rays are: in a cell, on the triangle A B C through which they entered it.
   V Near, Far; ///< ends of the part
@@ -423,9 +426,9 @@ template <class Real, class Model, bool CellData>
 void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuffer& buffer,
   KernelCounts& counts)
 {
-  for (int y = y0; y < y1; y += 2)
+  for (int y = y0; y < y1; y += PacketHeight)
   {
-    for (int x = x0; x < x1; x += 4)
+    for (int x = x0; x < x1; x += PacketWidth)
     {
       Packet<Real, Model, CellData>(in, x, y, x1, y1, buffer, counts).Cast();
     }

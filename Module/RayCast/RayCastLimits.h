@@ -114,11 +114,11 @@ TETRALUX_INLINE Intervals LimitRays(
   }
   if (in.MaximumDistances)
   {
-    double farthest[Width];
-    for (int i = 0; i < Width; ++i)
+    double farthest[LaneCount];
+    for (int i = 0; i < LaneCount; ++i)
     {
-      const int x = px + i % 4;
-      const int y = py + i / 4;
+      const int x = px + GetLaneColumn(i);
+      const int y = py + GetLaneRow(i);
       farthest[i] = x < in.Grid->Width && y < in.Grid->Height
         ? static_cast<double>(
             in.MaximumDistances[static_cast<std::int64_t>(y) * in.Grid->Width + x])
@@ -129,7 +129,7 @@ TETRALUX_INLINE Intervals LimitRays(
   result.Count = 1;
   if (in.CroppingPlanes)
   {
-    double o[3][Width], d[3][Width], b[Width], e[Width];
+    double o[3][LaneCount], d[3][LaneCount], b[LaneCount], e[LaneCount];
     for (int a = 0; a < 3; ++a)
     {
       const double* row = in.Grid->MeshFromWorld[a];
@@ -139,9 +139,9 @@ TETRALUX_INLINE Intervals LimitRays(
     }
     Store(b, begin);
     Store(e, end);
-    double begins[MaximumIntervals][Width], ends[MaximumIntervals][Width];
+    double begins[MaximumIntervals][LaneCount], ends[MaximumIntervals][LaneCount];
     result.Count = 0;
-    for (int i = 0; i < Width; ++i)
+    for (int i = 0; i < LaneCount; ++i)
     {
       const double origin1[3] = { o[0][i], o[1][i], o[2][i] };
       const double direction1[3] = { d[0][i], d[1][i], d[2][i] };

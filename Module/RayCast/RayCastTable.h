@@ -5,7 +5,7 @@
 // The density-emitter model by lookups in a pre-integration table (Weiler et al. 2003, section 3.3),
 // interpolated as PreIntegrationTable::Lookup defines it.
 
-#include "RayCast/RayCastModels.h"
+#include "RayCast/RayCastLight.h"
 
 #include <array>
 
@@ -34,23 +34,15 @@ struct TexelPlace
 
 /// Scalars at points; in a cell of constant scalar the closed form costs less than any lookup.
 template <class Real, class RadianceT>
-class TableLookup
+class TableLookup : public GatheredModel<Real, RadianceT, TableLookup<Real, RadianceT>>
 {
 public:
   using V = LanesOfReal<Real>;
-  static constexpr bool NeedsLength = true;
-  FirstContribution<Real> First;
+  using GatheredModel<Real, RadianceT, TableLookup>::GatheredModel;
 
-  TableLookup(const WorldRays& rays, Double8 start)
-    : Gathered(rays, start)
-  {
-  }
-
-  TETRALUX_INLINE void AddPoints(
+  TETRALUX_INLINE void AddSegment(
     const KernelInput& in, Mask8 valid, Int8 cell, V z0, V s0, V z1, V s1)
   {
-    const V ds = s1 - s0;
-    valid = valid & (ds == ds);
     if (!Any(valid))
     {
       return;
@@ -76,10 +68,6 @@ public:
     this->Gathered.Add(contributes, rgba[0], rgba[1], rgba[2], rgba[3]);
     this->First.Add(contributes, z0);
   }
-
-  TETRALUX_INLINE Mask8 IsDone(const KernelInput& in) const { return this->Gathered.IsDone(in); }
-
-  void GetColors(const KernelInput&, ColorsOfLanes& colors) { this->Gathered.GetColors(colors); }
 
 private:
   /// Coordinates along the scalars; remembers the interval of each ray's last scalar, which the next
@@ -147,8 +135,7 @@ private:
     return Mix(share, a, b);
   }
 
-  RadianceT Gathered;
-  Int8 Interval = 0;
+  Int8 Interval = 0; ///< of the axis, where each ray's last scalar was
 };
 
 template <class Real>

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCast/RayCaster.h"
 
+#include "Base/ParallelTiles.h"
 #include "Integral/SegmentWeightError.h"
+#include "RayCast/KernelInput.h"
 #include "RayCast/RayCastKernel.h"
 #include "Scene/IntegratorChoice.h"
+#include "Simd/InstructionSet.h"
 #include "View/MeshToWorld.h"
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <stdexcept>
-#include <thread>
+#include <vector>
 
 #include <omp.h>
 
@@ -29,55 +27,17 @@ constexpr int TileSize = 16;
 
 constexpr int InitialCrossings = 32;
 
-/// Between two reports of progress: short for a user who wants to abort, long for the work.
-constexpr std::chrono::milliseconds ReportInterval(5);
-
-/// Rounding of distances along rays, in radii of the mesh: sixteen times that of a coordinate.
-constexpr double SingleDistanceRounding = 1. / (1 << 20);
-constexpr double DoubleDistanceRounding = SingleDistanceRounding / (1 << 29);
-
-struct InstructionSet
-{
-  const char* Name;
-  RayCastKernels Kernels;
-};
-
-/// The best instruction set of this processor.
-InstructionSet GetInstructionSet(bool portable)
+RayCastKernels GetKernels(InstructionSet set)
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2 && !portable)
+  if (set == InstructionSet::Avx2)
   {
-    return { "AVX2", GetRayCastKernelsAvx2() };
+    return GetRayCastKernelsAvx2();
   }
 #endif
-  static_cast<void>(portable);
-  return { "generic", GetRayCastKernelsGeneric() };
+  static_cast<void>(set);
+  return GetRayCastKernelsGeneric();
 }
-
-/// Isosurfaces as the kernels read them.
-struct SurfaceTables
-{
-  std::vector<std::array<float, 2>> Neighbors;
-  std::vector<float> Colors;
-
-  SurfaceTables(const std::vector<Isosurface>& surfaces, const ScalarMap& map)
-  {
-    // Beyond all scalars of the tables, which are bounded.
-    float below = -std::numeric_limits<float>::infinity();
-    for (const Isosurface& surface : surfaces)
-    {
-      const float value = static_cast<float>(map.Map(surface.Value));
-      this->Neighbors.push_back({ below, value });
-      below = value;
-      this->Colors.insert(this->Colors.end(),
-        { surface.Color[0], surface.Color[1], surface.Color[2],
-          std::clamp(surface.Opacity, 0.f, 1.f) });
-    }
-    this->Neighbors.push_back({ below, std::numeric_limits<float>::infinity() });
-  }
-};
 
 /// A CrossingBuffer that owns its memory.
 struct OwningCrossingBuffer : CrossingBuffer
@@ -90,13 +50,15 @@ struct OwningCrossingBuffer : CrossingBuffer
     this->Capacity = InitialCrossings / 2;
     Double(*this);
   }
+  // Crossings points into Storage.
+  OwningCrossingBuffer(const OwningCrossingBuffer&) = delete;
+  OwningCrossingBuffer& operator=(const OwningCrossingBuffer&) = delete;
 
   static void Double(CrossingBuffer& buffer)
   {
     auto& self = static_cast<OwningCrossingBuffer&>(buffer);
     self.Capacity *= 2;
-    constexpr std::size_t Lanes = 8;
-    self.Storage.resize(Lanes * static_cast<std::size_t>(self.Capacity));
+    self.Storage.resize(LaneCount * static_cast<std::size_t>(self.Capacity));
     self.Crossings = self.Storage.data();
   }
 };
@@ -130,6 +92,88 @@ const WalkTables* ChooseTables(
   return &mesh.GetTables();
 }
 
+/// Chooses the integrator, precision and walk of a picture, and prepares what they need of the scene;
+/// no Tables after an abort. Tells statistics what was chosen, and the errors that follow from it.
+CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOptions& options,
+  RayCastStatistics& statistics)
+{
+  scene.Prepare({});
+  CastChoices choices;
+  choices.CellData = scene.Mesh.HasCellScalars();
+  choices.Method = ChooseIntegrator(scene, options.Shaded);
+  const bool tabulated = IsTabulated(choices.Method);
+  const ErrorBudget budget =
+    MakeErrorBudget(options.MaximumError, { EndsEarly(choices.Method), tabulated, false });
+  choices.WorldRadius =
+    scene.Mesh.GetMesh()->GetRadius() * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+  const double geometryError = scene.EstimateGeometryError(choices.WorldRadius);
+  choices.DoublePrecision = options.Arithmetic == Precision::Double ||
+    !std::isfinite(geometryError) ||
+    (options.Arithmetic == Precision::Automatic && geometryError > budget.Geometry);
+  choices.TerminationError = budget.Termination;
+  choices.SmoothShading = options.Shaded && options.SmoothShading && !choices.CellData;
+  statistics.Integration = choices.Method;
+  statistics.Budget = budget;
+  statistics.DoublePrecision = choices.DoublePrecision;
+  statistics.TerminationError = choices.TerminationError;
+  statistics.IntegralError = HasWeights(choices.Method) ? SegmentWeightError : 0;
+  statistics.GeometryError = choices.DoublePrecision ? 0 : geometryError;
+  statistics.TableError = tabulated ? scene.Optics.GetTableError() : 0;
+  choices.Tables = ChooseTables(scene, options, statistics);
+  if (choices.Tables)
+  {
+    SceneNeeds needs;
+    needs.SinglePoints = !choices.DoublePrecision;
+    needs.DoublePoints = choices.DoublePrecision;
+    needs.Gradients = choices.SmoothShading;
+    needs.FloatTexels = tabulated;
+    scene.Prepare(needs);
+  }
+  return choices;
+}
+
+RayCastKernel ChooseKernel(InstructionSet set, const CastChoices& choices)
+{
+  const RayCastKernels all = GetKernels(set);
+  const RayCastKernels::Pair& pair = choices.CellData
+    ? all.Cells[static_cast<int>(choices.Method)]
+    : all.Points[static_cast<int>(choices.Method)];
+  return choices.DoublePrecision ? pair.Double : pair.Single;
+}
+
+/// What a thread writes while it casts; on cache lines of its own.
+struct alignas(64) ThreadMemory
+{
+  OwningCrossingBuffer Crossings;
+  KernelCounts Counts;
+};
+
+/// Adds to statistics what the rays met, and the error that follows from it.
+void Summarize(const std::vector<ThreadMemory>& threads, RayCastStatistics& statistics)
+{
+  KernelCounts counts;
+  for (const ThreadMemory& thread : threads)
+  {
+    counts.Segments += thread.Counts.Segments;
+    counts.Steps += thread.Counts.Steps;
+    counts.Paths += thread.Counts.Paths;
+  }
+  statistics.NumberOfThreads = static_cast<int>(threads.size());
+  statistics.Segments = counts.Segments;
+  statistics.Paths = counts.Paths;
+  if (counts.Paths > 0)
+  {
+    // A sum is rounded once for each segment.
+    const double segments = static_cast<double>(counts.Segments) / counts.Paths;
+    statistics.SummationError = segments * std::numeric_limits<float>::epsilon() / 2;
+  }
+  if (counts.Steps > 0)
+  {
+    statistics.LaneUse =
+      static_cast<double>(counts.Segments) / (LaneCount * static_cast<double>(counts.Steps));
+  }
+}
+
 } // namespace
 
 RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLimits& limits,
@@ -142,207 +186,38 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   }
   scene.CheckComplete();
 
-  scene.Prepare({});
-
   RayCastStatistics statistics;
-  const WalkMesh& mesh = *scene.Mesh.GetMesh();
-  const bool cellData = scene.Mesh.HasCellScalars();
-  const Integrator integrator = ChooseIntegrator(scene, options.Shaded);
-  const bool lit = IsLit(integrator);
-  const bool tabulated = IsTabulated(integrator);
-  const ErrorBudget budget =
-    MakeErrorBudget(options.MaximumError, { EndsEarly(integrator), tabulated, false });
-  const double worldRadius = mesh.GetRadius() * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
-  const double geometryError = scene.EstimateGeometryError(worldRadius);
-  statistics.Integration = integrator;
-  statistics.Budget = budget;
-  statistics.DoublePrecision = options.Arithmetic == Precision::Double ||
-    !std::isfinite(geometryError) ||
-    (options.Arithmetic == Precision::Automatic && geometryError > budget.Geometry);
-  statistics.TerminationError = budget.Termination;
-  statistics.IntegralError = HasWeights(integrator) ? SegmentWeightError : 0;
-  statistics.GeometryError = statistics.DoublePrecision ? 0 : geometryError;
-  statistics.TableError = tabulated ? scene.Optics.GetTableError() : 0;
-  statistics.ErrorEstimate = statistics.TerminationError + statistics.IntegralError +
-    statistics.TableError + statistics.GeometryError;
+  const CastChoices choices = ChooseCast(scene, grid, options, statistics);
+  if (choices.Tables)
+  {
+    OwningKernelInput in;
+    FillKernelInput(scene, grid, limits, options, choices, in);
+    in.Colors = colors.data();
+    in.Depths = depths.data();
 
-  const WalkTables* chosen = ChooseTables(scene, options, statistics);
-  if (!chosen)
+    const InstructionSet set =
+      options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();
+    const RayCastKernel kernel = ChooseKernel(set, choices);
+    std::vector<ThreadMemory> threads(
+      options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads());
+    const TileGrid tiles{ grid.Width, grid.Height, TileSize };
+    statistics.Aborted = !ForEachTile(tiles, static_cast<int>(threads.size()), options.Progress,
+      [&](const Tile& tile, int thread)
+      {
+        ThreadMemory& memory = threads[thread];
+        kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, memory.Crossings, memory.Counts);
+      });
+
+    statistics.InstructionSet = GetName(set);
+    statistics.Rays = static_cast<std::int64_t>(pixels);
+    Summarize(threads, statistics);
+  }
+  else
   {
     statistics.Aborted = true;
-    return statistics;
   }
-  const WalkTables& tables = *chosen;
-  const bool smooth = options.Shaded && options.SmoothShading && !cellData;
-  SceneNeeds needs;
-  needs.SinglePoints = !statistics.DoublePrecision;
-  needs.DoublePoints = statistics.DoublePrecision;
-  needs.Gradients = smooth;
-  needs.FloatTexels = tabulated;
-  scene.Prepare(needs);
-
-  KernelInput in{};
-  in.Points = statistics.DoublePrecision ? static_cast<const void*>(scene.GetPoints<double>())
-                                         : static_cast<const void*>(scene.GetPoints<float>());
-  if (cellData)
-  {
-    in.CellValues = scene.GetCellValues().data();
-  }
-  in.Faces = tables.Faces.data();
-  in.Entries = tables.Entries.data();
-  in.Nodes = tables.Bvh.Nodes.empty() ? nullptr : tables.Bvh.Nodes.data();
-  in.Triangles = tables.Bvh.Triangles.data();
-  in.NumberOfCells = mesh.GetNumberOfCells();
-  std::copy_n(mesh.GetCenter(), 3, in.Center);
-  in.Radius = mesh.GetRadius();
-  const IntervalTable& intervals = scene.Optics.GetIntervalTable();
-  in.Intervals = intervals.Intervals.data();
-  in.NumberOfIntervals = static_cast<int>(intervals.Intervals.size());
-  const SurfaceTables surfaces(integrator == Integrator::Isosurfaces ? scene.Optics.GetIsosurfaces()
-                                                                     : std::vector<Isosurface>(),
-    scene.GetScalarMap());
-  in.SurfaceNeighbors = surfaces.Neighbors.data();
-  in.SurfaceColors = surfaces.Colors.data();
-  const SurfaceShading shading{ &mesh.GetMesh(), scene.Mesh.GetScalars().data(),
-    smooth ? scene.Mesh.GetPointGradients().data() : nullptr, grid.MeshFromWorld, options.Lights,
-    options.Surface };
-  in.Shading = options.Shaded ? &shading : nullptr;
-  in.DistanceRounding =
-    worldRadius * (statistics.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);
-  KernelTable table{};
-  if (tabulated)
-  {
-    const PreIntegrationTable& t = *scene.Optics.GetTable();
-    table.Texels = scene.Optics.GetFloatTexels();
-    table.Axis = t.Scalars.Intervals.data();
-    table.AxisSize = static_cast<int>(t.Scalars.Intervals.size());
-    table.ScalarSize = t.Scalars.GetSize();
-    table.LengthSize = t.Lengths.Size;
-    table.Logarithmic = t.Lengths.Scale == LengthScale::Logarithmic;
-    table.StepsPerDoubling = t.Lengths.StepsPerDoubling;
-    table.InverseDelta = t.Lengths.InverseDelta;
-  }
-  in.Table = &table;
-  in.Grid = &grid;
-  in.Planes = limits.Planes.empty() ? nullptr : &limits.Planes.front();
-  in.NumberOfPlanes = static_cast<int>(limits.Planes.size());
-  in.CroppingPlanes = limits.Cropping ? limits.CroppingPlanes : nullptr;
-  in.CroppingFlags = limits.CroppingFlags;
-  in.MaximumDistances = limits.MaximumDistances;
-  const double behind = statistics.TerminationError /
-    (lit ? FindLargestBrightness(options.Lights, options.Surface) : 1);
-  in.MaximumOpacity = static_cast<float>(1 - behind);
-  in.MaximumDepth = static_cast<float>(-std::log(statistics.TerminationError));
-  if (scene.Optics.GetModel() == OpticalModel::EmissionAbsorption && scene.GetPlan().ConstantColor)
-  {
-    std::copy_n(scene.GetPlan().Color, 3, in.Color);
-  }
-  in.Colors = colors.data();
-  in.Depths = depths.data();
-
-  const InstructionSet set = GetInstructionSet(options.PortableKernels);
-  const RayCastKernels::Pair& kernels = cellData ? set.Kernels.Cells[static_cast<int>(integrator)]
-                                                 : set.Kernels.Points[static_cast<int>(integrator)];
-  const RayCastKernel kernel = statistics.DoublePrecision ? kernels.Double : kernels.Single;
-
-  const int tilesX = (grid.Width + TileSize - 1) / TileSize;
-  const int tilesY = (grid.Height + TileSize - 1) / TileSize;
-  const int tiles = tilesX * tilesY;
-  const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
-  std::atomic<bool> stop{ false };
-  std::atomic<int> tilesDone{ 0 };
-  std::exception_ptr failure;
-  KernelCounts counts;
-
-  // By the calling thread only, and not for every tile: who is asked may look at a window's events.
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point nextReport = Clock::now();
-  const auto report = [&]()
-  {
-    if (omp_get_thread_num() != 0 || !options.Progress || Clock::now() < nextReport)
-    {
-      return;
-    }
-    nextReport = Clock::now() + ReportInterval;
-    if (!options.Progress(static_cast<double>(tilesDone) / tiles))
-    {
-      statistics.Aborted = true;
-      stop = true;
-    }
-  };
-
-#pragma omp parallel num_threads(threads)
-  {
-    KernelCounts own;
-    try
-    {
-      OwningCrossingBuffer buffer;
-#pragma omp for schedule(dynamic) nowait
-      for (int tile = 0; tile < tiles; ++tile)
-      {
-        if (stop)
-        {
-          continue;
-        }
-        try
-        {
-          const int x = tile % tilesX * TileSize;
-          const int y = tile / tilesX * TileSize;
-          kernel(in, x, y, std::min(x + TileSize, grid.Width), std::min(y + TileSize, grid.Height),
-            buffer, own);
-          ++tilesDone;
-          report();
-        }
-        catch (...)
-        {
-#pragma omp critical(tetralux_cast_failure)
-          failure = std::current_exception();
-          stop = true;
-        }
-      }
-      // Tiles go to whoever is free; the calling thread stays to be asked while others finish.
-      while (omp_get_thread_num() == 0 && options.Progress && !stop && tilesDone < tiles)
-      {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        report();
-      }
-    }
-    catch (...)
-    {
-#pragma omp critical(tetralux_cast_failure)
-      failure = std::current_exception();
-      stop = true;
-    }
-#pragma omp critical(tetralux_cast_counts)
-    {
-      counts.Segments += own.Segments;
-      counts.Steps += own.Steps;
-      counts.Paths += own.Paths;
-    }
-  }
-  if (failure)
-  {
-    std::rethrow_exception(failure);
-  }
-  if (options.Progress && !statistics.Aborted)
-  {
-    options.Progress(1); // too late to abort
-  }
-  statistics.InstructionSet = set.Name;
-  statistics.NumberOfThreads = threads;
-  statistics.Rays = static_cast<std::int64_t>(pixels);
-  statistics.Segments = counts.Segments;
-  statistics.Paths = counts.Paths;
-  if (counts.Paths > 0)
-  {
-    // A sum is rounded once for each segment.
-    const double segments = static_cast<double>(counts.Segments) / counts.Paths;
-    statistics.SummationError = segments * std::numeric_limits<float>::epsilon() / 2;
-    statistics.ErrorEstimate += statistics.SummationError;
-  }
-  statistics.LaneUse = counts.Steps
-    ? static_cast<double>(counts.Segments) / (8. * static_cast<double>(counts.Steps))
-    : 0;
+  statistics.ErrorEstimate = statistics.TerminationError + statistics.IntegralError +
+    statistics.TableError + statistics.GeometryError + statistics.SummationError;
   return statistics;
 }
 

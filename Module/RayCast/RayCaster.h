@@ -90,7 +90,7 @@ struct RayCastStatistics
                                      ///< of pixels where a ray grazes a surface or a step
 };
 
-/// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of eight rays,
+/// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of rays,
 /// tiles of the image over OpenMP threads. The picture does not depend on the number of threads.
 ///
 /// Casts all rays of the grid. Throws std::invalid_argument where the scene is not complete

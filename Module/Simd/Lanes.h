@@ -2,19 +2,63 @@
 #ifndef tetralux_Lanes_h
 #define tetralux_Lanes_h
 
-// Eight lanes of float, double or int32: what the packet kernels compute with. One implementation
-// for AVX2 with FMA, one of plain loops for every other processor. Each lives in a namespace of its
-// own (TETRALUX_ISA), so that object files compiled for different processors can be linked into one
-// library; which of them runs is chosen once, at start-up (see RayCaster.cxx).
+// Vectors of LaneCount floats, doubles or 32-bit integers: what the packet kernels compute with.
+// This header chooses an implementation by the options of the compiler: LanesAvx2.h for AVX2 with
+// FMA, LanesGeneric.h for every other processor. Each lives in a namespace of its own
+// (TETRALUX_ISA), so that one library can hold the kernels of several instruction sets.
+// InstructionSet.h tells which of them to call.
 //
-// No operation mixes lanes, so a ray's result does not depend on the rays beside it.
+// Types
+//
+//   Int8, Float8, Double8   vectors; a scalar converts to a vector with that value in each lane
+//   Mask8                   one truth value a lane
+//   LanesOf<Real>::Type     Float8 or Double8
+//
+// Operations. No operation mixes lanes, so a ray's result does not depend on the rays beside it.
+// Both implementations return the same bits, unless it is said here that they don't. A result that
+// is not a number has unspecified sign and payload.
+//
+//   m & n, m | n       of masks
+//   AndNot(m, n)       m and not n
+//   Bits(m)            one bit a lane, the first lane's lowest
+//   MaskFromBits(b)    the mask of these bits
+//   Any(m)             whether any lane is set
+//   a + b, a - b       of Int8, Float8 and Double8; integers must not overflow
+//   a * b              of the same
+//   a / b, Sqrt(a)     of Float8 and Double8, rounded as IEEE 754 says
+//   Abs(a)             of Float8 and Double8: clears the sign, that of a zero too
+//   Fma(a, b, c)       a * b + c. LanesAvx2.h rounds once. LanesGeneric.h rounds the product too,
+//                      since a fused one without hardware for it is a slow call.
+//   Min(a, b)          a < b ? a : b. So b if either is not a number, and b of two zeros.
+//   Max(a, b)          a > b ? a : b, with the same consequences
+//   a < b, a <= b      of Float8 and Double8; false if either is not a number
+//   a == b             of all; false if either is not a number
+//   a > b              of Int8
+//   Select(m, a, b)    a where the mask is set, else b; bits are copied
+//   Keep(m, a)         a where the mask is set, else +0; bits are copied
+//   Ones(m)            1 where the mask is set, else 0
+//   ShiftLeft(a, n)    of Int8, by n bits, as of an unsigned number
+//   RoundToInt(a)      the nearest integer, ties to even. Unspecified where a is not a number, and
+//                      where Int8 does not hold it.
+//   ToFloat, ToDouble  conversions, rounded as IEEE 754 says
+//   FromBits, ToBits   an integer as the float with the same bits, and back
+//   DifferenceOfProducts(a, b, c, d)
+//                      a b - c d with an error below 1.5 units in the last place. Its sign is exact
+//                      where no product underflows. The two implementations may round differently.
+//                      Unspecified: the sign of a zero, and the result where a product overflows or
+//                      a factor is not finite.
+//   LoadFloat8, LoadDouble8, LoadInt8, Store
+//                      LaneCount consecutive values, at any alignment
+//   GatherRows         four consecutive values from base + 4 * index of each lane, transposed. Rows
+//                      are aligned to their size. Indices are in 0..2^29 - 1.
+//   GatherPairs        two consecutive integers from base + 2 * index of each lane, transposed.
+//                      Indices are at least 0.
+//   Lane(a, i)         one lane
+//   Polynomial(x, c)   Horner's scheme, with Fma
 
-#include <cmath>
-#include <cstdint>
-#include <cstring>
+#include "Simd/LaneCount.h"
 
 #if defined(__AVX2__) && defined(__FMA__)
-#include <immintrin.h>
 #define TETRALUX_ISA isa_avx2
 #define TETRALUX_AVX2 1
 #else
@@ -22,8 +66,8 @@
 #define TETRALUX_AVX2 0
 #endif
 
-// Forced only where it counts: the loops over lanes of the kernels for any processor, and what the
-// sanitizers add, take minutes to compile when they are all in one function.
+// Forced in the AVX2 kernels only. The loops over lanes of the other kernels, and what the
+// sanitizers add, take minutes to compile if they are all in one function.
 #if defined(__GNUC__) && TETRALUX_AVX2 && !defined(__SANITIZE_ADDRESS__)
 #define TETRALUX_INLINE inline __attribute__((always_inline))
 #else
@@ -35,575 +79,18 @@
 #define TETRALUX_NOINLINE
 #endif
 
+#if TETRALUX_AVX2
+#include "Simd/LanesAvx2.h"
+#else
+#include "Simd/LanesGeneric.h"
+#endif
+
 namespace tetralux
 {
 namespace TETRALUX_ISA
 {
 
-/// Lanes of a packet.
-constexpr int Width = 8;
-
-#if TETRALUX_AVX2
-
-struct Mask8
-{
-  __m256i v; // all bits of a lane set or clear
-};
-struct Int8
-{
-  __m256i v;
-  Int8() = default;
-  TETRALUX_INLINE explicit Int8(__m256i x)
-    : v(x)
-  {
-  }
-  TETRALUX_INLINE Int8(std::int32_t x)
-    : v(_mm256_set1_epi32(x))
-  {
-  }
-};
-struct Float8
-{
-  __m256 v;
-  Float8() = default;
-  TETRALUX_INLINE explicit Float8(__m256 x)
-    : v(x)
-  {
-  }
-  TETRALUX_INLINE Float8(float x)
-    : v(_mm256_set1_ps(x))
-  {
-  }
-};
-struct Double8
-{
-  __m256d lo, hi;
-  Double8() = default;
-  TETRALUX_INLINE Double8(__m256d a, __m256d b)
-    : lo(a)
-    , hi(b)
-  {
-  }
-  TETRALUX_INLINE Double8(double x)
-    : lo(_mm256_set1_pd(x))
-    , hi(lo)
-  {
-  }
-};
-
-// Masks.
-TETRALUX_INLINE Mask8 operator&(Mask8 a, Mask8 b) { return { _mm256_and_si256(a.v, b.v) }; }
-TETRALUX_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return { _mm256_or_si256(a.v, b.v) }; }
-TETRALUX_INLINE Mask8 AndNot(Mask8 a, Mask8 b) // a and not b
-{
-  return { _mm256_andnot_si256(b.v, a.v) };
-}
-TETRALUX_INLINE unsigned Bits(Mask8 m)
-{
-  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(m.v)));
-}
-TETRALUX_INLINE Mask8 MaskFromBits(unsigned bits)
-{
-  const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-  return { _mm256_cmpeq_epi32(
-    _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), lane), lane) };
-}
-TETRALUX_INLINE bool Any(Mask8 m) { return !_mm256_testz_si256(m.v, m.v); }
-
-// Integers.
-TETRALUX_INLINE Int8 operator+(Int8 a, Int8 b) { return Int8(_mm256_add_epi32(a.v, b.v)); }
-TETRALUX_INLINE Int8 operator-(Int8 a, Int8 b) { return Int8(_mm256_sub_epi32(a.v, b.v)); }
-TETRALUX_INLINE Mask8 operator>(Int8 a, Int8 b) { return { _mm256_cmpgt_epi32(a.v, b.v) }; }
-TETRALUX_INLINE Mask8 operator==(Int8 a, Int8 b) { return { _mm256_cmpeq_epi32(a.v, b.v) }; }
-TETRALUX_INLINE Int8 operator*(Int8 a, Int8 b) { return Int8(_mm256_mullo_epi32(a.v, b.v)); }
-TETRALUX_INLINE Int8 ShiftLeft(Int8 a, int bits) { return Int8(_mm256_slli_epi32(a.v, bits)); }
-/// 1 where the mask is set, else 0.
-TETRALUX_INLINE Int8 Ones(Mask8 m) { return Int8(_mm256_srli_epi32(m.v, 31)); }
-TETRALUX_INLINE Int8 Select(Mask8 m, Int8 a, Int8 b)
-{
-  return Int8(_mm256_blendv_epi8(b.v, a.v, m.v));
-}
-TETRALUX_INLINE void Store(std::int32_t* p, Int8 a)
-{
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v);
-}
-TETRALUX_INLINE Int8 LoadInt8(const std::int32_t* p)
-{
-  return Int8(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
-}
-
-// Single precision.
-TETRALUX_INLINE Float8 operator+(Float8 a, Float8 b) { return Float8(_mm256_add_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 operator-(Float8 a, Float8 b) { return Float8(_mm256_sub_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 operator*(Float8 a, Float8 b) { return Float8(_mm256_mul_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 operator/(Float8 a, Float8 b) { return Float8(_mm256_div_ps(a.v, b.v)); }
-/// a * b + c, rounded once.
-TETRALUX_INLINE Float8 Fma(Float8 a, Float8 b, Float8 c)
-{
-  return Float8(_mm256_fmadd_ps(a.v, b.v, c.v));
-}
-TETRALUX_INLINE Float8 Min(Float8 a, Float8 b) { return Float8(_mm256_min_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 Max(Float8 a, Float8 b) { return Float8(_mm256_max_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 Abs(Float8 a) { return Float8(_mm256_andnot_ps(_mm256_set1_ps(-0.f), a.v)); }
-TETRALUX_INLINE Float8 Sqrt(Float8 a) { return Float8(_mm256_sqrt_ps(a.v)); }
-TETRALUX_INLINE Mask8 operator<(Float8 a, Float8 b)
-{
-  return { _mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)) };
-}
-TETRALUX_INLINE Mask8 operator<=(Float8 a, Float8 b)
-{
-  return { _mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)) };
-}
-TETRALUX_INLINE Mask8 operator==(Float8 a, Float8 b)
-{
-  return { _mm256_castps_si256(_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)) };
-}
-TETRALUX_INLINE Float8 Select(Mask8 m, Float8 a, Float8 b)
-{
-  return Float8(_mm256_blendv_ps(b.v, a.v, _mm256_castsi256_ps(m.v)));
-}
-/// a where the mask is set, else zero.
-TETRALUX_INLINE Float8 Keep(Mask8 m, Float8 a)
-{
-  return Float8(_mm256_and_ps(_mm256_castsi256_ps(m.v), a.v));
-}
-TETRALUX_INLINE void Store(float* p, Float8 a) { _mm256_storeu_ps(p, a.v); }
-TETRALUX_INLINE Float8 LoadFloat8(const float* p) { return Float8(_mm256_loadu_ps(p)); }
-TETRALUX_INLINE Int8 RoundToInt(Float8 a) { return Int8(_mm256_cvtps_epi32(a.v)); }
-TETRALUX_INLINE Float8 ToFloat(Int8 a) { return Float8(_mm256_cvtepi32_ps(a.v)); }
-/// The float whose bits are a.
-TETRALUX_INLINE Float8 FromBits(Int8 a) { return Float8(_mm256_castsi256_ps(a.v)); }
-TETRALUX_INLINE Int8 ToBits(Float8 a) { return Int8(_mm256_castps_si256(a.v)); }
-
-// Double precision.
-TETRALUX_INLINE Double8 operator+(Double8 a, Double8 b)
-{
-  return { _mm256_add_pd(a.lo, b.lo), _mm256_add_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 operator-(Double8 a, Double8 b)
-{
-  return { _mm256_sub_pd(a.lo, b.lo), _mm256_sub_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 operator*(Double8 a, Double8 b)
-{
-  return { _mm256_mul_pd(a.lo, b.lo), _mm256_mul_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 operator/(Double8 a, Double8 b)
-{
-  return { _mm256_div_pd(a.lo, b.lo), _mm256_div_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 Fma(Double8 a, Double8 b, Double8 c)
-{
-  return { _mm256_fmadd_pd(a.lo, b.lo, c.lo), _mm256_fmadd_pd(a.hi, b.hi, c.hi) };
-}
-TETRALUX_INLINE Double8 Min(Double8 a, Double8 b)
-{
-  return { _mm256_min_pd(a.lo, b.lo), _mm256_min_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 Max(Double8 a, Double8 b)
-{
-  return { _mm256_max_pd(a.lo, b.lo), _mm256_max_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 Abs(Double8 a)
-{
-  const __m256d sign = _mm256_set1_pd(-0.);
-  return { _mm256_andnot_pd(sign, a.lo), _mm256_andnot_pd(sign, a.hi) };
-}
-TETRALUX_INLINE Double8 Sqrt(Double8 a) { return { _mm256_sqrt_pd(a.lo), _mm256_sqrt_pd(a.hi) }; }
-TETRALUX_INLINE Mask8 NarrowMask(__m256d lo, __m256d hi)
-{
-  // The low halves of the eight 64-bit masks, in order.
-  const __m256 even =
-    _mm256_shuffle_ps(_mm256_castpd_ps(lo), _mm256_castpd_ps(hi), _MM_SHUFFLE(2, 0, 2, 0));
-  return { _mm256_permute4x64_epi64(_mm256_castps_si256(even), _MM_SHUFFLE(3, 1, 2, 0)) };
-}
-TETRALUX_INLINE Mask8 operator<(Double8 a, Double8 b)
-{
-  return NarrowMask(_mm256_cmp_pd(a.lo, b.lo, _CMP_LT_OQ), _mm256_cmp_pd(a.hi, b.hi, _CMP_LT_OQ));
-}
-TETRALUX_INLINE Mask8 operator<=(Double8 a, Double8 b)
-{
-  return NarrowMask(_mm256_cmp_pd(a.lo, b.lo, _CMP_LE_OQ), _mm256_cmp_pd(a.hi, b.hi, _CMP_LE_OQ));
-}
-TETRALUX_INLINE Mask8 operator==(Double8 a, Double8 b)
-{
-  return NarrowMask(_mm256_cmp_pd(a.lo, b.lo, _CMP_EQ_OQ), _mm256_cmp_pd(a.hi, b.hi, _CMP_EQ_OQ));
-}
-TETRALUX_INLINE void WidenMask(Mask8 m, __m256d& lo, __m256d& hi)
-{
-  lo = _mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm256_castsi256_si128(m.v)));
-  hi = _mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm256_extracti128_si256(m.v, 1)));
-}
-TETRALUX_INLINE Double8 Select(Mask8 m, Double8 a, Double8 b)
-{
-  __m256d lo, hi;
-  WidenMask(m, lo, hi);
-  return { _mm256_blendv_pd(b.lo, a.lo, lo), _mm256_blendv_pd(b.hi, a.hi, hi) };
-}
-TETRALUX_INLINE Double8 Keep(Mask8 m, Double8 a)
-{
-  __m256d lo, hi;
-  WidenMask(m, lo, hi);
-  return { _mm256_and_pd(lo, a.lo), _mm256_and_pd(hi, a.hi) };
-}
-TETRALUX_INLINE void Store(double* p, Double8 a)
-{
-  _mm256_storeu_pd(p, a.lo);
-  _mm256_storeu_pd(p + 4, a.hi);
-}
-TETRALUX_INLINE Double8 LoadDouble8(const double* p)
-{
-  return { _mm256_loadu_pd(p), _mm256_loadu_pd(p + 4) };
-}
-TETRALUX_INLINE Float8 ToFloat(Double8 a)
-{
-  return Float8(_mm256_set_m128(_mm256_cvtpd_ps(a.hi), _mm256_cvtpd_ps(a.lo)));
-}
-TETRALUX_INLINE Double8 ToDouble(Float8 a)
-{
-  return { _mm256_cvtps_pd(_mm256_castps256_ps128(a.v)),
-    _mm256_cvtps_pd(_mm256_extractf128_ps(a.v, 1)) };
-}
-
-/// a b - c d with an error below 1.5 units in the last place (Kahan; Jeannerod, Louvet, Muller,
-/// Further analysis of Kahan's algorithm, 2013): the sign is exact where nothing underflows.
-TETRALUX_INLINE Float8 DifferenceOfProducts(Float8 a, Float8 b, Float8 c, Float8 d)
-{
-  const __m256 cd = _mm256_mul_ps(c.v, d.v);
-  const __m256 error = _mm256_fnmadd_ps(c.v, d.v, cd);
-  return Float8(_mm256_add_ps(_mm256_fmsub_ps(a.v, b.v, cd), error));
-}
-TETRALUX_INLINE Double8 DifferenceOfProducts(Double8 a, Double8 b, Double8 c, Double8 d)
-{
-  const Double8 cd = c * d;
-  const Double8 error = { _mm256_fnmadd_pd(c.lo, d.lo, cd.lo),
-    _mm256_fnmadd_pd(c.hi, d.hi, cd.hi) };
-  const Double8 difference = { _mm256_fmsub_pd(a.lo, b.lo, cd.lo),
-    _mm256_fmsub_pd(a.hi, b.hi, cd.hi) };
-  return difference + error;
-}
-
-// Gathers: indices are below 2^29, so that four times an index fits 32 bits, where extending it to
-// an address and scaling it by 8 are free.
-
-/// Keeps indices in memory, to be loaded one by one: the compiler would rather take them out of the
-/// vector by twice as many instructions.
-TETRALUX_INLINE void KeepInMemory(std::uint32_t (&indices)[Width]) { __asm__("" : "+m"(indices)); }
-
-/// Four consecutive floats from base + 4 * index of each lane, transposed.
-TETRALUX_INLINE void GatherRows(
-  const float* base, Int8 index, Float8& x, Float8& y, Float8& z, Float8& s)
-{
-  alignas(32) std::uint32_t i[Width];
-  Store(reinterpret_cast<std::int32_t*>(i), ShiftLeft(index, 1));
-  KeepInMemory(i);
-  const auto at = [&](int lane)
-  { return reinterpret_cast<const float*>(reinterpret_cast<const double*>(base) + i[lane]); };
-  const auto row = [&](int a, int b) {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(at(a))), _mm_load_ps(at(b)), 1);
-  };
-  const __m256 r0 = row(0, 4), r1 = row(1, 5), r2 = row(2, 6), r3 = row(3, 7);
-  const __m256 t0 = _mm256_unpacklo_ps(r0, r1), t1 = _mm256_unpackhi_ps(r0, r1);
-  const __m256 t2 = _mm256_unpacklo_ps(r2, r3), t3 = _mm256_unpackhi_ps(r2, r3);
-  x.v = _mm256_shuffle_ps(t0, t2, _MM_SHUFFLE(1, 0, 1, 0));
-  y.v = _mm256_shuffle_ps(t0, t2, _MM_SHUFFLE(3, 2, 3, 2));
-  z.v = _mm256_shuffle_ps(t1, t3, _MM_SHUFFLE(1, 0, 1, 0));
-  s.v = _mm256_shuffle_ps(t1, t3, _MM_SHUFFLE(3, 2, 3, 2));
-}
-TETRALUX_INLINE void TransposeRows(
-  const double* const row[4], __m256d& x, __m256d& y, __m256d& z, __m256d& s)
-{
-  const __m256d r0 = _mm256_load_pd(row[0]), r1 = _mm256_load_pd(row[1]);
-  const __m256d r2 = _mm256_load_pd(row[2]), r3 = _mm256_load_pd(row[3]);
-  const __m256d t0 = _mm256_unpacklo_pd(r0, r1), t1 = _mm256_unpackhi_pd(r0, r1);
-  const __m256d t2 = _mm256_unpacklo_pd(r2, r3), t3 = _mm256_unpackhi_pd(r2, r3);
-  x = _mm256_permute2f128_pd(t0, t2, 0x20);
-  y = _mm256_permute2f128_pd(t1, t3, 0x20);
-  z = _mm256_permute2f128_pd(t0, t2, 0x31);
-  s = _mm256_permute2f128_pd(t1, t3, 0x31);
-}
-TETRALUX_INLINE void GatherRows(
-  const double* base, Int8 index, Double8& x, Double8& y, Double8& z, Double8& s)
-{
-  alignas(32) std::uint32_t i[Width];
-  Store(reinterpret_cast<std::int32_t*>(i), ShiftLeft(index, 2));
-  KeepInMemory(i);
-  const double* row[Width];
-  for (int lane = 0; lane < Width; ++lane)
-  {
-    row[lane] = base + i[lane];
-  }
-  TransposeRows(row, x.lo, y.lo, z.lo, s.lo);
-  TransposeRows(row + 4, x.hi, y.hi, z.hi, s.hi);
-}
-/// Two consecutive integers from base + 2 * index of each lane; here index is below 2^31.
-TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& first, Int8& second)
-{
-  alignas(32) std::uint32_t i[Width];
-  Store(reinterpret_cast<std::int32_t*>(i), index);
-  KeepInMemory(i);
-  const auto* pairs = reinterpret_cast<const double*>(base);
-  const auto two = [&](int a, int b)
-  { return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(pairs + i[a]), pairs + i[b])); };
-  const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
-  const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
-  first.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0)));
-  second.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(3, 1, 3, 1)));
-}
-
-#else // plain loops
-
-template <class T>
-struct Lanes
-{
-  T v[Width];
-  Lanes() = default;
-  TETRALUX_INLINE Lanes(T x)
-  {
-    for (T& lane : this->v)
-    {
-      lane = x;
-    }
-  }
-  template <class F>
-  static TETRALUX_INLINE Lanes Each(F f)
-  {
-    Lanes r;
-    for (int i = 0; i < Width; ++i)
-    {
-      r.v[i] = f(i);
-    }
-    return r;
-  }
-};
-using Int8 = Lanes<std::int32_t>;
-using Float8 = Lanes<float>;
-using Double8 = Lanes<double>;
-struct Mask8
-{
-  std::int32_t v[Width]; // -1 or 0
-  template <class F>
-  static TETRALUX_INLINE Mask8 Each(F f)
-  {
-    Mask8 r;
-    for (int i = 0; i < Width; ++i)
-    {
-      r.v[i] = f(i) ? -1 : 0;
-    }
-    return r;
-  }
-};
-
-TETRALUX_INLINE Mask8 operator&(Mask8 a, Mask8 b)
-{
-  return Mask8::Each([&](int i) { return a.v[i] & b.v[i]; });
-}
-TETRALUX_INLINE Mask8 operator|(Mask8 a, Mask8 b)
-{
-  return Mask8::Each([&](int i) { return a.v[i] | b.v[i]; });
-}
-TETRALUX_INLINE Mask8 AndNot(Mask8 a, Mask8 b) // a and not b
-{
-  return Mask8::Each([&](int i) { return a.v[i] & ~b.v[i]; });
-}
-TETRALUX_INLINE unsigned Bits(Mask8 m)
-{
-  unsigned bits = 0;
-  for (int i = 0; i < Width; ++i)
-  {
-    bits |= static_cast<unsigned>(m.v[i] & 1) << i;
-  }
-  return bits;
-}
-TETRALUX_INLINE Mask8 MaskFromBits(unsigned bits)
-{
-  return Mask8::Each([&](int i) { return (bits >> i) & 1u; });
-}
-TETRALUX_INLINE bool Any(Mask8 m) { return Bits(m) != 0; }
-
-template <class T>
-TETRALUX_INLINE Lanes<T> operator+(Lanes<T> a, Lanes<T> b)
-{
-  return Lanes<T>::Each([&](int i) { return a.v[i] + b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Lanes<T> operator-(Lanes<T> a, Lanes<T> b)
-{
-  return Lanes<T>::Each([&](int i) { return a.v[i] - b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Lanes<T> operator*(Lanes<T> a, Lanes<T> b)
-{
-  return Lanes<T>::Each([&](int i) { return a.v[i] * b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Lanes<T> operator/(Lanes<T> a, Lanes<T> b)
-{
-  return Lanes<T>::Each([&](int i) { return a.v[i] / b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Mask8 operator<(Lanes<T> a, Lanes<T> b)
-{
-  return Mask8::Each([&](int i) { return a.v[i] < b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Mask8 operator>(Lanes<T> a, Lanes<T> b)
-{
-  return Mask8::Each([&](int i) { return a.v[i] > b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Mask8 operator<=(Lanes<T> a, Lanes<T> b)
-{
-  return Mask8::Each([&](int i) { return a.v[i] <= b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Mask8 operator==(Lanes<T> a, Lanes<T> b)
-{
-  return Mask8::Each([&](int i) { return a.v[i] == b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Lanes<T> Select(Mask8 m, Lanes<T> a, Lanes<T> b)
-{
-  return Lanes<T>::Each([&](int i) { return m.v[i] ? a.v[i] : b.v[i]; });
-}
-/// a where the mask is set, else zero.
-template <class T>
-TETRALUX_INLINE Lanes<T> Keep(Mask8 m, Lanes<T> a)
-{
-  return Lanes<T>::Each([&](int i) { return m.v[i] ? a.v[i] : T(0); });
-}
-template <class T>
-TETRALUX_INLINE Lanes<T> Min(Lanes<T> a, Lanes<T> b)
-{
-  return Lanes<T>::Each([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Lanes<T> Max(Lanes<T> a, Lanes<T> b)
-{
-  return Lanes<T>::Each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
-}
-template <class T>
-TETRALUX_INLINE Lanes<T> Abs(Lanes<T> a)
-{
-  return Lanes<T>::Each([&](int i) { return std::fabs(a.v[i]); });
-}
-template <class T>
-TETRALUX_INLINE Lanes<T> Sqrt(Lanes<T> a)
-{
-  return Lanes<T>::Each([&](int i) { return std::sqrt(a.v[i]); });
-}
-template <class T>
-TETRALUX_INLINE void Store(T* p, Lanes<T> a)
-{
-  std::memcpy(p, a.v, sizeof(a.v));
-}
-/// a * b + c; rounded twice here, since std::fma without hardware support takes a function call.
-template <class T>
-TETRALUX_INLINE Lanes<T> Fma(Lanes<T> a, Lanes<T> b, Lanes<T> c)
-{
-  return Lanes<T>::Each([&](int i) { return a.v[i] * b.v[i] + c.v[i]; });
-}
-TETRALUX_INLINE Int8 LoadInt8(const std::int32_t* p)
-{
-  return Int8::Each([&](int i) { return p[i]; });
-}
-TETRALUX_INLINE Float8 LoadFloat8(const float* p)
-{
-  return Float8::Each([&](int i) { return p[i]; });
-}
-TETRALUX_INLINE Double8 LoadDouble8(const double* p)
-{
-  return Double8::Each([&](int i) { return p[i]; });
-}
-TETRALUX_INLINE Int8 ShiftLeft(Int8 a, int bits)
-{
-  return Int8::Each(
-    [&](int i) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v[i]) << bits); });
-}
-/// 1 where the mask is set, else 0.
-TETRALUX_INLINE Int8 Ones(Mask8 m)
-{
-  return Int8::Each([&](int i) { return m.v[i] & 1; });
-}
-TETRALUX_INLINE Int8 RoundToInt(Float8 a)
-{
-  return Int8::Each([&](int i) { return static_cast<std::int32_t>(std::nearbyint(a.v[i])); });
-}
-TETRALUX_INLINE Float8 ToFloat(Int8 a)
-{
-  return Float8::Each([&](int i) { return static_cast<float>(a.v[i]); });
-}
-/// The float whose bits are a.
-TETRALUX_INLINE Int8 ToBits(Float8 a)
-{
-  Int8 r;
-  std::memcpy(r.v, a.v, sizeof(r.v));
-  return r;
-}
-TETRALUX_INLINE Float8 FromBits(Int8 a)
-{
-  Float8 r;
-  std::memcpy(r.v, a.v, sizeof(r.v));
-  return r;
-}
-TETRALUX_INLINE Float8 ToFloat(Double8 a)
-{
-  return Float8::Each([&](int i) { return static_cast<float>(a.v[i]); });
-}
-TETRALUX_INLINE Double8 ToDouble(Float8 a)
-{
-  return Double8::Each([&](int i) { return static_cast<double>(a.v[i]); });
-}
-
-/// a b - c d with an exact sign where nothing underflows: the products of two floats are exact in
-/// double; for doubles Kahan's algorithm (see the AVX2 form).
-TETRALUX_INLINE Float8 DifferenceOfProducts(Float8 a, Float8 b, Float8 c, Float8 d)
-{
-  return Float8::Each(
-    [&](int i)
-    {
-      return static_cast<float>(
-        static_cast<double>(a.v[i]) * b.v[i] - static_cast<double>(c.v[i]) * d.v[i]);
-    });
-}
-TETRALUX_INLINE Double8 DifferenceOfProducts(Double8 a, Double8 b, Double8 c, Double8 d)
-{
-  return Double8::Each(
-    [&](int i)
-    {
-      const double cd = c.v[i] * d.v[i];
-      const double error = std::fma(-c.v[i], d.v[i], cd);
-      return std::fma(a.v[i], b.v[i], -cd) + error;
-    });
-}
-
-/// Four consecutive values from base + 4 * index of each lane, transposed.
-template <class T>
-TETRALUX_INLINE void GatherRows(
-  const T* base, Int8 index, Lanes<T>& x, Lanes<T>& y, Lanes<T>& z, Lanes<T>& s)
-{
-  for (int i = 0; i < Width; ++i)
-  {
-    const T* row = base + 4 * std::int64_t{ index.v[i] };
-    x.v[i] = row[0];
-    y.v[i] = row[1];
-    z.v[i] = row[2];
-    s.v[i] = row[3];
-  }
-}
-/// Two consecutive integers from base + 2 * index of each lane.
-TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& first, Int8& second)
-{
-  for (int i = 0; i < Width; ++i)
-  {
-    const std::int32_t* pair = base + 2 * std::int64_t{ index.v[i] };
-    first.v[i] = pair[0];
-    second.v[i] = pair[1];
-  }
-}
-#endif
-
-/// The lanes that hold a Real.
+/// The vector of a Real.
 template <class Real>
 struct LanesOf;
 template <>
@@ -620,13 +107,13 @@ struct LanesOf<double>
 TETRALUX_INLINE Float8 ToFloat(Float8 a) { return a; }
 TETRALUX_INLINE float Lane(Float8 a, int i)
 {
-  float v[Width];
+  float v[LaneCount];
   Store(v, a);
   return v[i];
 }
 TETRALUX_INLINE double Lane(Double8 a, int i)
 {
-  double v[Width];
+  double v[LaneCount];
   Store(v, a);
   return v[i];
 }

@@ -30,7 +30,7 @@ namespace
 constexpr int ImageSize = 512;
 constexpr int TileSize = 16;
 constexpr int PacketsAcross = TileSize / 4; ///< packets are four pixels wide and two high
-constexpr int PacketsOfTile = TileSize * TileSize / Width;
+constexpr int PacketsOfTile = TileSize * TileSize / LaneCount;
 constexpr int TilesAcross = ImageSize / TileSize;
 constexpr int Runs = 3;
 
@@ -188,7 +188,7 @@ private:
   {
     if (this->BinBegins[tile] == this->BinBegins[tile + 1])
     {
-      std::fill_n(&this->Crossings[0].Count[0], PacketsOfTile * Width, 0);
+      std::fill_n(&this->Crossings[0].Count[0], PacketsOfTile * LaneCount, 0);
       return true;
     }
     const int tileX = tile % TilesAcross * TileSize;
@@ -199,7 +199,7 @@ private:
       rays[packet] = MakeRays<float>(this->In,
         MakeWorldRays(
           *this->In.Grid, tileX + packet % PacketsAcross * 4, tileY + packet / PacketsAcross * 2));
-      std::fill_n(this->Crossings[packet].Count, Width, 0);
+      std::fill_n(this->Crossings[packet].Count, LaneCount, 0);
     }
     for (std::int32_t k = this->BinBegins[tile]; k < this->BinBegins[tile + 1]; ++k)
     {
@@ -240,7 +240,7 @@ class CrossingLists
 public:
   void operator()(int x, int y, const PacketCrossings& crossings, const CrossingBuffer& buffer)
   {
-    for (int lane = 0; lane < Width; ++lane)
+    for (int lane = 0; lane < LaneCount; ++lane)
     {
       auto& list = this->Lists[(y + lane / 4) * ImageSize + x + lane % 4];
       const Crossing* first = buffer.Crossings + static_cast<std::int64_t>(lane) * buffer.Capacity;
@@ -273,7 +273,7 @@ void CompareOn(ComparisonMesh source)
 
   std::size_t found = 0;
   const auto count = [&found](int, int, const PacketCrossings& crossings, const CrossingBuffer&)
-  { found += std::accumulate(crossings.Count, crossings.Count + Width, std::size_t(0)); };
+  { found += std::accumulate(crossings.Count, crossings.Count + LaneCount, std::size_t(0)); };
   const double hierarchy = MeasureBest(Runs, [&] { FindByHierarchy(in, count); });
   const double raster = MeasureBest(Runs, [&] { rasterizer.Find(count); });
   std::printf("%-24s %9d %10zu %10zu %10.1f %10.1f\n", source.Name.c_str(),

@@ -10,6 +10,7 @@
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationError.h"
 #include "PreIntegration/TableChoice.h"
+#include "Simd/InstructionSet.h"
 
 #include "vtkCellArray.h"
 #include "vtkColorTransferFunction.h"
@@ -577,7 +578,7 @@ void CompareLookups()
       BuildPreIntegrationTable(MakeWaves(5, 3), settings, table);
       std::mt19937_64 generator(1);
       std::uniform_real_distribution<float> unit(0, 1);
-      std::vector<float> u(3 * Packets * Width);
+      std::vector<float> u(3 * Packets * LaneCount);
       for (int p = 0; p < Packets; ++p)
       {
         const float sizes[3] = { ScalarSize - 1.f, ScalarSize - 1.f,
@@ -585,10 +586,10 @@ void CompareLookups()
         for (int a = 0; a < 3; ++a)
         {
           const float center = unit(generator);
-          for (int i = 0; i < Width; ++i)
+          for (int i = 0; i < LaneCount; ++i)
           {
             const float near = std::clamp(center + 0.01f * (unit(generator) - 0.5f), 0.f, 1.f);
-            u[(3 * p + a) * Width + i] = sizes[a] * (alike ? near : unit(generator));
+            u[(3 * p + a) * LaneCount + i] = sizes[a] * (alike ? near : unit(generator));
           }
         }
       }
@@ -602,8 +603,9 @@ void CompareLookups()
           for (int p = 0; p < Packets; ++p)
           {
             Float8 rgba[4];
-            LookUp(texels, ScalarSize, LoadFloat8(&u[3 * p * Width]),
-              LoadFloat8(&u[(3 * p + 1) * Width]), LoadFloat8(&u[(3 * p + 2) * Width]), last, rgba);
+            LookUp(texels, ScalarSize, LoadFloat8(&u[3 * p * LaneCount]),
+              LoadFloat8(&u[(3 * p + 1) * LaneCount]), LoadFloat8(&u[(3 * p + 2) * LaneCount]),
+              last, rgba);
             total = total + rgba[0] + rgba[1] + rgba[2] + rgba[3];
           }
           sum += Lane(total, 0);
@@ -620,7 +622,7 @@ void CompareLookups()
   std::uniform_real_distribution<float> unit(0, 1);
   for (const float depth : { 0.3f, 5.f })
   {
-    std::vector<float> d(2 * Packets * Width);
+    std::vector<float> d(2 * Packets * LaneCount);
     for (float& x : d)
     {
       x = depth * unit(generator);
@@ -632,8 +634,8 @@ void CompareLookups()
         Float8 total = 0.f;
         for (int p = 0; p < Packets; ++p)
         {
-          const SegmentWeights w =
-            IntegrateSegment(LoadFloat8(&d[2 * p * Width]), LoadFloat8(&d[(2 * p + 1) * Width]));
+          const SegmentWeights w = IntegrateSegment(
+            LoadFloat8(&d[2 * p * LaneCount]), LoadFloat8(&d[(2 * p + 1) * LaneCount]));
           total = total + w.Front + w.Back * w.Transmittance;
         }
         sum += Lane(total, 0);
@@ -651,7 +653,7 @@ void CompareLookups()
 int main()
 {
 #if TETRALUX_AVX2
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+  if (tetralux::GetInstructionSet() != tetralux::InstructionSet::Avx2)
   {
     std::fprintf(
       stderr, "this program was compiled for AVX2, which this processor does not have\n");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The integral over a segment of a ray, eight at a time: nanoseconds for eight of them. Compiled as
+// The integral over a segment of a ray: nanoseconds for LaneCount of them at once. Compiled as
 // the fastest kernels are.
 
 #include "Integral/SegmentIntegral.h"
+#include "Simd/InstructionSet.h"
 
 #include <benchmark/benchmark.h>
 
@@ -30,7 +31,7 @@ enum class Form
 void IntegrateSegments(benchmark::State& state, Form form)
 {
 #if TETRALUX_AVX2
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+  if (GetInstructionSet() != InstructionSet::Avx2)
   {
     state.SkipWithError("this processor has no AVX2");
     return;
@@ -40,7 +41,7 @@ void IntegrateSegments(benchmark::State& state, Form form)
   std::uniform_real_distribution<double> unit(0, 1);
   constexpr int Packets = 256; // stay in the first-level cache
   std::vector<float> d0, d1;
-  for (int i = 0; i < Packets * Width; ++i)
+  for (int i = 0; i < Packets * LaneCount; ++i)
   {
     const bool thin = form == Form::Thin || (form == Form::Mixed && i % 3 == 0);
     const bool rising = form == Form::Rising || (form == Form::Mixed && i % 3 == 1);
@@ -52,7 +53,7 @@ void IntegrateSegments(benchmark::State& state, Form form)
   Float8 front = 0.f, back = 0.f;
   for (auto _ : state)
   {
-    for (int i = 0; i < Packets * Width; i += Width)
+    for (int i = 0; i < Packets * LaneCount; i += LaneCount)
     {
       const SegmentWeights w = IntegrateSegment(LoadFloat8(&d0[i]), LoadFloat8(&d1[i]));
       front = front + w.Front * w.Transmittance;
@@ -62,7 +63,7 @@ void IntegrateSegments(benchmark::State& state, Form form)
   }
   state.counters["Packet"] = benchmark::Counter(
     Packets, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-  state.SetLabel(TETRALUX_AVX2 ? "AVX2" : "generic");
+  state.SetLabel(GetName(TETRALUX_AVX2 ? InstructionSet::Avx2 : InstructionSet::Generic));
 }
 
 BENCHMARK_CAPTURE(IntegrateSegments, thin, Form::Thin)->Name("Integral/thin");

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RayCast/KernelInput.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Rounding of distances along rays, in radii of the mesh: sixteen times that of a coordinate.
+constexpr double SingleDistanceRounding = 1. / (1 << 20);
+constexpr double DoubleDistanceRounding = SingleDistanceRounding / (1 << 29);
+
+void FillMesh(const WalkMesh& mesh, const WalkTables& tables, KernelInput& in)
+{
+  in.Faces = tables.Faces.data();
+  in.Entries = tables.Entries.data();
+  in.Nodes = tables.Bvh.Nodes.empty() ? nullptr : tables.Bvh.Nodes.data();
+  in.Triangles = tables.Bvh.Triangles.data();
+  in.NumberOfCells = mesh.GetNumberOfCells();
+  std::copy_n(mesh.GetCenter(), 3, in.Center);
+  in.Radius = mesh.GetRadius();
+}
+
+void FillIntervals(const IntervalTable& table, KernelInput& in)
+{
+  in.Intervals = table.Intervals.data();
+  in.NumberOfIntervals = static_cast<int>(table.Intervals.size());
+}
+
+void FillSurfaces(
+  const std::vector<Isosurface>& surfaces, const ScalarMap& map, OwningKernelInput& in)
+{
+  // Beyond all scalars of the tables, which are bounded.
+  float below = -std::numeric_limits<float>::infinity();
+  for (const Isosurface& surface : surfaces)
+  {
+    const float value = static_cast<float>(map.Map(surface.Value));
+    in.NeighborsOfSurfaces.push_back({ below, value });
+    below = value;
+    in.ColorsOfSurfaces.insert(in.ColorsOfSurfaces.end(),
+      { surface.Color[0], surface.Color[1], surface.Color[2],
+        std::clamp(surface.Opacity, 0.f, 1.f) });
+  }
+  in.NeighborsOfSurfaces.push_back({ below, std::numeric_limits<float>::infinity() });
+  in.SurfaceNeighbors = in.NeighborsOfSurfaces.data();
+  in.SurfaceColors = in.ColorsOfSurfaces.data();
+}
+
+void FillTable(const PreIntegrationTable& table, const float* texels, OwningKernelInput& in)
+{
+  in.Lookup.Texels = texels;
+  in.Lookup.Axis = table.Scalars.Intervals.data();
+  in.Lookup.AxisSize = static_cast<int>(table.Scalars.Intervals.size());
+  in.Lookup.ScalarSize = table.Scalars.GetSize();
+  in.Lookup.LengthSize = table.Lengths.Size;
+  in.Lookup.Logarithmic = table.Lengths.Scale == LengthScale::Logarithmic;
+  in.Lookup.StepsPerDoubling = table.Lengths.StepsPerDoubling;
+  in.Lookup.InverseDelta = table.Lengths.InverseDelta;
+  in.Table = &in.Lookup;
+}
+
+void FillRays(const RayGrid& grid, const RayLimits& limits, KernelInput& in)
+{
+  in.Grid = &grid;
+  in.Planes = limits.Planes.empty() ? nullptr : &limits.Planes.front();
+  in.NumberOfPlanes = static_cast<int>(limits.Planes.size());
+  in.CroppingPlanes = limits.Cropping ? limits.CroppingPlanes : nullptr;
+  in.CroppingFlags = limits.CroppingFlags;
+  in.MaximumDistances = limits.MaximumDistances;
+}
+
+void FillEnds(const RayCastOptions& options, const CastChoices& choices, KernelInput& in)
+{
+  // Light may make what is behind brighter.
+  const double behind = choices.TerminationError /
+    (IsLit(choices.Method) ? FindLargestBrightness(options.Lights, options.Surface) : 1);
+  in.MaximumOpacity = static_cast<float>(1 - behind);
+  in.MaximumDepth = static_cast<float>(-std::log(choices.TerminationError));
+}
+
+} // namespace
+
+void FillKernelInput(const VolumeScene& scene, const RayGrid& grid, const RayLimits& limits,
+  const RayCastOptions& options, const CastChoices& choices, OwningKernelInput& in)
+{
+  const SceneOptics& optics = scene.Optics;
+  const WalkMesh& mesh = *scene.Mesh.GetMesh();
+  in.Points = choices.DoublePrecision ? static_cast<const void*>(scene.GetPoints<double>())
+                                      : static_cast<const void*>(scene.GetPoints<float>());
+  in.CellValues = choices.CellData ? scene.GetCellValues().data() : nullptr;
+  FillMesh(mesh, *choices.Tables, in);
+  FillIntervals(optics.GetIntervalTable(), in);
+  FillSurfaces(
+    choices.Method == Integrator::Isosurfaces ? optics.GetIsosurfaces() : std::vector<Isosurface>(),
+    scene.GetScalarMap(), in);
+  if (options.Shaded)
+  {
+    in.Light = { &mesh.GetMesh(), scene.Mesh.GetScalars().data(),
+      choices.SmoothShading ? scene.Mesh.GetPointGradients().data() : nullptr, grid.MeshFromWorld,
+      options.Lights, options.Surface };
+    in.Shading = &in.Light;
+  }
+  if (IsTabulated(choices.Method))
+  {
+    FillTable(*optics.GetTable(), optics.GetFloatTexels(), in);
+  }
+  if (optics.GetModel() == OpticalModel::EmissionAbsorption && scene.GetPlan().ConstantColor)
+  {
+    std::copy_n(scene.GetPlan().Color, 3, in.Color);
+  }
+  in.DistanceRounding = choices.WorldRadius *
+    (choices.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);
+  FillRays(grid, limits, in);
+  FillEnds(options, choices, in);
+}
+
+} // namespace tetralux

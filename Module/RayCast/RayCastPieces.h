@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RayCastPieces_h
+#define tetralux_RayCastPieces_h
+
+// Cells cut into the parts on which the transfer function is linear, and what models share that
+// integrate those.
+
+#include "Integral/SegmentIntegral.h"
+#include "Optics/IntervalTable.h"
+#include "RayCast/RayCastGather.h"
+
+#include <cstdint>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+/// A part of a cell on which attenuation and colour are linear.
+struct Piece
+{
+  Float8 D0, D1; ///< attenuation at its ends times its length, at most LargestSingleDepth
+  Float8 X0, X1; ///< scalar at its ends, relative to the reference of the interval
+  Float8 Color[3], Slope[3]; ///< colour at the reference, and its slope
+
+  TETRALUX_INLINE Float8 GetFront(int c) const
+  {
+    return Fma(this->Slope[c], this->X0, this->Color[c]);
+  }
+  TETRALUX_INLINE Float8 GetBack(int c) const
+  {
+    return Fma(this->Slope[c], this->X1, this->Color[c]);
+  }
+};
+
+/// Cuts a cell whose scalar runs linearly from s0 at z0 to s1 at z1 at the nodes of the transfer
+/// function: add(contributes, z, piece) for each piece in which any ray is attenuated. interval:
+/// where in the function each ray's last scalar was.
+template <class Real, class V, class AddT>
+TETRALUX_INLINE void CutAtNodes(
+  const KernelInput& in, Int8& interval, Mask8 valid, V z0, V s0, V z1, V s1, AddT add)
+{
+  const auto* table = in.Intervals;
+  while (Any(valid))
+  {
+    // Neighbouring rays are mostly in the same interval: one load for all of them.
+    const unsigned bits = Bits(valid);
+    std::int32_t indices[LaneCount];
+    Store(indices, interval);
+    int leader = 0;
+    while (!((bits >> leader) & 1u))
+    {
+      ++leader;
+    }
+    const bool uniform = !Any(AndNot(valid, interval == Int8(indices[leader])));
+    Piece piece;
+    Float8 lo, hi, reference, attenuation, attenuationSlope;
+    if (uniform)
+    {
+      const IntervalTable::Interval& t = table[indices[leader]];
+      lo = t.Lo;
+      hi = t.Hi;
+      reference = t.Reference;
+      attenuation = t.Attenuation;
+      attenuationSlope = t.AttenuationSlope;
+      for (int c = 0; c < 3; ++c)
+      {
+        piece.Color[c] = t.Color[c];
+        piece.Slope[c] = t.ColorSlope[c];
+      }
+    }
+    else
+    {
+      const Int8 row = interval + interval + interval;
+      const auto* rows = reinterpret_cast<const float*>(table);
+      Float8 unused;
+      GatherRows(rows, row, lo, hi, reference, attenuation);
+      GatherRows(
+        rows, row + Int8(1), attenuationSlope, piece.Color[0], piece.Color[1], piece.Color[2]);
+      GatherRows(rows, row + Int8(2), piece.Slope[0], piece.Slope[1], piece.Slope[2], unused);
+    }
+    const V bottom = ToPrecision<V>(lo);
+    const V head = ToPrecision<V>(hi);
+    const V origin = ToPrecision<V>(reference);
+
+    // The interval left from the last cell is mostly still the right one, else one of the next. A
+    // constant scalar at a node belongs to the interval above it, whatever was seen before; compared
+    // as the node was rounded.
+    const Float8 f0 = ToFloat(s0);
+    const Float8 f1 = ToFloat(s1);
+    const Mask8 below = valid & (f0 < lo);
+    const Mask8 above = valid & ((hi < f0) | ((hi == f0) & (f0 <= f1)));
+    if (Any(below | above))
+    {
+      interval = interval + Ones(above) - Ones(below);
+      continue;
+    }
+
+    const Mask8 last = (lo <= f1) & (f1 <= hi);
+    const Mask8 more = AndNot(valid, last);
+    V z = z1;
+    V s = s1;
+    if (Any(more))
+    {
+      s = Min(Max(s1, bottom), head);
+      z = Select(last, z1, Fma((s - s0) / (s1 - s0), z1 - z0, z0));
+    }
+    V x[2] = { s0, s };
+    if constexpr (sizeof(Real) > sizeof(float))
+    {
+      // What was compared as rounded may lie just outside of the interval, where the slope of one
+      // only a few roundings wide leads far.
+      x[0] = Min(Max(s0, bottom), head);
+      x[1] = Min(Max(s, bottom), head);
+    }
+    piece.X0 = ToFloat(x[0] - origin);
+    piece.X1 = ToFloat(x[1] - origin);
+    const Float8 length = Keep(valid, ToFloat(z - z0));
+    const Float8 zero = 0.f;
+    const Float8 largest = static_cast<float>(LargestSingleDepth);
+    // Rounding may leave an attenuation just below zero where the function comes down to it.
+    piece.D0 = Max(zero, Min(Fma(attenuationSlope, piece.X0, attenuation) * length, largest));
+    piece.D1 = Max(zero, Min(Fma(attenuationSlope, piece.X1, attenuation) * length, largest));
+    const Mask8 contributes = valid & (zero < piece.D0 + piece.D1);
+    if (Any(contributes))
+    {
+      add(contributes, z0, piece);
+    }
+    if (!Any(more))
+    {
+      return;
+    }
+    const Mask8 rising = more & (s0 < s1);
+    interval = interval + Ones(rising) - Ones(AndNot(more, rising));
+    z0 = z;
+    s0 = s;
+    valid = more;
+  }
+}
+
+/// Attenuation over the length of a cell of constant scalar, and its colour.
+template <class V>
+TETRALUX_INLINE Float8 LoadCell(const KernelInput& in, V z0, V z1, Int8 cell, Float8 (&color)[3])
+{
+  Float8 attenuation;
+  GatherRows(
+    reinterpret_cast<const float*>(in.CellValues), cell, attenuation, color[0], color[1], color[2]);
+  return Min(attenuation * ToFloat(z1 - z0), Float8(static_cast<float>(LargestSingleDepth)));
+}
+
+/// A model that integrates pieces. Derived has
+///
+///   Enter        prepares for what is added next, from z0 to z1 in a cell
+///   AddPiece     adds a piece
+///   AddConstant  adds a cell of constant scalar, by its optical depth and colour
+///
+/// the last two for the rays that contribute.
+template <class Real, class Sum, class Derived>
+class PieceModel : public GatheredModel<Real, Sum, Derived>
+{
+public:
+  using V = LanesOfReal<Real>;
+  using GatheredModel<Real, Sum, Derived>::GatheredModel;
+
+  TETRALUX_INLINE void AddSegment(
+    const KernelInput& in, Mask8 valid, Int8 cell, V z0, V s0, V z1, V s1)
+  {
+    this->GetDerived().Enter(in, valid, cell, z0, z1);
+    CutAtNodes<Real>(in, this->Interval, valid, z0, s0, z1, s1,
+      [this](Mask8 contributes, V z, const Piece& piece)
+      {
+        this->GetDerived().AddPiece(contributes, piece);
+        this->First.Add(contributes, z);
+      });
+  }
+
+  TETRALUX_INLINE void AddCell(const KernelInput& in, Mask8 valid, Int8 cell, V z0, V z1)
+  {
+    Float8 color[3];
+    const Float8 depth = LoadCell(in, z0, z1, cell, color);
+    const Mask8 contributes = valid & (Float8(0.f) < depth);
+    if (Any(contributes))
+    {
+      this->GetDerived().AddConstant(contributes, depth, color);
+      this->First.Add(contributes, z0);
+    }
+  }
+
+  TETRALUX_INLINE void Enter(const KernelInput&, Mask8, Int8, V, V) {}
+
+private:
+  Int8 Interval = 0; ///< of the transfer function, where each ray's last scalar was
+};
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif

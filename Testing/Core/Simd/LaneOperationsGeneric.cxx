@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LaneOperations.inl"
+
+namespace tetralux
+{
+
+LaneOperations GetLaneOperationsGeneric() { return TETRALUX_ISA::MakeLaneOperations(); }
+
+} // namespace tetralux
