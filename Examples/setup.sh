@@ -9,7 +9,8 @@ packages=(
   libvtk9-dev python3-vtk9 # VTK and its Python package
   libcgal-dev # triangulations, with exact signs
   libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri # rendering without a display
-  libcli11-dev nlohmann-json3-dev # the command-line tool
+  nlohmann-json3-dev # statistics
+  libcli11-dev # the command-line tool
 )
 if [[ "${1:-}" == test ]]; then
   packages+=(libgtest-dev libboost-dev python3-numpy clang-format clang-tidy)

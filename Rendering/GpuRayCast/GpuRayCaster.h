@@ -7,8 +7,6 @@
 #include "OpenGL/ScreenProgram.h"
 #include "TetraluxRenderingModule.h"
 
-#include "vtkWeakPointer.h"
-
 #include <cstdint>
 #include <functional>
 #include <string>
