@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraGPURayCastMapper.h"
 
+#include "Base/Cached.h"
 #include "Base/Stopwatch.h"
 #include "Frame/CameraRays.h"
 #include "Frame/ImageCompositor.h"
@@ -83,8 +84,7 @@ private:
   tetralux::GpuRayCaster Caster;
   tetralux::ImageCompositor Compositor;
 
-  std::vector<std::uint8_t> Positive; ///< orientation of the cells of the scene's mesh
-  std::uint64_t PositiveVersion = 0;  ///< the mesh's
+  tetralux::Cached<std::vector<std::uint8_t>> Positive; ///< orientation of the mesh's cells
   tetralux::OnceWarning ReentryWarning;
 };
 
@@ -311,14 +311,13 @@ const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTabl
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::Internals::UpdateOrientation(const tetralux::VolumeScene& scene)
 {
-  if (this->PositiveVersion == scene.Mesh.GetPointsVersion())
-  {
-    return;
-  }
   const tetralux::WalkMesh& mesh = *scene.Mesh.GetMesh();
-  this->Positive =
-    tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces);
-  this->PositiveVersion = scene.Mesh.GetPointsVersion();
+  this->Positive.Update(tetralux::CacheKey::Of(scene.Mesh.GetPointsVersion()),
+    [&mesh]
+    {
+      return tetralux::OrientCells(
+        mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces);
+    });
 }
 
 //------------------------------------------------------------------------------------------------
@@ -336,7 +335,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   if (directed)
   {
     this->UpdateOrientation(scene);
-    if (this->Positive.empty())
+    if (this->Positive.Get().empty())
     {
       throw std::runtime_error(
         "the cells of the mesh can't be oriented, since a ring of them comes "
@@ -346,11 +345,11 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   const tetralux::WalkPoint<float>* points = scene.GetPoints<float>();
   const std::size_t numberOfPoints = scene.Mesh.GetMesh()->GetNumberOfTablePoints();
   const std::uint64_t pointsVersion = scene.Mesh.GetPointsVersion();
-  const tetralux::WalkTextures::Version facesVersion{ scene.Mesh.GetCellsVersion(),
+  const tetralux::CacheKey facesKey = tetralux::CacheKey::Of(scene.Mesh.GetCellsVersion(),
     &tables == scene.GetVisibleTables() ? scene.GetVisibleTablesVersion() : 0,
     // Imaginary cells follow from the points.
-    reentry == GpuReentry::Imaginary ? pointsVersion : 0 };
-  if (!this->Mesh.HasFaces(frame.Window, facesVersion))
+    reentry == GpuReentry::Imaginary ? pointsVersion : 0);
+  if (!this->Mesh.HasFaces(frame.Window, facesKey))
   {
     const std::string obstacle =
       tetralux::WalkTextures::FindObstacle(frame.Window, tables, numberOfPoints);
@@ -358,22 +357,22 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
     {
       throw std::runtime_error(obstacle);
     }
-    this->Mesh.UpdateFaces(frame.Window, tables, facesVersion);
+    this->Mesh.UpdateFaces(frame.Window, tables, facesKey);
   }
-  tetralux::WalkTextures::Version boundaryVersion = facesVersion;
-  boundaryVersion.push_back(pointsVersion);
-  boundaryVersion.push_back(directed);
+  tetralux::CacheKey boundaryKey = facesKey;
+  boundaryKey.Add(pointsVersion);
+  boundaryKey.Add(directed);
   this->Mesh.UpdateBoundary(frame.Window, tables,
-    directed ? tetralux::Span<const std::uint8_t>(this->Positive)
+    directed ? tetralux::Span<const std::uint8_t>(this->Positive.Get())
              : tetralux::Span<const std::uint8_t>(),
-    boundaryVersion);
-  this->Mesh.UpdatePoints(
-    frame.Window, { points, numberOfPoints }, { scene.GetPointsVersion(), numberOfPoints });
+    boundaryKey);
+  this->Mesh.UpdatePoints(frame.Window, { points, numberOfPoints },
+    tetralux::CacheKey::Of(scene.GetPointsVersion(), numberOfPoints));
 
   if (needs.Gradients)
   {
     this->Mesh.UpdateGradients(frame.Window, scene.Mesh.GetPointGradients(),
-      { pointsVersion, scene.Mesh.GetScalarsVersion(), numberOfPoints });
+      tetralux::CacheKey::Of(pointsVersion, scene.Mesh.GetScalarsVersion(), numberOfPoints));
   }
 
   tetralux::SegmentSource source = tetralux::MakeSegmentSource(scene, frame.Shaded);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraProjectionMapper.h"
 
+#include "Base/Cached.h"
 #include "Base/Stopwatch.h"
 #include "Frame/CameraRays.h"
 #include "Frame/ImageCompositor.h"
@@ -153,9 +154,8 @@ private:
   std::vector<std::uint8_t> DrawnCells; ///< empty: all
   std::vector<std::int32_t> Order;
   std::unique_ptr<tetralux::VisibilityOrder> Sorter;
-  std::uint64_t SorterVersion = 0; ///< of the mesh that Sorter is of
-  bool SorterIsConvex = false;     ///< its imaginary cells take part, where it has some
-  bool Sorted = false;             ///< in the last frame
+  tetralux::CacheStamp SorterStamp; ///< of the points, and whether imaginary cells take part
+  bool Sorted = false;              ///< in the last frame
   VisibilityMethod Method = VisibilityMethod::Meshed;
   tetralux::OnceWarning OrderWarning;
 };
@@ -354,12 +354,13 @@ bool vtkTetrahedraProjectionMapper::Internals::IsOrderExact() const
 bool vtkTetrahedraProjectionMapper::Internals::PrepareSorter(MapperFrame& frame)
 {
   tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
-  const std::uint64_t version = frame.Scene->Mesh.GetPointsVersion();
   const bool exact = this->IsOrderExact();
-  if (!this->Sorter || this->SorterVersion != version || exact != this->SorterIsConvex)
+  tetralux::CacheKey key = tetralux::CacheKey::Of(frame.Scene->Mesh.GetPointsVersion(), exact);
+  if (!this->SorterStamp.Has(key))
   {
     const tetralux::Stopwatch stopwatch;
     this->Sorter.reset();
+    this->SorterStamp.Reset();
     if (exact)
     {
       mesh.MakeConvex([&frame](double fraction) { return frame.ReportProgress(fraction); });
@@ -369,8 +370,7 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareSorter(MapperFrame& frame)
       }
     }
     this->Sorter = std::make_unique<tetralux::VisibilityOrder>(mesh, exact);
-    this->SorterVersion = version;
-    this->SorterIsConvex = exact;
+    this->SorterStamp.Set(std::move(key));
     frame.Seconds.emplace_back("convexification", stopwatch.GetSeconds());
   }
   return true;

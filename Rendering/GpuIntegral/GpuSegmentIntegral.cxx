@@ -49,6 +49,19 @@ float MakeNode(float scalar)
   return std::abs(scalar) < SmallestScalar ? 0.f : std::clamp(scalar, -Largest, Largest);
 }
 
+/// Sends a buffer unless it has the key; an empty key is that of nothing.
+template <class Upload>
+void Refresh(
+  CacheStamp& stamp, const TextureBuffer& buffer, const CacheKey& key, const Upload& upload)
+{
+  if (buffer.IsEmpty() || key == CacheKey() || !stamp.Has(key))
+  {
+    stamp.Reset();
+    upload();
+    stamp.Set(key);
+  }
+}
+
 } // namespace
 
 SegmentSource MakeSegmentSource(const VolumeScene& scene, bool shaded)
@@ -62,14 +75,17 @@ SegmentSource MakeSegmentSource(const VolumeScene& scene, bool shaded)
   }
   if (source.Integrator == Integrator::Isosurfaces)
   {
+    const ScalarMap map = scene.GetScalarMap();
+    source.Key = CacheKey::Of(scene.Optics.GetSurfacesVersion(), map.Offset, map.Scale);
     source.ShadedSurfaces = shaded;
     source.Surfaces = scene.Optics.GetIsosurfaces();
     for (Isosurface& surface : source.Surfaces)
     {
-      surface.Value = scene.GetScalarMap().Map(surface.Value);
+      surface.Value = map.Map(surface.Value);
     }
     return source;
   }
+  source.Key = CacheKey::Of(scene.Optics.GetFunctionVersion());
   source.Table = scene.Optics.GetTable();
   source.TableVersion = scene.Optics.GetTableVersion();
   source.CellValues = scene.GetCellValues();
@@ -96,7 +112,8 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
   }
   if (source.Integrator == Integrator::Isosurfaces)
   {
-    this->UpdateSurfaces(window, source.Surfaces);
+    Refresh(this->SurfacesStamp, this->Surfaces, source.Key,
+      [&] { this->UploadSurfaces(window, source.Surfaces); });
   }
   else if (IsTabulated(source.Integrator))
   {
@@ -104,7 +121,8 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
   }
   else
   {
-    this->UpdateIntervals(window, *source.Intervals);
+    Refresh(this->IntervalsStamp, this->Intervals, source.Key,
+      [&] { this->UploadIntervals(window, *source.Intervals); });
   }
   if (this->OfCells &&
     (this->CellValues.IsEmpty() || this->CellValuesVersion != source.CellValuesVersion))
@@ -115,7 +133,7 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
   }
 }
 
-void GpuSegmentIntegral::UpdateIntervals(vtkOpenGLRenderWindow* window, const IntervalTable& table)
+void GpuSegmentIntegral::UploadIntervals(vtkOpenGLRenderWindow* window, const IntervalTable& table)
 {
   std::vector<IntervalTable::Interval> intervals = table.Intervals;
   for (IntervalTable::Interval& interval : intervals)
@@ -126,21 +144,17 @@ void GpuSegmentIntegral::UpdateIntervals(vtkOpenGLRenderWindow* window, const In
   }
   std::vector<float> texels(4 * TexelsOfInterval * intervals.size());
   std::memcpy(texels.data(), intervals.data(), texels.size() * sizeof(float));
-  if (this->Intervals.IsEmpty() || texels != this->IntervalTexels)
-  {
-    this->IntervalTexels = std::move(texels);
-    this->Intervals.Upload(window, this->IntervalTexels.data(), TexelsOfInterval * intervals.size(),
-      4, "the transfer function");
-    std::vector<float> ends(intervals.size() - 1);
-    std::transform(intervals.begin(), intervals.end() - 1, ends.begin(),
-      [](const IntervalTable::Interval& interval) { return interval.Hi; });
-    const std::vector<std::int32_t> buckets = MakeScalarBuckets(ends);
-    this->Buckets.Upload(
-      window, buckets.data(), buckets.size(), 1, "the search table of the transfer function");
-  }
+  this->Intervals.Upload(
+    window, texels.data(), TexelsOfInterval * intervals.size(), 4, "the transfer function");
+  std::vector<float> ends(intervals.size() - 1);
+  std::transform(intervals.begin(), intervals.end() - 1, ends.begin(),
+    [](const IntervalTable::Interval& interval) { return interval.Hi; });
+  const std::vector<std::int32_t> buckets = MakeScalarBuckets(ends);
+  this->Buckets.Upload(
+    window, buckets.data(), buckets.size(), 1, "the search table of the transfer function");
 }
 
-void GpuSegmentIntegral::UpdateSurfaces(
+void GpuSegmentIntegral::UploadSurfaces(
   vtkOpenGLRenderWindow* window, const std::vector<Isosurface>& surfaces)
 {
   std::vector<float> texels;
@@ -151,12 +165,9 @@ void GpuSegmentIntegral::UpdateSurfaces(
       { static_cast<float>(surface.Value), 0, 0, 0, c[0], c[1], c[2],
         std::clamp(surface.Opacity, 0.f, 1.f) });
   }
-  if (this->Surfaces.IsEmpty() || texels != this->SurfaceTexels)
-  {
-    this->SurfaceTexels = std::move(texels);
-    this->Surfaces.Upload(window, this->SurfaceTexels.data(), TexelsOfSurface * surfaces.size(), 4,
-      "the table of isosurfaces");
-  }
+  this->NumberOfSurfaces = static_cast<int>(surfaces.size());
+  this->Surfaces.Upload(
+    window, texels.data(), TexelsOfSurface * surfaces.size(), 4, "the table of isosurfaces");
 }
 
 std::string GpuSegmentIntegral::GetDeclarations() const
@@ -207,8 +218,7 @@ void GpuSegmentIntegral::Activate(vtkShaderProgram* program)
   if (this->Integrator == Integrator::Isosurfaces)
   {
     this->Surfaces.Activate(program, "isosurfaces");
-    program->SetUniformi(
-      "numberOfIsosurfaces", static_cast<int>(this->SurfaceTexels.size() / (4 * TexelsOfSurface)));
+    program->SetUniformi("numberOfIsosurfaces", this->NumberOfSurfaces);
     return;
   }
   if (IsTabulated(this->Integrator))

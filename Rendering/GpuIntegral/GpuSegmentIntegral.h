@@ -5,6 +5,7 @@
 // What a segment of a ray adds to a picture, in shaders: the GLSL functions, the arrays that they
 // read, and their uniforms. For both mappers that draw on the graphics card.
 
+#include "Base/Cached.h"
 #include "Base/Span.h"
 #include "GpuIntegral/GpuSegmentTable.h"
 #include "Integral/Integrator.h"
@@ -35,6 +36,10 @@ struct SegmentSource
 
   /// Of Integrator::OpticalDepth: what contributes has this colour; absorption alone has none, 0.
   double Color[3] = { 0, 0, 0 };
+
+  /// What intervals and surfaces were made from; empty: they may differ from those of the last
+  /// source.
+  CacheKey Key;
 
   /// The transfer function; of no use to Isosurfaces. Scalars at points are mapped as in this table.
   const IntervalTable* Intervals = nullptr;
@@ -127,8 +132,8 @@ public:
 
 private:
   std::string GetFlatDeclarations() const;
-  void UpdateIntervals(vtkOpenGLRenderWindow* window, const IntervalTable& table);
-  void UpdateSurfaces(vtkOpenGLRenderWindow* window, const std::vector<Isosurface>& surfaces);
+  void UploadIntervals(vtkOpenGLRenderWindow* window, const IntervalTable& table);
+  void UploadSurfaces(vtkOpenGLRenderWindow* window, const std::vector<Isosurface>& surfaces);
 
   tetralux::Integrator Integrator = tetralux::Integrator::ClosedForm;
   bool OfCells = false;
@@ -137,11 +142,12 @@ private:
   float Color[3] = { 0, 0, 0 };
 
   TextureBuffer Intervals;
-  std::vector<float> IntervalTexels; ///< as they were sent
+  CacheStamp IntervalsStamp;
   TextureBuffer Buckets;
   GpuSegmentTable Table;
   TextureBuffer Surfaces;
-  std::vector<float> SurfaceTexels; ///< as they were sent
+  CacheStamp SurfacesStamp;
+  int NumberOfSurfaces = 0;
   TextureBuffer CellValues;
   std::uint64_t CellValuesVersion = 0;
 };

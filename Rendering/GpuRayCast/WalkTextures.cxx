@@ -6,38 +6,41 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
 
+#include <utility>
+#include <vector>
+
 namespace tetralux
 {
 
 void WalkTextures::UpdateFaces(
-  vtkOpenGLRenderWindow* window, const WalkTables& tables, const Version& version)
+  vtkOpenGLRenderWindow* window, const WalkTables& tables, CacheKey key)
 {
-  if (this->HasFaces(window, version))
+  if (this->HasFaces(window, key))
   {
     return;
   }
-  this->FacesVersion.clear();
+  this->FacesStamp.Reset();
   if (this->Window != window)
   {
-    this->BoundaryVersion.clear();
-    this->PointsVersion.clear();
-    this->GradientsVersion.clear();
+    this->BoundaryStamp.Reset();
+    this->PointsStamp.Reset();
+    this->GradientsStamp.Reset();
     this->Window = window;
   }
   this->Faces.Upload(window, reinterpret_cast<const std::int32_t*>(tables.Faces.data()),
     tables.Faces.size(), 2, "the table of faces");
   this->UploadedBytes += this->Faces.GetNumberOfBytes();
-  this->FacesVersion = version;
+  this->FacesStamp.Set(std::move(key));
 }
 
 void WalkTextures::UpdateBoundary(vtkOpenGLRenderWindow* window, const WalkTables& tables,
-  Span<const std::uint8_t> positive, const Version& version)
+  Span<const std::uint8_t> positive, CacheKey key)
 {
-  if (this->BoundaryVersion == version)
+  if (this->BoundaryStamp.Has(key))
   {
     return;
   }
-  this->BoundaryVersion.clear();
+  this->BoundaryStamp.Reset();
   const WalkTexels texels = MakeWalkTexels(tables, positive);
   this->Entries.Upload(
     window, texels.Entries.data(), texels.Entries.size() / 4, 4, "the table of boundary faces");
@@ -49,37 +52,37 @@ void WalkTextures::UpdateBoundary(vtkOpenGLRenderWindow* window, const WalkTable
   this->NumberOfEntries = static_cast<int>(tables.Entries.size());
   this->UploadedBytes += this->Entries.GetNumberOfBytes() + this->Boxes.GetNumberOfBytes() +
     this->Links.GetNumberOfBytes();
-  this->BoundaryVersion = version;
+  this->BoundaryStamp.Set(std::move(key));
 }
 
 void WalkTextures::UpdatePoints(
-  vtkOpenGLRenderWindow* window, Span<const WalkPoint<float>> points, const Version& version)
+  vtkOpenGLRenderWindow* window, Span<const WalkPoint<float>> points, CacheKey key)
 {
-  if (this->Window == window && this->PointsVersion == version)
+  if (this->Window == window && this->PointsStamp.Has(key))
   {
     return;
   }
-  this->PointsVersion.clear();
+  this->PointsStamp.Reset();
   this->Points.Upload(
     window, reinterpret_cast<const float*>(points.data()), points.size(), 4, "the table of points");
   this->UploadedBytes += this->Points.GetNumberOfBytes();
   this->NumberOfPoints = points.size();
-  this->PointsVersion = version;
+  this->PointsStamp.Set(std::move(key));
 }
 
 void WalkTextures::UpdateGradients(
-  vtkOpenGLRenderWindow* window, Span<const PointGradient> gradients, const Version& version)
+  vtkOpenGLRenderWindow* window, Span<const PointGradient> gradients, CacheKey key)
 {
-  if (this->GradientsVersion == version)
+  if (this->GradientsStamp.Has(key))
   {
     return;
   }
-  this->GradientsVersion.clear();
+  this->GradientsStamp.Reset();
   std::vector<PointGradient> padded(gradients.begin(), gradients.end());
   padded.resize(this->NumberOfPoints, PointGradient{ 0, 0, 0, 0 });
   this->Gradients.Upload(window, &padded.data()->X, padded.size(), 4, "the table of gradients");
   this->UploadedBytes += this->Gradients.GetNumberOfBytes();
-  this->GradientsVersion = version;
+  this->GradientsStamp.Set(std::move(key));
 }
 
 std::string WalkTextures::FindObstacle(
@@ -147,10 +150,10 @@ void WalkTextures::ReleaseGraphicsResources(vtkWindow* window)
     buffer->ReleaseGraphicsResources(window);
   }
   this->Window = nullptr;
-  this->FacesVersion.clear();
-  this->BoundaryVersion.clear();
-  this->PointsVersion.clear();
-  this->GradientsVersion.clear();
+  this->FacesStamp.Reset();
+  this->BoundaryStamp.Reset();
+  this->PointsStamp.Reset();
+  this->GradientsStamp.Reset();
 }
 
 } // namespace tetralux

@@ -2,6 +2,7 @@
 #ifndef tetralux_WalkTextures_h
 #define tetralux_WalkTextures_h
 
+#include "Base/Cached.h"
 #include "Mesh/PointGradients.h"
 #include "OpenGL/TextureBuffer.h"
 #include "TetraluxRenderingModule.h"
@@ -11,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
@@ -25,31 +25,28 @@ namespace tetralux
 class TETRALUXRENDERING_EXPORT WalkTextures
 {
 public:
-  /// Whatever tells contents apart; never empty.
-  using Version = std::vector<std::uint64_t>;
-
-  bool HasFaces(vtkOpenGLRenderWindow* window, const Version& version) const
+  bool HasFaces(vtkOpenGLRenderWindow* window, const CacheKey& key) const
   {
-    return this->Window == window && this->FacesVersion == version;
+    return this->Window == window && this->FacesStamp.Has(key);
   }
 
-  /// Sends what lies behind each face of the cells, unless it has this version already.
-  void UpdateFaces(vtkOpenGLRenderWindow* window, const WalkTables& tables, const Version& version);
+  /// Sends what lies behind each face of the cells, unless it is there by this key.
+  void UpdateFaces(vtkOpenGLRenderWindow* window, const WalkTables& tables, CacheKey key);
 
-  /// Sends the boundary and the hierarchy over it, unless they have this version already. positive:
+  /// Sends the boundary and the hierarchy over it, unless they are there by this key. positive:
   /// see MakeWalkTexels. Call it after UpdateFaces.
   void UpdateBoundary(vtkOpenGLRenderWindow* window, const WalkTables& tables,
-    Span<const std::uint8_t> positive, const Version& version);
+    Span<const std::uint8_t> positive, CacheKey key);
 
-  /// Sends points with their scalars, unless they have this version already. Call it after
+  /// Sends points with their scalars, unless they are there by this key. Call it after
   /// UpdateFaces.
   void UpdatePoints(
-    vtkOpenGLRenderWindow* window, Span<const WalkPoint<float>> points, const Version& version);
+    vtkOpenGLRenderWindow* window, Span<const WalkPoint<float>> points, CacheKey key);
 
-  /// Sends gradients at points, unless they have this version already; padded to the number of points.
+  /// Sends gradients at points, unless they are there by this key; padded to the number of points.
   /// To be called after UpdatePoints.
   void UpdateGradients(
-    vtkOpenGLRenderWindow* window, Span<const PointGradient> gradients, const Version& version);
+    vtkOpenGLRenderWindow* window, Span<const PointGradient> gradients, CacheKey key);
 
   /// What of a mesh would not fit on the graphics card of a window, one line; empty where all does.
   static std::string FindObstacle(
@@ -85,10 +82,10 @@ private:
   int NumberOfNodes = 0;
   int NumberOfEntries = 0;
   vtkOpenGLRenderWindow* Window = nullptr; ///< only compared
-  Version FacesVersion;
-  Version BoundaryVersion;
-  Version PointsVersion;
-  Version GradientsVersion;
+  CacheStamp FacesStamp;
+  CacheStamp BoundaryStamp;
+  CacheStamp PointsStamp;
+  CacheStamp GradientsStamp;
   std::size_t UploadedBytes = 0;
 };
 
