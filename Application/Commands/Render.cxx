@@ -100,7 +100,7 @@ void SelectScalars(const ArrayChoice& choice, vtkTetrahedraVolumeMapper* mapper)
                                               : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
   mapper->SelectScalarArray(choice.Array.Name.c_str());
   mapper->SetVectorMode(
-    choice.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE : vtkTetrahedraVolumeMapper::COMPONENT);
+    choice.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE_MODE : vtkTetrahedraVolumeMapper::COMPONENT_MODE);
   mapper->SetVectorComponent(choice.Component);
 }
 

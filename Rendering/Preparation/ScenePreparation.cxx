@@ -299,7 +299,7 @@ void ScenePreparation::PrepareFunction(vtkVolume* volume)
 void ScenePreparation::PrepareTable(vtkVolume* volume)
 {
   const WalkMesh& mesh = *this->Scene.GetMesh();
-  if (this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::CLOSED_FORM ||
+  if (this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::CLOSED_FORM_INTEGRATION ||
     this->Scene.GetOpticalModel() != OpticalModel::EmissionAbsorption ||
     this->Scene.HasCellScalars() || mesh.GetNumberOfCells() == 0 ||
     this->Scene.GetPlan().ConstantColor || this->Scene.GetPlan().Transparent)
@@ -323,7 +323,7 @@ void ScenePreparation::PrepareTable(vtkVolume* volume)
   goal.Rays = this->Scene.GetRaySample(scale);
   goal.LongestSegment = this->Scene.GetLongestEdge() * scale; // no segment is longer
   std::copy_n(this->Scene.GetScalarRange(), 2, goal.ScalarRange);
-  goal.AlwaysTable = this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::TABLE;
+  goal.AlwaysTable = this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::TABLE_INTEGRATION;
   goal.ScalarSize = this->Mapper->GetTableScalarSize();
   goal.LengthSize = this->Mapper->GetTableLengthSize();
   goal.AnyScale = this->Mapper->GetTableLengthScale() == vtkTetrahedraVolumeMapper::AUTOMATIC_SCALE;
@@ -406,7 +406,7 @@ std::string ScenePreparation::GetIntegrationReason()
   {
     return "closed form: cells are constant";
   }
-  if (this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::CLOSED_FORM)
+  if (this->Mapper->GetIntegration() == vtkTetrahedraVolumeMapper::CLOSED_FORM_INTEGRATION)
   {
     return "closed form: asked for";
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// vtkPreIntegrationTable: what is in the image, and where.
-#include "vtkPreIntegrationTable.h"
+// vtkPreIntegrationTableSource: what is in the image, and where.
+#include "vtkPreIntegrationTableSource.h"
 
 #include "Integral/RayIntegral.h"
 #include "Preparation/TransferFunctionFromProperty.h"
@@ -102,7 +102,7 @@ protected:
   vtkNew<vtkPiecewiseFunction> Opacity;
   vtkNew<vtkColorTransferFunction> Color;
   vtkNew<vtkVolumeProperty> Property;
-  vtkNew<vtkPreIntegrationTable> Table;
+  vtkNew<vtkPreIntegrationTableSource> Table;
   vtkNew<ErrorKeeper> Errors;
 };
 
@@ -198,7 +198,7 @@ TEST_F(PreIntegrationTableSource, OtherModelsNeedFewerDimensions)
   { return this->Table->GetOutput()->GetScalarComponentAsDouble(i, j, 0, c); };
   const auto scalar = [](int i) { return 10 + 10. * i / 23; };
   for (const int model :
-    { vtkPreIntegrationTable::EMISSION_ONLY, vtkPreIntegrationTable::ABSORPTION_ONLY })
+    { vtkPreIntegrationTableSource::EMISSION_ONLY, vtkPreIntegrationTableSource::ABSORPTION_ONLY })
   {
     this->Table->SetOpticalModel(model);
     this->Table->Update();
@@ -212,7 +212,7 @@ TEST_F(PreIntegrationTableSource, OtherModelsNeedFewerDimensions)
     EXPECT_NEAR(1 - std::exp(-1.5 * at(3, 20, 3)), smoke.Opacity, 1e-6);
   }
 
-  this->Table->SetOpticalModel(vtkPreIntegrationTable::MAXIMUM_INTENSITY);
+  this->Table->SetOpticalModel(vtkPreIntegrationTableSource::MAXIMUM_INTENSITY);
   this->Table->Update();
   EXPECT_EQ(this->Table->GetOutput()->GetDataDimension(), 1);
   EXPECT_NEAR(at(23, 0, 3), 0.3, 1e-6); // opacity itself, not for each unit distance
@@ -220,7 +220,7 @@ TEST_F(PreIntegrationTableSource, OtherModelsNeedFewerDimensions)
 
   this->Property->GetIsoSurfaceValues()->SetValue(0, 15);
   this->Property->GetIsoSurfaceValues()->SetValue(1, 12);
-  this->Table->SetOpticalModel(vtkPreIntegrationTable::ISOSURFACES);
+  this->Table->SetOpticalModel(vtkPreIntegrationTableSource::ISOSURFACES);
   this->Table->Update();
   EXPECT_EQ(at(0, 2, 3), 0);
   EXPECT_NEAR(at(0, 6, 3), 0.5, 1e-6);                  // past 12
