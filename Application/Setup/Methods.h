@@ -13,6 +13,9 @@ class vtkTetrahedraVolumeMapper;
 /// Names that --method takes, "auto" first.
 std::vector<std::string> GetMethodNames();
 
+/// What --set can set: for each property of each method its values, default and meaning.
+std::string DescribeProperties();
+
 /// The mapper of a method other than "auto", for still pictures: one ray a pixel unless something else
 /// is set. numberOfThreads: 0 for as many as there are. settings: as SetProperty takes them. Throws
 /// UsageError where there is no such method, where it has no threads to be set, and what SetProperty

@@ -296,18 +296,20 @@ std::string DescribeValues(const std::vector<NamedValue>& values)
 
 std::string FormatValues(const MapperProperty& property, const std::vector<double>& values)
 {
-  switch (property.Type)
+  if (property.Type == PropertyType::Boolean)
   {
-    case PropertyType::Boolean:
-      return values.front() != 0 ? "On" : "Off";
-    case PropertyType::Enumeration:
-      return GetValueName(property.Name, static_cast<int>(values.front()));
-    default:
-      break;
+    return values.front() != 0 ? "On" : "Off";
   }
   std::string text;
   for (const double value : values)
   {
+    for (const NamedValue& named : property.Values)
+    {
+      if (named.Number == value)
+      {
+        return named.Name;
+      }
+    }
     text += (text.empty() ? "" : ", ") + FormatNumber(property.Type, value);
   }
   return text;

@@ -85,7 +85,8 @@ TETRALUXRENDERING_EXPORT std::string DescribeValues(const MapperProperty& proper
 /// The same for named values alone.
 TETRALUXRENDERING_EXPORT std::string DescribeValues(const std::vector<NamedValue>& values);
 
-/// Numbers of a property as text: "On", "closed-form", "0.0001", "0, 1, 0, 1, 0, 1".
+/// Numbers of a property as text, by name if there is one: "On", "closed-form", "0.0001",
+/// "0, 1, 0, 1, 0, 1".
 TETRALUXRENDERING_EXPORT std::string FormatValues(
   const MapperProperty& property, const std::vector<double>& values);
 
