@@ -435,7 +435,7 @@ tetraluxSetNumberMacro(vtkTetrahedraGPURayCastMapper, StepsPerPass, int)
   void vtkTetrahedraGPURayCastMapper::PrintProperties(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintProperties(os, indent);
-  tetralux::PropertyPrinter printer(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("StepsPerPass", this->StepsPerPass);
   printer.Print("CountFragments", this->CountFragments);
 }

@@ -485,7 +485,7 @@ const char* vtkTetrahedraProjectionMapper::GetUsedOrderAsString()
 void vtkTetrahedraProjectionMapper::PrintProperties(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintProperties(os, indent);
-  tetralux::PropertyPrinter printer(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("PerspectiveInterpolation", this->PerspectiveInterpolation);
   printer.Print("ColorBuffer", this->ColorBuffer);
   printer.Print("AlphaDithering", this->AlphaDithering);

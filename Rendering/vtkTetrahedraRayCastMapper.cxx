@@ -196,7 +196,7 @@ tetraluxSetNumberMacro(vtkTetrahedraRayCastMapper, NumberOfThreads, int)
   void vtkTetrahedraRayCastMapper::PrintProperties(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintProperties(os, indent);
-  tetralux::PropertyPrinter printer(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("NumberOfThreads", this->NumberOfThreads);
   printer.Print("Precision", this->Precision);
   printer.Print("ImageSampleDistance", this->ImageSampleDistance);

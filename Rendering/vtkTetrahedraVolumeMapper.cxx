@@ -392,7 +392,7 @@ void vtkTetrahedraVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::PrintProperties(ostream& os, vtkIndent indent)
 {
-  tetralux::PropertyPrinter printer(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("BlendMode", this->BlendMode);
   printer.Print("MaximumError", this->MaximumError);
   printer.Print("Integration", this->Integration);

@@ -11,27 +11,33 @@
 namespace tetralux
 {
 
-/// Prints properties for PrintSelf, one a line, as FormatValues has them.
+/// Prints properties for PrintSelf, one a line, as FormatValues has them. Skips those that mappers of
+/// these kinds do not have.
 class PropertyPrinter
 {
 public:
-  PropertyPrinter(std::ostream& os, vtkIndent indent)
+  PropertyPrinter(std::ostream& os, vtkIndent indent, unsigned kinds)
     : Stream(os)
     , Indent(indent)
+    , Kinds(kinds)
   {
   }
 
   template <class... NumberT>
   void Print(const char* name, NumberT... values)
   {
-    this->Stream << this->Indent << name << ": "
-                 << FormatValues(GetMapperProperty(name), { static_cast<double>(values)... })
-                 << "\n";
+    const MapperProperty& property = GetMapperProperty(name);
+    if ((property.Kinds & this->Kinds) != 0)
+    {
+      this->Stream << this->Indent << name << ": "
+                   << FormatValues(property, { static_cast<double>(values)... }) << "\n";
+    }
   }
 
 private:
   std::ostream& Stream;
   vtkIndent Indent;
+  unsigned Kinds;
 };
 
 } // namespace tetralux

@@ -51,7 +51,7 @@ def test_errors_are_stated():
 
 def test_saved_and_read_again():
     table = make_table()
-    table.SetFormat(2)
+    table.SetFormatToUNorm16()
     with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, "table.vti")
         writer = vtkXMLImageDataWriter()

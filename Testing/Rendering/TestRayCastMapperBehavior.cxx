@@ -127,7 +127,7 @@ TEST(RayCastMapperCaching, RebuildsWhatChanged)
   EXPECT_EQ(RenderAndGetRebuilt(scene), Nothing);
   scene.Grid->GetPointData()->SetActiveScalars("Other");
   EXPECT_EQ(RenderAndGetRebuilt(scene), Scalars);
-  scene.Mapper->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE);
+  scene.Mapper->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE_MODE);
   EXPECT_EQ(RenderAndGetRebuilt(scene), Scalars);
 
   // Transfer function.
@@ -452,8 +452,6 @@ TEST(RayCastMapperBehavior, RefusesWhatCannotBeDrawn)
     [](RayCastScene& scene) { scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(0); });
   expectError(
     "matrix has no inverse", [](RayCastScene& scene) { scene.Volume->SetScale(1, 0, 1); });
-  expectError("BlendMode 2 is none of this mapper's",
-    [](RayCastScene& scene) { scene.Mapper->SetBlendMode(2); });
   expectError("has no IsoSurfaceValues",
     [](RayCastScene& scene)
     {
