@@ -68,8 +68,8 @@ public:
   ///@}
 
   /**
-   * Return the types of the skipped cells with their numbers, as "12 vtkLagrangeHexahedron"; empty if
-   * none was skipped.
+   * Return the types of the skipped cells with their numbers, as "12 vtkLagrangeHexahedron"; empty
+   * if none was skipped.
    */
   const char* GetSkippedCellTypes();
 

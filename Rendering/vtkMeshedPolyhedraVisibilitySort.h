@@ -3,10 +3,10 @@
  * @class   vtkMeshedPolyhedraVisibilitySort
  * @brief   exact back-to-front visibility order of tetrahedra (MPVO, Williams 1992)
  *
- * For vtkProjectedTetrahedraMapper::SetVisibilitySort, and for other code that draws cells one after
- * the other. Occluded cells come before the cells that occlude them (BACK_TO_FRONT) or after them
- * (FRONT_TO_BACK). VTK's own vtkCellCenterDepthSort orders by the depths of the cells' centers, which
- * is wrong if neighbours differ in size or shape.
+ * For vtkProjectedTetrahedraMapper::SetVisibilitySort, and for other code that draws cells one
+ * after the other. Occluded cells come before the cells that occlude them (BACK_TO_FRONT) or after
+ * them (FRONT_TO_BACK). VTK's own vtkCellCenterDepthSort orders by the depths of the cells'
+ * centers, which is wrong if neighbours differ in size or shape.
  *
  * Meshed polyhedra visibility ordering (Williams, Visibility Ordering Meshed Polyhedra, 1992): for
  * each face that two cells have in common, an exact sign tells which of them is in front. If the
@@ -16,9 +16,9 @@
  *
  * Accepts a data set whose volumes are tetrahedra; refuses others (vtkTetrahedralizeCells makes
  * tetrahedra of them), since cells of other kinds need not have an order at all. Returns cells by
- * their ids, each once. Skips cells that are no volumes, that are blanked, ghosts or unusable (point
- * ids that do not exist, coordinates that are not finite, the same four points for a second time),
- * as vtkTetrahedraRayCastMapper does.
+ * their ids, each once. Skips cells that are no volumes, that are blanked, ghosts or unusable
+ * (point ids that do not exist, coordinates that are not finite, the same four points for a second
+ * time), as vtkTetrahedraRayCastMapper does.
  *
  * Camera may make any projection that vtkCamera can; without one the view is along -z, from far
  * away. ModelTransform must be affine and invertible. An input that can't be used, and a camera or
@@ -59,13 +59,13 @@ public:
    * - AUTOMATIC_ORDER: as EXACT_ORDER.
    * - EXACT_ORDER: by the common faces of the mesh, made convex by imaginary cells. If it can't be
    *   made convex (GetRefusal() says why), as ACROSS_GAPS_ORDER.
-   * - ACROSS_GAPS_ORDER: exact for any mesh, by common faces and by all pairs of boundary faces such
-   *   that rays leave the mesh by one and enter it by the other. The pairs are found anew for each
-   *   view, which takes several times as long as all else. If there are more than 64 for each boundary
-   *   face, as NON_CONVEX_ORDER.
-   * - NON_CONVEX_ORDER: Williams' MPVONC. Exact across common faces, and so for convex meshes; across
-   *   empty space a guess from the distances of centroids. Makes no imaginary cells, which takes
-   *   seconds for a mesh with hundreds of thousands of boundary faces.
+   * - ACROSS_GAPS_ORDER: exact for any mesh, by common faces and by all pairs of boundary faces
+   *   such that rays leave the mesh by one and enter it by the other. The pairs are found anew for
+   *   each view, which takes several times as long as all else. If there are more than 64 for each
+   *   boundary face, as NON_CONVEX_ORDER.
+   * - NON_CONVEX_ORDER: Williams' MPVONC. Exact across common faces, and so for convex meshes;
+   *   across empty space a guess from the distances of centroids. Makes no imaginary cells, which
+   *   takes seconds for a mesh with hundreds of thousands of boundary faces.
    * - CENTROID_ORDER: by the distances of the cells' centroids from the eye (along the view, in a
    *   parallel projection). The fastest, and inexact everywhere.
    */
@@ -105,11 +105,11 @@ public:
 
   ///@{
   /**
-   * Return what the last InitTraversal found. A cycle is a set of cells, imaginary ones among them, in
-   * which each cell occludes the next and the last occludes the first. Ignored faces are those (or
-   * pairs of them across a gap) that the order passes in the wrong direction. Their area is how large
-   * they look: the solid angle in a perspective view, the projected area in squared units of the input
-   * in a parallel one. CENTROID_ORDER finds none, since it does not look for them.
+   * Return what the last InitTraversal found. A cycle is a set of cells, imaginary ones among them,
+   * in which each cell occludes the next and the last occludes the first. Ignored faces are those
+   * (or pairs of them across a gap) that the order passes in the wrong direction. Their area is how
+   * large they look: the solid angle in a perspective view, the projected area in squared units of
+   * the input in a parallel one. CENTROID_ORDER finds none, since it does not look for them.
    */
   vtkIdType GetNumberOfCycles();
   vtkIdType GetNumberOfIgnoredFaces();

@@ -3,16 +3,17 @@
  * @class   vtkPreIntegrationTableSource
  * @brief   what ray segments add to a picture, tabulated as an image
  *
- * A source without input. It makes, from a vtkVolumeProperty (component 0), a range of scalars and a
- * longest segment, the table by which segments of rays are integrated (Weiler et al., Hardware-Based
- * Ray Casting for Tetrahedral Meshes, 2003, section 4; Kraus et al., Projecting Tetrahedra without
- * Rendering Artifacts, 2004, section 3), so that it can be saved, looked at and compared in any
- * pipeline.
+ * A source without input. It makes, from a vtkVolumeProperty (component 0), a range of scalars and
+ * a longest segment, the table by which segments of rays are integrated (Weiler et al.,
+ * Hardware-Based Ray Casting for Tetrahedral Meshes, 2003, section 4; Kraus et al., Projecting
+ * Tetrahedra without Rendering Artifacts, 2004, section 3), so that it can be saved, looked at and
+ * compared in any pipeline.
  *
  * The output is a vtkImageData with the point scalars "RGBA": premultiplied colour and opacity of a
  * segment over its front scalar (x), its back scalar (y) and its length (z). A point is a texel's
- * centre; the first and the last ones are the ends of the axes. Blend modes other than composite need
- * fewer dimensions; their tables are in single precision with equal steps, whatever else is set:
+ * centre; the first and the last ones are the ends of the axes. Blend modes other than composite
+ * need fewer dimensions; their tables are in single precision with equal steps, whatever else is
+ * set:
  *
  *   composite          3-D
  *   additive           2-D, emission (RGB) and optical depth (A) for each unit of length
@@ -31,8 +32,8 @@
  *   ScalarAxisIntervals    Lo, Hi, Coordinate, Slope: the texel's coordinate of x = (s - Offset) /
  *                          Scale is Coordinate + Slope (x - Lo) in Lo..Hi (3-D)
  *   ScalarOffsetAndScale   Offset and Scale (3-D)
- *   ErrorBound             of a segment, by interpolation: largest, largest for each unit of length;
- *                          then by rounding: no segment exceeds them, see PreIntegrationError.h (3-D)
+ *   ErrorBound             of a segment, by interpolation: largest, largest for each unit of
+ *                          length; then by rounding: no segment exceeds them (3-D)
  *   ErrorEstimate          the same, measured (3-D)
  *   FunctionError          of a colour channel, by approximating functions that are not piecewise
  *                          linear
@@ -126,10 +127,10 @@ public:
 
   ///@{
   /**
-   * Set the spacing of texels along the length: LINEAR_SCALE, equal steps, or LOGARITHMIC_SCALE, with
-   * StepsPerDoubling steps up to delta l and for every doubling (Kraus et al. 2004, equation 1).
-   * Values are those of vtkTetrahedraVolumeMapper::TableLengthScaleType; AUTOMATIC_SCALE is refused
-   * with an error. Default LINEAR_SCALE.
+   * Set the spacing of texels along the length: LINEAR_SCALE, equal steps, or LOGARITHMIC_SCALE,
+   * with StepsPerDoubling steps up to delta l and for every doubling (Kraus et al. 2004, equation
+   * 1). Values are those of vtkTetrahedraVolumeMapper::TableLengthScaleType; AUTOMATIC_SCALE is
+   * refused with an error. Default LINEAR_SCALE.
    */
   virtual void SetLengthScale(int scale);
   vtkGetMacro(LengthScale, int);
@@ -154,8 +155,8 @@ public:
   /**
    * Set the spacing of texels along the scalars: UNIFORM_AXIS, equal steps, or NODES_AXIS, on the
    * nodes of the functions and denser next to them. Values are those of
-   * vtkTetrahedraVolumeMapper::TableScalarAxisType; AUTOMATIC_AXIS is refused with an error. Default
-   * UNIFORM_AXIS.
+   * vtkTetrahedraVolumeMapper::TableScalarAxisType; AUTOMATIC_AXIS is refused with an error.
+   * Default UNIFORM_AXIS.
    */
   virtual void SetScalarAxis(int axis);
   vtkGetMacro(ScalarAxis, int);
@@ -185,8 +186,8 @@ public:
 
   ///@{
   /**
-   * Set whether longer segments are made from shorter ones (Weiler et al. 2003, section 4) instead of
-   * each by the closed form: slower and less accurate, for comparison. Default off.
+   * Set whether longer segments are made from shorter ones (Weiler et al. 2003, section 4) instead
+   * of each by the closed form: slower and less accurate, for comparison. Default off.
    */
   vtkSetMacro(Incremental, vtkTypeBool);
   vtkGetMacro(Incremental, vtkTypeBool);

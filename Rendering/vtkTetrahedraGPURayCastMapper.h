@@ -18,8 +18,8 @@
  *
  * @warning A mesh has at most a quarter as many tetrahedra as the driver's texture buffers have
  * texels (2^27 on most), and must fit into free memory if the driver tells how much there is. Both
- * are checked before anything is sent; one error says which limit was exceeded. A mesh whose size in
- * the world is beyond the range of single precision is refused.
+ * are checked before anything is sent; one error says which limit was exceeded. A mesh whose size
+ * in the world is beyond the range of single precision is refused.
  *
  * @sa vtkTetrahedraRayCastMapper
  */
@@ -43,8 +43,8 @@ public:
   ///@{
   /**
    * Set the number of cells that a ray passes in one draw call at most, 1 to 65535. Default 128.
-   * Fewer steps make an abort sooner and keep a slow graphics card's watchdog quiet; more steps save
-   * draw calls. The picture does not depend on it.
+   * Fewer steps make an abort sooner and keep a slow graphics card's watchdog quiet; more steps
+   * save draw calls. The picture does not depend on it.
    */
   virtual void SetStepsPerPass(int steps);
   vtkGetMacro(StepsPerPass, int);

@@ -150,7 +150,8 @@ private:
   /// The order of the cells that are drawn. False after an abort.
   bool PrepareOrder(MapperFrame& frame);
 
-  /// Makes the sorter anew where the mesh or the kind of order is another one. False after an abort.
+  /// Makes the sorter anew where the mesh or the kind of order is another one. False after an
+  /// abort.
   bool PrepareSorter(MapperFrame& frame);
   bool IsOrderExact() const;
 

@@ -5,18 +5,18 @@
  *
  * Draws each cell's silhouette as triangles in visibility order. Each fragment finds where its ray
  * enters and leaves the cell, with which scalars, and what that adds to the picture (Kraus et al.,
- * Projecting Tetrahedra without Rendering Artifacts, 2004). With the defaults the picture is that of
- * ray casting, except for cells that occlude each other in a cycle. Each of the paper's corrections
- * can be turned off, so that its artifact can be studied:
+ * Projecting Tetrahedra without Rendering Artifacts, 2004). With the defaults the picture is that
+ * of ray casting, except for cells that occlude each other in a cycle. Each of the paper's
+ * corrections can be turned off, so that its artifact can be studied:
  *
  * - perspective interpolation (section 2): PerspectiveInterpolation;
- * - the table's texels and its logarithmic scale (section 3): TableFormat and TableLengthScale, with
- *   IntegrationToTable; by default there is no table if the integral has a cheap closed form;
+ * - the table's texels and its logarithmic scale (section 3): TableFormat and TableLengthScale,
+ *   with IntegrationToTable; by default there is no table if the integral has a cheap closed form;
  * - compositing (section 4): ColorBuffer, and AlphaDithering for the 8-bit buffer.
  *
  * Order is the visibility order; models whose contributions commute need none. Cells that can't be
- * seen are neither ordered nor drawn. See vtkTetrahedraVolumeMapper for the input, the optical models
- * and their properties; Reentry is not one of this mapper's.
+ * seen are neither ordered nor drawn. See vtkTetrahedraVolumeMapper for the input, the optical
+ * models and their properties; Reentry is not one of this mapper's.
  *
  * Needs OpenGL 3.2 and draws on a graphics card or in software.
  *
@@ -92,8 +92,8 @@ public:
    * Set the visibility order that cells are composited in, one of
    * vtkMeshedPolyhedraVisibilitySort::VisibilityOrder, which has what each of them does. Default
    * AUTOMATIC_ORDER: as EXACT_ORDER, without its warning. EXACT_ORDER makes the mesh convex in the
-   * first frame (see vtkConvexifyTetrahedra). It warns once, and says why, if neither the convex mesh
-   * nor ACROSS_GAPS_ORDER is possible and the order is that of NON_CONVEX_ORDER.
+   * first frame (see vtkConvexifyTetrahedra). It warns once, and says why, if neither the convex
+   * mesh nor ACROSS_GAPS_ORDER is possible and the order is that of NON_CONVEX_ORDER.
    *
    * GetUsedOrder() returns the order of the last frame: AUTOMATIC_ORDER before the first frame, and
    * if the cells' contributions commute and need no order ("none" as a string).

@@ -6,8 +6,8 @@
  * Renders the cells of a data set as a volume with a known error. The integral over each cell is
  * evaluated in closed form, never sampled. The picture does not depend on the number of threads.
  * See vtkTetrahedraVolumeMapper for the input, the optical models and their properties. Reentry is
- * AUTOMATIC_REENTRY, BOUNDARY_HIERARCHY_REENTRY or IMAGINARY_CELLS_REENTRY; the hierarchy was faster
- * in every scene that was measured.
+ * AUTOMATIC_REENTRY, BOUNDARY_HIERARCHY_REENTRY or IMAGINARY_CELLS_REENTRY; the hierarchy was
+ * faster in every scene that was measured.
  *
  * @sa vtkTetrahedralizeCells, vtkUnstructuredGridVolumeRayCastMapper
  */
@@ -77,9 +77,9 @@ public:
 
   ///@{
   /**
-   * Set whether the distance of rays follows from the time that the renderer allocates to the volume
-   * and the time that a ray took in the last frame. Default on. Without a desired update rate, as in
-   * still and off-screen frames, that time is hours, and the distance is
+   * Set whether the distance of rays follows from the time that the renderer allocates to the
+   * volume and the time that a ray took in the last frame. Default on. Without a desired update
+   * rate, as in still and off-screen frames, that time is hours, and the distance is
    * MinimumImageSampleDistance.
    */
   vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);

@@ -49,9 +49,10 @@ public:
 
   ///@{
   /**
-   * Set the largest error per premultiplied channel, 1e-9 to 1, up to which functions of the property
-   * that are not piecewise linear (other colour spaces than RGB, sharpness, logarithmic scale) are
-   * subdivided. Default 1e-5. Piecewise linear functions are exact. NaN is refused with an error.
+   * Set the largest error per premultiplied channel, 1e-9 to 1, up to which functions of the
+   * property that are not piecewise linear (other colour spaces than RGB, sharpness, logarithmic
+   * scale) are subdivided. Default 1e-5. Piecewise linear functions are exact. NaN is refused with
+   * an error.
    */
   virtual void SetMaximumError(double error);
   vtkGetMacro(MaximumError, double);

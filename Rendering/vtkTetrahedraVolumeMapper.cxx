@@ -384,7 +384,8 @@ void vtkTetrahedraVolumeMapper::SetCroppingRegionPlanes(const double planes[6])
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
-  this->Superclass::PrintSelf(os, indent);
+  // Not the superclass's, which prints BlendMode as a number.
+  this->vtkAbstractVolumeMapper::PrintSelf(os, indent);
   this->PrintProperties(os, indent);
   this->PrintResults(os, indent);
 }

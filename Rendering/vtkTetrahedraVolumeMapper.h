@@ -9,11 +9,11 @@
  * touch a scalar that is not a finite number are empty.
  *
  * Optical model: attenuation per world unit is the scalar opacity over the property's
- * ScalarOpacityUnitDistance. Radiance is the integral of attenuation x colour x exp(-optical depth).
- * VTK's own mappers of unstructured grids have the same model; its mappers of image data have
- * 1 - (1 - a)^(l / d). The property's colour (RGB in any colour space, or grey), scalar opacity and
- * unit distance of component 0 are used at the exact scalars of their nodes. SetBlendMode() has the
- * other models.
+ * ScalarOpacityUnitDistance. Radiance is the integral of attenuation x colour x exp(-optical
+ * depth). VTK's own mappers of unstructured grids have the same model; its mappers of image data
+ * have 1 - (1 - a)^(l / d). The property's colour (RGB in any colour space, or grey), scalar
+ * opacity and unit distance of component 0 are used at the exact scalars of their nodes.
+ * SetBlendMode() has the other models.
  *
  * If the property's Shade is on, lights of the renderer shine on composite volumes and isosurfaces
  * of scalars at points, from the side of the viewer: ambient, diffuse and specular (Blinn) as in
@@ -24,8 +24,8 @@
  * are in world coordinates and keep their positive side, as in VTK's other mappers.
  *
  * What is built is cached: tetrahedra and their neighbours until points, cells or ghost flags of
- * the input change, scalars until the array or the choice of it changes, the transfer function until
- * the property changes. A new camera rebuilds nothing.
+ * the input change, scalars until the array or the choice of it changes, the transfer function
+ * until the property changes. A new camera rebuilds nothing.
  *
  * Mappers are created by name; there is no object factory behind them. Each cause of an error is
  * reported once; the volume is then not drawn. Setters clamp numbers to the range that is stated,
@@ -98,8 +98,8 @@ public:
    * - MAXIMUM_INTENSITY_BLEND (1): colour and scalar opacity of the largest scalar along a ray.
    * - ADDITIVE_BLEND (4): emission without absorption; the picture has opacity 0.
    * - ISOSURFACE_BLEND (5): the surfaces of the property's IsoSurfaceValues, each with its colour
-   *   and scalar opacity, composited front to back. If Shade is on, the lights of the renderer shine
-   *   on them from both sides.
+   *   and scalar opacity, composited front to back. If Shade is on, the lights of the renderer
+   *   shine on them from both sides.
    * - ABSORPTION_BLEND (16): absorption without emission: dark smoke.
    *
    * @warning ISOSURFACE_BLEND needs scalars at points.
@@ -137,8 +137,8 @@ public:
    * - AUTOMATIC_INTEGRATION: a table if it is faster and its error is within a quarter of
    *   MaximumError, else the closed form.
    * - CLOSED_FORM_INTEGRATION: the closed form (Weiler et al. 2003, section 3.3).
-   * - TABLE_INTEGRATION: the smallest table whose error is within a quarter of MaximumError. If none
-   *   is, the best one within TableMaximumBytes; GetErrorEstimate() returns its error.
+   * - TABLE_INTEGRATION: the smallest table whose error is within a quarter of MaximumError. If
+   *   none is, the best one within TableMaximumBytes; GetErrorEstimate() returns its error.
    *
    * Scalars at cells, constant colours and other blend modes use no table.
    */
@@ -301,8 +301,8 @@ public:
    *   2003, section 3.4, see vtkConvexifyTetrahedra). The first frame that needs them makes them.
    *   Transparent cells are not left out. If the mesh can't be made convex, rays enter by its
    *   boundary, and one warning says why.
-   * - BOUNDARY_LAYERS_REENTRY, vtkTetrahedraGPURayCastMapper only: boundary faces, depth-peeled. The
-   *   hierarchy is used if the mesh reaches through the plane of the eye.
+   * - BOUNDARY_LAYERS_REENTRY, vtkTetrahedraGPURayCastMapper only: boundary faces, depth-peeled.
+   *   The hierarchy is used if the mesh reaches through the plane of the eye.
    * - NO_REENTRY, vtkTetrahedraGPURayCastMapper only: rays end where they leave the mesh.
    *
    * A value that the mapper does not have is refused with an error; vtkTetrahedraProjectionMapper
@@ -353,8 +353,8 @@ public:
   ///@{
   /**
    * Set the regions that are rendered, 0 to 0x7ffffff: bit x + 3 y + 9 z is region x, y, z, each 0
-   * below, 1 between and 2 above its two planes. Default 0x2000: between all planes. The numbers are
-   * those of vtkVolumeMapper.
+   * below, 1 between and 2 above its two planes. Default 0x2000: between all planes. The numbers
+   * are those of vtkVolumeMapper.
    */
   virtual void SetCroppingRegionFlags(int flags);
   vtkGetMacro(CroppingRegionFlags, int);

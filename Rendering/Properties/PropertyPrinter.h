@@ -11,8 +11,8 @@
 namespace tetralux
 {
 
-/// Prints properties for PrintSelf, one a line, as FormatValues has them. Skips those that mappers of
-/// these kinds do not have.
+/// Prints properties for PrintSelf, one a line, as FormatValues has them. Skips those that mappers
+/// of these kinds do not have.
 class PropertyPrinter
 {
 public:

@@ -14,8 +14,8 @@
 namespace tetralux
 {
 
-/// Setters whose range is that of the property table. A value that is refused leaves the property as
-/// it was and gives one error that names the right ones.
+/// Setters whose range is that of the property table. A value that is refused leaves the property
+/// as it was and gives one error that names the right ones.
 
 /// What kind of mapper an object is; AllKinds if it is none of them.
 inline unsigned FindMapperKind(vtkObjectBase* object)

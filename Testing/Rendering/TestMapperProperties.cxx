@@ -324,6 +324,31 @@ TEST_F(MapperProperties, NamesAreThoseOfTheEnumerators)
       { Sort::CENTROID_ORDER, "centroid" } });
 }
 
+TEST_F(MapperProperties, SayWhatAPanelNeeds)
+{
+  std::set<std::string> names;
+  for (const MapperProperty& property : tetralux::GetMapperProperties())
+  {
+    SCOPED_TRACE(property.Name);
+    EXPECT_TRUE(names.insert(property.Name).second);
+    EXPECT_NE(std::string(property.Group), "");
+    EXPECT_EQ(std::string(property.Meaning).back(), '.');
+    EXPECT_EQ(property.Default.size() > 1, !std::string(property.Elements).empty());
+    EXPECT_LT(property.Minimum, property.Maximum);
+    EXPECT_TRUE(property.Type != PropertyType::Enumeration || property.Values.size() >= 2);
+    for (const NamedValue& value : property.Values)
+    {
+      EXPECT_NE(std::string(value.Meaning), "") << value.Name;
+      EXPECT_NE(value.Kinds & property.Kinds, 0u) << value.Name;
+      EXPECT_EQ(FindNamedValue(property.Values, value.Name), &value);
+    }
+    if (std::string(property.Group) == "Pre-integration table")
+    {
+      EXPECT_TRUE(property.Advanced);
+    }
+  }
+}
+
 TEST_F(MapperProperties, NamesAreFoundInAnySpelling)
 {
   const MapperProperty& integration = tetralux::GetMapperProperty("Integration");
