@@ -664,16 +664,20 @@ TEST(RayCastMapperBehavior, DoesNotDisturbSelection)
   EXPECT_EQ(CopyColors(scene), before);
 }
 
-TEST(RayCastMapperBehavior, PrintsItself)
+// Properties are looked at in TestMapperProperties.
+TEST(RayCastMapperBehavior, PrintsWhatTheLastFrameFound)
 {
   RayCastScene scene;
+  scene.Window->Render();
   std::ostringstream text;
   scene.Mapper->Print(text);
-  for (const char* property : { "MaximumError: 0.0001", "Precision: automatic", "VectorMode: -1",
-         "Cropping: 0", "ImageSampleDistance: 1", "NumberOfThreads: 0" })
-  {
-    EXPECT_NE(text.str().find(property), std::string::npos) << property;
-  }
+  std::ostringstream estimate;
+  estimate << "  ErrorEstimate: " << scene.Mapper->GetErrorEstimate() << "\n";
+  EXPECT_GT(scene.Mapper->GetErrorEstimate(), 0);
+  EXPECT_NE(text.str().find(estimate.str()), std::string::npos) << text.str();
+  EXPECT_NE(
+    text.str().find("  Statistics:\n    {\n      \"method\": \"ray-cast\""), std::string::npos)
+    << text.str();
 }
 
 } // namespace
