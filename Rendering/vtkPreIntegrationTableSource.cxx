@@ -173,8 +173,6 @@ vtkPreIntegrationTableSource::Plan vtkPreIntegrationTableSource::MakePlan()
   settings.Axis = this->ScalarAxis == Mapper::NODES_AXIS ? tetralux::ScalarAxis::Nodes
                                                          : tetralux::ScalarAxis::Uniform;
   settings.Format = static_cast<tetralux::TexelFormat>(this->Format - Mapper::UNORM8_FORMAT);
-  settings.Method = this->Incremental ? tetralux::PreIntegrationMethod::Incremental
-                                      : tetralux::PreIntegrationMethod::ClosedForm;
   std::copy_n(this->ScalarRange, 2, settings.ScalarRange);
   if (this->ScalarRange[0] > this->ScalarRange[1])
   {
@@ -391,5 +389,4 @@ void vtkPreIntegrationTableSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "StepsPerDoubling: " << this->StepsPerDoubling << '\n';
   os << indent << "ScalarAxis: " << this->GetScalarAxisAsString() << '\n';
   os << indent << "Format: " << this->GetFormatAsString() << '\n';
-  os << indent << "Incremental: " << (this->Incremental ? "On" : "Off") << '\n';
 }

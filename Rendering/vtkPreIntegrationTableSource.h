@@ -184,16 +184,6 @@ public:
   void SetFormatToFloat() { this->SetFormat(vtkTetrahedraVolumeMapper::FLOAT_FORMAT); }
   ///@}
 
-  ///@{
-  /**
-   * Set whether longer segments are made from shorter ones (Weiler et al. 2003, section 4) instead
-   * of each by the closed form: slower and less accurate, for comparison. Default off.
-   */
-  vtkSetMacro(Incremental, vtkTypeBool);
-  vtkGetMacro(Incremental, vtkTypeBool);
-  vtkBooleanMacro(Incremental, vtkTypeBool);
-  ///@}
-
   /**
    * Return the time of the last change of this source, its property or the property's functions.
    */
@@ -225,7 +215,6 @@ private:
   int StepsPerDoubling = 1;
   int ScalarAxis = vtkTetrahedraVolumeMapper::UNIFORM_AXIS;
   int Format = vtkTetrahedraVolumeMapper::FLOAT_FORMAT;
-  vtkTypeBool Incremental = 0;
 };
 
 #endif

@@ -45,7 +45,7 @@ def test_order():
     sort.SetDirectionToFrontToBack()
     assert get_cells(sort) == [4, 3, 2, 1, 0]
     camera.SetPosition(0.3, 0.3, -20)
-    for order in range(sort.AUTOMATIC_ORDER, sort.CENTROID_ORDER + 1):
+    for order in range(sort.EXACT_ORDER, sort.CENTROID_ORDER + 1):
         sort.SetOrder(order)
         assert get_cells(sort) == [0, 1, 2, 3, 4]
         assert sort.GetUsedOrder() == order

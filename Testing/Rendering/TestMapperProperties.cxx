@@ -396,7 +396,6 @@ TEST(PropertiesOfOthers, TheTableSourceRefusesWhatItCannotTabulate)
   EXPECT_EQ(FindPrinted(source, "ScalarAxis"), "uniform");
   EXPECT_EQ(FindPrinted(source, "LengthScale"), "linear");
   EXPECT_EQ(FindPrinted(source, "BlendMode"), "composite");
-  EXPECT_EQ(FindPrinted(source, "Incremental"), "Off");
   source->SetFormatToHalf();
   source->SetScalarAxisToNodes();
   source->SetLengthScaleToLogarithmic();
