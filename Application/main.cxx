@@ -210,6 +210,14 @@ void AddRenderCommand(CLI::App& app, RenderOptions& options)
         JoinNames(GetPropertyNames()))
     ->allow_extra_args(false)
     ->type_name("Property=Value");
+  command->add_flag_callback(
+    "--list-properties",
+    []
+    {
+      std::cout << DescribeProperties();
+      throw CLI::Success();
+    },
+    "Print what --set takes: the properties, their values, defaults and meanings");
   command
     ->add_option_function<std::string>(
       "--stats",

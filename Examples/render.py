@@ -55,6 +55,11 @@ if not window.SupportsOpenGL():
     sys.exit(1)
 window.Render()
 
+rgba, depth = tetralux.picture(mapper)
+covered = rgba[..., 3] > 0
+print(f"{covered.mean():.0%} of the pixels are covered", end="")
+print(f", the nearest at a distance of {depth[covered].min():.3g}" if covered.any() else "")
+
 image = vtkWindowToImageFilter()
 image.SetInput(window)
 writer = vtkPNGWriter()

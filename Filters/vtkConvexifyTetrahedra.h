@@ -30,12 +30,12 @@
  * an earlier cell. Flat and inverted cells are part of the mesh.
  *
  * Fails, with an error that says why and where, on other three-dimensional cells
- * (vtkTetrahedraFilter makes tetrahedra of them), on a mesh whose boundary intersects itself or whose
+ * (vtkTetrahedralizeCells makes tetrahedra of them), on a mesh whose boundary intersects itself or whose
  * cells overlap, and on more points or cells than 2^31 - 1 or 2^29 - 1. See GetRefusal.
  *
  * Uses CGAL's three-dimensional triangulations, which are under the GPL.
  *
- * @sa vtkTetrahedraFilter, vtkTetrahedraNeighbors, vtkTetrahedraRayCastMapper
+ * @sa vtkTetrahedralizeCells, vtkTetrahedraNeighbors, vtkTetrahedraRayCastMapper
  */
 #ifndef vtkConvexifyTetrahedra_h
 #define vtkConvexifyTetrahedra_h

@@ -249,7 +249,7 @@ private:
         if (type != lowerDimensionalType && GetCellDimension(type) == 3)
         {
           return "cell " + std::to_string(cell) + " is a " + tetralux::GetCellTypeName(type) +
-            ", not a vtkTetra; vtkTetrahedraFilter makes tetrahedra of it";
+            ", not a vtkTetra; vtkTetrahedralizeCells makes tetrahedra of it";
         }
         lowerDimensionalType = type;
         ++counts.LowerDimensionalCells;
@@ -439,7 +439,7 @@ int vtkTetrahedraNeighbors::RequestData(
       if (!grid)
       {
         error = "a block of the input is a " + std::string(block.Input->GetClassName()) +
-          ", not a vtkUnstructuredGrid; vtkTetrahedraFilter makes tetrahedra of it";
+          ", not a vtkUnstructuredGrid; vtkTetrahedralizeCells makes tetrahedra of it";
         break;
       }
       const auto progress = [&](double fraction)

@@ -7,8 +7,12 @@
  * vtkWindowToImageFilter reads. The context is made on the first call that needs it: on a GPU
  * where a driver offers one, else by Mesa in software. Any number of windows may live at once.
  *
- * Where no context can be had, one error says what to install, and Render() does nothing;
+ * If no context can be made, one error says what to install, and Render() does nothing;
  * SupportsOpenGL() asks beforehand.
+ *
+ * Works with any build of VTK. Prefer vtkEGLRenderWindow or vtkOSOpenGLRenderWindow if VTK was
+ * built for EGL or OSMesa, where vtkRenderWindow::New() makes them; VTK 9.4 and later choose at run
+ * time.
  *
  * Registers VTK's OpenGL classes with the object factory, so that vtkRenderer::New() works in a
  * program that initialises no VTK modules itself.
@@ -31,7 +35,7 @@ public:
 
   ///@{
   /**
-   * Which of EGL's devices renders, counted from 0 in EGL's order; -1 (default): the first
+   * Set the device of EGL that renders, counted from 0 in EGL's order. Default -1: the first
    * hardware device that works, else Mesa in software. Takes effect when the context is made.
    */
   vtkSetClampMacro(DeviceIndex, int, -1, VTK_INT_MAX);

@@ -3,6 +3,7 @@
 
 #include "Frame/CameraRays.h"
 #include "Intake/TetrahedraIntake.h"
+#include "Properties/PropertySetters.h"
 #include "Visibility/VisibilityOrder.h"
 #include "Walk/WalkMesh.h"
 
@@ -21,6 +22,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+using tetralux::VisibilityMethod;
 
 vtkStandardNewMacro(vtkMeshedPolyhedraVisibilitySort);
 
@@ -57,7 +60,7 @@ vtkMeshedPolyhedraVisibilitySort::~vtkMeshedPolyhedraVisibilitySort() = default;
 void vtkMeshedPolyhedraVisibilitySort::UpdateTables()
 {
   Internals& tables = *this->Tables;
-  const bool convex = this->Order == CONVEXIFIED;
+  const bool convex = this->Order == AUTOMATIC_ORDER || this->Order == EXACT_ORDER;
   const bool current =
     tables.Mesh && tables.Input == this->Input && tables.InputTime == this->Input->GetMTime();
   if (current && tables.Order && tables.Convex == convex)
@@ -78,7 +81,7 @@ void vtkMeshedPolyhedraVisibilitySort::UpdateTables()
     if (split != cells.end() || intake.Report.GetNumberOfSkippedCells() > 0)
     {
       throw std::invalid_argument(
-        "only tetrahedra can be sorted, which vtkTetrahedraFilter makes of "
+        "only tetrahedra can be sorted, which vtkTetrahedralizeCells makes of "
         "other cells: " +
         (split != cells.end() ? "cell " + std::to_string(*split) + " is none"
                               : "there are " + intake.Report.DescribeSkippedCells()));
@@ -121,37 +124,47 @@ void vtkMeshedPolyhedraVisibilitySort::Sort()
     view.Direction[axis] = -eye[axis];
   }
 
-  using Method = tetralux::VisibilityMethod;
-  Method method = Method::CentroidDistance;
-  if (this->Order == NON_CONVEX)
-  {
-    method = Method::MeshedNonConvex;
-  }
-  else if (this->Order != CENTROID_DISTANCE)
-  {
-    method = tables.Order->IsConvex() ? Method::Meshed : Method::MeshedAcrossGaps;
-  }
-  const std::vector<std::int32_t>& order = tables.Order->Sort(view, method,
-    this->Direction == FRONT_TO_BACK ? tetralux::VisibilityDirection::FrontToBack
-                                     : tetralux::VisibilityDirection::BackToFront);
-
-  switch (tables.Order->GetUsedMethod())
-  {
-    case Method::Meshed:
-      this->UsedOrder = CONVEXIFIED;
-      break;
-    case Method::MeshedAcrossGaps:
-      this->UsedOrder = ACROSS_GAPS;
-      break;
-    case Method::MeshedNonConvex:
-      this->UsedOrder = NON_CONVEX;
-      break;
-    default:
-      this->UsedOrder = CENTROID_DISTANCE;
-  }
+  const std::vector<std::int32_t>& order =
+    tables.Order->Sort(view, GetMethodOf(this->Order, *tables.Order),
+      this->Direction == FRONT_TO_BACK ? tetralux::VisibilityDirection::FrontToBack
+                                       : tetralux::VisibilityDirection::BackToFront);
+  this->UsedOrder = GetOrderOf(tables.Order->GetUsedMethod());
   tables.Sorted.resize(order.size());
   std::transform(order.begin(), order.end(), tables.Sorted.begin(),
     [&](std::int32_t cell) { return tables.GetInputCell(cell); });
+}
+
+//----------------------------------------------------------------------------
+VisibilityMethod vtkMeshedPolyhedraVisibilitySort::GetMethodOf(
+  int order, const tetralux::VisibilityOrder& tables)
+{
+  switch (order)
+  {
+    case ACROSS_GAPS_ORDER:
+      return VisibilityMethod::MeshedAcrossGaps;
+    case NON_CONVEX_ORDER:
+      return VisibilityMethod::MeshedNonConvex;
+    case CENTROID_ORDER:
+      return VisibilityMethod::CentroidDistance;
+    default:
+      return tables.IsConvex() ? VisibilityMethod::Meshed : VisibilityMethod::MeshedAcrossGaps;
+  }
+}
+
+//----------------------------------------------------------------------------
+int vtkMeshedPolyhedraVisibilitySort::GetOrderOf(VisibilityMethod method)
+{
+  switch (method)
+  {
+    case VisibilityMethod::Meshed:
+      return EXACT_ORDER;
+    case VisibilityMethod::MeshedAcrossGaps:
+      return ACROSS_GAPS_ORDER;
+    case VisibilityMethod::MeshedNonConvex:
+      return NON_CONVEX_ORDER;
+    default:
+      return CENTROID_ORDER;
+  }
 }
 
 //----------------------------------------------------------------------------
@@ -249,11 +262,20 @@ const char* vtkMeshedPolyhedraVisibilitySort::GetRefusal()
 }
 
 //----------------------------------------------------------------------------
+tetraluxEnumerationMacro(vtkMeshedPolyhedraVisibilitySort, Order);
+
+//----------------------------------------------------------------------------
+const char* vtkMeshedPolyhedraVisibilitySort::GetUsedOrderAsString()
+{
+  return tetralux::GetValueName("Order", this->UsedOrder);
+}
+
+//----------------------------------------------------------------------------
 void vtkMeshedPolyhedraVisibilitySort::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Order: " << this->Order << "\n";
-  os << indent << "UsedOrder: " << this->UsedOrder << "\n";
+  os << indent << "Order: " << this->GetOrderAsString() << "\n";
+  os << indent << "UsedOrder: " << this->GetUsedOrderAsString() << "\n";
   os << indent << "NumberOfCycles: " << this->GetNumberOfCycles() << "\n";
   os << indent << "NumberOfIgnoredFaces: " << this->GetNumberOfIgnoredFaces() << "\n";
   os << indent << "IgnoredArea: " << this->GetIgnoredArea() << "\n";

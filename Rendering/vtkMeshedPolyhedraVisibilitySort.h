@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMeshedPolyhedraVisibilitySort
- * @brief   the order in which cells have to be drawn, exactly
+ * @brief   exact back-to-front visibility order of tetrahedra (MPVO, Williams 1992)
  *
- * For vtkProjectedTetrahedraMapper::SetVisibilitySort, and whoever else draws cells one after the
- * other: cells that are hidden come before those that hide them (BACK_TO_FRONT), or behind
- * (FRONT_TO_BACK). VTK's own vtkCellCenterDepthSort orders by the depths of the cells' centers, which
- * is wrong wherever neighbours differ in size or shape.
+ * For vtkProjectedTetrahedraMapper::SetVisibilitySort, and for other code that draws cells one
+ * after the other. Occluded cells come before the cells that occlude them (BACK_TO_FRONT) or after
+ * them (FRONT_TO_BACK). VTK's own vtkCellCenterDepthSort orders by the depths of the cells'
+ * centers, which is wrong if neighbours differ in size or shape.
  *
- * Meshed polyhedra visibility ordering (Williams, Visibility Ordering Meshed Polyhedra, 1992): the
- * faces that cells have in common tell which of them is in front, by exact signs; for a mesh that is
- * not convex, the space between its boundary and its hull is filled with imaginary cells, which are
- * sorted with the others and not returned. Where cells hide each other in a circle there is no right
- * order; such cells are counted and named, and the faces that look smallest are ignored.
+ * Meshed polyhedra visibility ordering (Williams, Visibility Ordering Meshed Polyhedra, 1992): for
+ * each face that two cells have in common, an exact sign tells which of them is in front. If the
+ * mesh is not convex, imaginary cells fill the space between its boundary and its hull; they are
+ * sorted with the others and not returned. Cells that occlude each other in a cycle have no right
+ * order: they are counted and named, and the faces that look smallest are ignored.
  *
- * Input is a data set whose volumes are tetrahedra; others are refused (vtkTetrahedraFilter makes
- * tetrahedra of them), since cells of any other kind need not have an order at all. Cells are returned
- * by their ids, each once. Not returned are cells that are no volumes, that are blanked, ghosts or
- * unusable (point ids that do not exist, coordinates that are not finite, the same four points for a
- * second time), as in vtkTetrahedraRayCastMapper.
+ * Accepts a data set whose volumes are tetrahedra; refuses others (vtkTetrahedralizeCells makes
+ * tetrahedra of them), since cells of other kinds need not have an order at all. Returns cells by
+ * their ids, each once. Skips cells that are no volumes, that are blanked, ghosts or unusable
+ * (point ids that do not exist, coordinates that are not finite, the same four points for a second
+ * time), as vtkTetrahedraRayCastMapper does.
  *
  * Camera may make any projection that vtkCamera can; without one the view is along -z, from far
  * away. ModelTransform must be affine and invertible. An input that can't be used, and a camera or
  * transform that are singular, give one error and no cells.
  *
- * The tables of the mesh are kept until the input is modified: the first traversal of an input takes
- * some microseconds a cell (with imaginary cells, see vtkConvexifyTetrahedra), each later one about
- * 0.1. The order does not depend on the number of threads.
+ * The tables of the mesh are cached until the input is modified: the first traversal of an input
+ * takes some microseconds a cell (with imaginary cells, see vtkConvexifyTetrahedra), each later one
+ * about 0.1. The order does not depend on the number of threads.
  *
  * @sa vtkConvexifyTetrahedra, vtkTetrahedraProjectionMapper
  */
@@ -40,6 +40,12 @@
 
 class vtkIdList;
 
+namespace tetralux
+{
+class VisibilityOrder;
+enum class VisibilityMethod;
+} // namespace tetralux
+
 class TETRALUXRENDERING_EXPORT vtkMeshedPolyhedraVisibilitySort : public vtkVisibilitySort
 {
 public:
@@ -48,52 +54,62 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * CONVEXIFIED: exact, see above; where the mesh can't be made convex (GetRefusal), as ACROSS_GAPS.
-   * ACROSS_GAPS: exact for any mesh, by all pairs of boundary faces of which rays leave the mesh by one
-   * and enter it by the other. They are found anew for each view, which takes several times what all
-   * else takes. Where there are more than 64 for each boundary face, as NON_CONVEX.
-   * NON_CONVEX: Williams' MPVONC. Exact across the faces that cells have in common, and so for convex
-   * meshes; across empty space a guess from the distances of centroids. No imaginary cells are made,
-   * which takes seconds for a mesh with hundreds of thousands of boundary faces.
-   * CENTROID_DISTANCE: by the distances of the cells' centroids from the eye (along the view, in a
-   * parallel projection): the fastest, and inexact everywhere.
+   * Visibility orders. vtkTetrahedraProjectionMapper has the same ones.
+   *
+   * - AUTOMATIC_ORDER: as EXACT_ORDER.
+   * - EXACT_ORDER: by the common faces of the mesh, made convex by imaginary cells. If it can't be
+   *   made convex (GetRefusal() says why), as ACROSS_GAPS_ORDER.
+   * - ACROSS_GAPS_ORDER: exact for any mesh, by common faces and by all pairs of boundary faces
+   *   such that rays leave the mesh by one and enter it by the other. The pairs are found anew for
+   *   each view, which takes several times as long as all else. If there are more than 64 for each
+   *   boundary face, as NON_CONVEX_ORDER.
+   * - NON_CONVEX_ORDER: Williams' MPVONC. Exact across common faces, and so for convex meshes;
+   *   across empty space a guess from the distances of centroids. Makes no imaginary cells, which
+   *   takes seconds for a mesh with hundreds of thousands of boundary faces.
+   * - CENTROID_ORDER: by the distances of the cells' centroids from the eye (along the view, in a
+   *   parallel projection). The fastest, and inexact everywhere.
    */
-  enum Orders
+  enum VisibilityOrder
   {
-    CONVEXIFIED = 0,
-    ACROSS_GAPS = 1,
-    NON_CONVEX = 2,
-    CENTROID_DISTANCE = 3
+    AUTOMATIC_ORDER,
+    EXACT_ORDER,
+    ACROSS_GAPS_ORDER,
+    NON_CONVEX_ORDER,
+    CENTROID_ORDER
   };
 
   ///@{
   /**
-   * By what cells are ordered, CONVEXIFIED by default.
+   * Set the visibility order, one of VisibilityOrder; any other number is refused with an error.
+   * Default AUTOMATIC_ORDER.
    */
-  vtkSetClampMacro(Order, int, CONVEXIFIED, CENTROID_DISTANCE);
+  virtual void SetOrder(int order);
   vtkGetMacro(Order, int);
-  void SetOrderToConvexified() { this->SetOrder(CONVEXIFIED); }
-  void SetOrderToAcrossGaps() { this->SetOrder(ACROSS_GAPS); }
-  void SetOrderToNonConvex() { this->SetOrder(NON_CONVEX); }
-  void SetOrderToCentroidDistance() { this->SetOrder(CENTROID_DISTANCE); }
+  const char* GetOrderAsString();
+  void SetOrderToAutomatic() { this->SetOrder(AUTOMATIC_ORDER); }
+  void SetOrderToExact() { this->SetOrder(EXACT_ORDER); }
+  void SetOrderToAcrossGaps() { this->SetOrder(ACROSS_GAPS_ORDER); }
+  void SetOrderToNonConvex() { this->SetOrder(NON_CONVEX_ORDER); }
+  void SetOrderToCentroid() { this->SetOrder(CENTROID_ORDER); }
   ///@}
 
   /**
-   * Sorts, for the input, the camera, the transform and the direction of now.
+   * Sort, for the current input, camera, transform and direction.
    */
   void InitTraversal() override;
 
   /**
-   * The ids of the next cells, MaxCellsReturned at most; nullptr after the last one.
+   * Return the ids of the next cells, MaxCellsReturned at most; nullptr after the last one.
    */
   vtkIdTypeArray* GetNextCells() override;
 
   ///@{
   /**
-   * What the last InitTraversal found. Cycles: sets of cells that hide each other in a circle, over
-   * imaginary cells, too; ignored faces (or pairs of them across a gap): those that are passed in the wrong direction to have an order
-   * at all, and how large they look (in a perspective view their solid angle, in a parallel one their
-   * projected area in units of the input). None with CENTROID_DISTANCE, which does not look for them.
+   * Return what the last InitTraversal found. A cycle is a set of cells, imaginary ones among them,
+   * in which each cell occludes the next and the last occludes the first. Ignored faces are those
+   * (or pairs of them across a gap) that the order passes in the wrong direction. Their area is how
+   * large they look: the solid angle in a perspective view, the projected area in squared units of
+   * the input in a parallel one. CENTROID_ORDER finds none, since it does not look for them.
    */
   vtkIdType GetNumberOfCycles();
   vtkIdType GetNumberOfIgnoredFaces();
@@ -101,21 +117,35 @@ public:
   ///@}
 
   /**
-   * Fills cells with the ids of those in one of the cycles. Where only other cells are seen, the order
-   * is right.
+   * Fill cells with the ids of those in a cycle, counted from 0. The order of all other cells is
+   * right.
    */
   void GetCycle(vtkIdType cycle, vtkIdList* cells);
 
+  ///@{
   /**
-   * Which of Orders was used in the last InitTraversal.
+   * Return the order that the last InitTraversal used; AUTOMATIC_ORDER before the first.
    */
   vtkGetMacro(UsedOrder, int);
+  const char* GetUsedOrderAsString();
+  ///@}
 
   /**
-   * Why the input could not be made convex, and where; empty where it could, or where that was not
+   * Return why the input could not be made convex, and where; empty if it could or if that was not
    * asked for.
    */
   const char* GetRefusal();
+
+#ifndef __VTK_WRAP__
+  ///@{
+  /**
+   * For C++ code: the method of Tetralux::Core by which an order is made with the tables of a mesh,
+   * and the order that a method makes.
+   */
+  static tetralux::VisibilityMethod GetMethodOf(int order, const tetralux::VisibilityOrder& tables);
+  static int GetOrderOf(tetralux::VisibilityMethod method);
+  ///@}
+#endif
 
 protected:
   vtkMeshedPolyhedraVisibilitySort();
@@ -129,8 +159,8 @@ private:
   void UpdateTables();
   void Sort();
 
-  int Order = CONVEXIFIED;
-  int UsedOrder = CONVEXIFIED;
+  int Order = AUTOMATIC_ORDER;
+  int UsedOrder = AUTOMATIC_ORDER;
 
   struct Internals;
   std::unique_ptr<Internals> Tables;

@@ -14,7 +14,8 @@
 #include "GpuRayCast/WalkTextures.h"
 #include "Integral/SegmentWeightError.h"
 #include "OpenGL/GraphicsCard.h"
-#include "Report/OnceWarning.h"
+#include "Properties/PropertyPrinter.h"
+#include "Properties/PropertySetters.h"
 #include "Scene/IntegratorChoice.h"
 #include "Scene/VolumeScene.h"
 #include "View/MeshToWorld.h"
@@ -73,7 +74,6 @@ private:
   void Read(vtkImageData* image);
   void Describe(const tetralux::GpuRayCastStatistics& statistics,
     const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
-  void WarnOfReentry(const tetralux::WalkMesh& mesh);
 
   vtkTetrahedraGPURayCastMapper* Self;
   vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< that has the resources
@@ -85,7 +85,6 @@ private:
   tetralux::ImageCompositor Compositor;
 
   tetralux::Cached<std::vector<std::uint8_t>> Positive; ///< orientation of the mesh's cells
-  tetralux::OnceWarning ReentryWarning;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -141,7 +140,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   options.Reentry = reentry;
   const tetralux::PixelProjection projection(
     grid, scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
-  if (this->Self->Reentry == BOUNDARY_LAYERS && projection.Regular)
+  if (this->Self->Reentry == BOUNDARY_LAYERS_REENTRY && projection.Regular)
   {
     options.Layers = &projection;
   }
@@ -192,7 +191,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   frame.ReportOmission(reentry != GpuReentry::Imaginary, "imaginary cells",
     reentry == GpuReentry::None ? "rays do not enter again" : "rays enter by the boundary");
   this->Describe(statistics, options, frame);
-  this->WarnOfReentry(*scene.Mesh.GetMesh());
+  this->Self->WarnOfReentry(*scene.Mesh.GetMesh());
 }
 
 //------------------------------------------------------------------------------------------------
@@ -279,7 +278,7 @@ const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTabl
   tetralux::VolumeScene& scene = *frame.Scene;
   tetralux::WalkMesh* mesh = scene.Mesh.GetMesh();
   reentry = this->Self->Reentry == NO_REENTRY ? GpuReentry::None : GpuReentry::Boundary;
-  if (this->Self->Reentry == IMAGINARY_CELLS)
+  if (this->Self->Reentry == IMAGINARY_CELLS_REENTRY)
   {
     mesh->MakeConvex([&frame](double fraction) { return frame.ReportProgress(fraction); });
     if (!mesh->GetConvexification())
@@ -399,16 +398,6 @@ void vtkTetrahedraGPURayCastMapper::Internals::Read(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::Internals::WarnOfReentry(const tetralux::WalkMesh& mesh)
-{
-  const tetralux::Convexification* convex = mesh.GetConvexification();
-  const bool refused = this->Self->Reentry == IMAGINARY_CELLS && convex && !convex->Refusal.empty();
-  this->ReentryWarning.Update(this->Self,
-    refused ? "the mesh can't be made convex, rays enter it by its boundary: " + convex->Refusal
-            : "");
-}
-
-//------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::Internals::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Mesh.ReleaseGraphicsResources(window);
@@ -456,10 +445,20 @@ void vtkTetrahedraGPURayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
+tetraluxSetNumberMacro(vtkTetrahedraGPURayCastMapper, StepsPerPass, int);
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraGPURayCastMapper::PrintProperties(ostream& os, vtkIndent indent)
 {
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Reentry: " << this->Reentry << "\n"
-     << indent << "StepsPerPass: " << this->StepsPerPass << "\n"
-     << indent << "CountFragments: " << this->CountFragments << "\n";
+  this->Superclass::PrintProperties(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
+  printer.Print("StepsPerPass", this->StepsPerPass);
+  printer.Print("CountFragments", this->CountFragments);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraGPURayCastMapper::PrintResults(ostream& os, vtkIndent indent)
+{
+  os << indent << "SupportReason: " << this->GetSupportReason() << "\n";
+  this->Superclass::PrintResults(os, indent);
 }

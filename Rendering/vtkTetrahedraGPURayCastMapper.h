@@ -4,19 +4,22 @@
  * @brief   direct volume rendering of unstructured grids by cell-to-cell ray casting on the GPU
  *
  * Renders what vtkTetrahedraRayCastMapper renders, in the same way, on the graphics card (Weiler et
- * al. 2003): the mesh lies in texture buffers, 32 bytes a tetrahedron and 16 a point, and rays go from
- * cell to cell in passes of a bounded number of steps. Input, optical models and what they are set by:
- * see vtkTetrahedraVolumeMapper. OpenGL 3.2 with GLSL 1.50 is enough.
+ * al. 2003). The mesh lies in texture buffers, 32 bytes a tetrahedron and 16 a point. Rays go from
+ * cell to cell in passes of a bounded number of steps. See vtkTetrahedraVolumeMapper for the input,
+ * the optical models and their properties. OpenGL 3.2 with GLSL 1.50 is enough.
  *
- * Each ray finds its way by exact signs in whole numbers: none is lost or counted twice at faces, edges
- * and vertices, on any graphics card. Geometry is in single precision, which GetErrorEstimate() tells
- * the error of; a mesh whose size in the world is beyond its range is refused.
+ * Each ray finds its way by exact signs in whole numbers: none is lost or counted twice at faces,
+ * edges and vertices, on any graphics card. Geometry is in single precision; GetErrorEstimate()
+ * includes its error.
  *
- * A mesh has at most a quarter as many tetrahedra as the driver's texture buffers have texels (2^27 on
- * most), and fits into free memory where the driver tells how much there is; both are looked at before
- * anything is sent, and missed ones are one error. Only what changed is sent: topology, or points with
- * their scalars. The picture is read back when GetOutputImage() asks for it; its Depth is, where
- * segments are looked up in a table, that of the first cell that contributes.
+ * Only what changed is sent to the graphics card: topology, or points with their scalars. The
+ * picture is read back when GetOutputImage() asks for it. If segments are looked up in a table, its
+ * Depth is that of the first cell that contributes.
+ *
+ * @warning A mesh has at most a quarter as many tetrahedra as the driver's texture buffers have
+ * texels (2^27 on most), and must fit into free memory if the driver tells how much there is. Both
+ * are checked before anything is sent; one error says which limit was exceeded. A mesh whose size
+ * in the world is beyond the range of single precision is refused.
  *
  * @sa vtkTetrahedraRayCastMapper
  */
@@ -36,66 +39,37 @@ class TETRALUXRENDERING_EXPORT vtkTetrahedraGPURayCastMapper : public vtkTetrahe
 public:
   static vtkTetrahedraGPURayCastMapper* New();
   vtkTypeMacro(vtkTetrahedraGPURayCastMapper, vtkTetrahedraVolumeMapper);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum ReentryType
-  {
-    AUTOMATIC_REENTRY,
-    BOUNDARY_HIERARCHY,
-    IMAGINARY_CELLS,
-    BOUNDARY_LAYERS,
-    NO_REENTRY
-  };
 
   ///@{
   /**
-   * How rays find where they enter the mesh, for the first time and, where they left it, again. By a
-   * hierarchy over its boundary faces, between passes. By drawing all boundary faces, layer after layer
-   * (depth peeling), which takes the hierarchy's place where the mesh reaches through the plane of the
-   * eye. Through imaginary cells between the mesh and its convex hull (Weiler et al. 2003, section 3.4,
-   * see vtkConvexifyTetrahedra), which are made in the first frame that needs them, and which
-   * transparent cells are not left out with. Or not again at all, which is right for convex meshes only.
-   * Each of them decides by the same exact signs as the walk. Automatic (default): not again where the
-   * mesh is convex and all of it is walked through, else by the hierarchy. A mesh that can't be made
-   * convex is entered by its boundary, and one warning says why.
+   * Set the number of cells that a ray passes in one draw call at most, 1 to 65535. Default 128.
+   * Fewer steps make an abort sooner and keep a slow graphics card's watchdog quiet; more steps
+   * save draw calls. The picture does not depend on it.
    */
-  vtkSetClampMacro(Reentry, int, AUTOMATIC_REENTRY, NO_REENTRY);
-  vtkGetMacro(Reentry, int);
-  void SetReentryToAutomatic() { this->SetReentry(AUTOMATIC_REENTRY); }
-  void SetReentryToBoundaryHierarchy() { this->SetReentry(BOUNDARY_HIERARCHY); }
-  void SetReentryToImaginaryCells() { this->SetReentry(IMAGINARY_CELLS); }
-  void SetReentryToBoundaryLayers() { this->SetReentry(BOUNDARY_LAYERS); }
-  void SetReentryToNone() { this->SetReentry(NO_REENTRY); }
-  ///@}
-
-  ///@{
-  /**
-   * Cells that a ray goes through in one pass at most, 1..65535, default 128. A pass is one draw call:
-   * fewer steps make an abort sooner and keep a slow graphics card's watchdog quiet, more save passes.
-   * The picture does not depend on it.
-   */
-  vtkSetClampMacro(StepsPerPass, int, 1, 65535);
+  virtual void SetStepsPerPass(int steps);
   vtkGetMacro(StepsPerPass, int);
   ///@}
 
   ///@{
   /**
-   * Whether GetStatistics() has the number of rays of every pass. That takes waiting for each pass
-   * before the next. Off by default: it has those that were known without waiting.
+   * Set whether GetStatistics() has the number of rays of every pass. Each pass then waits for the
+   * one before. Default off: only numbers that were known without waiting.
    */
   vtkSetMacro(CountFragments, vtkTypeBool);
   vtkGetMacro(CountFragments, vtkTypeBool);
   vtkBooleanMacro(CountFragments, vtkTypeBool);
   ///@}
 
+  ///@{
   /**
-   * Whether frames in a window are drawn by a graphics card that can do it, and would be by this mapper
-   * faster than by vtkTetrahedraRayCastMapper: false where OpenGL lacks something and where it is
-   * software. Makes the window's context where there is none. GetSupportReason() then says why, or
+   * Return whether a window is drawn by a graphics card on which this mapper is faster than
+   * vtkTetrahedraRayCastMapper: false if OpenGL lacks something, if it is software, or if the mesh
+   * may not fit. Makes the window's context if there is none. GetSupportReason() then says why, or
    * which graphics card it is.
    */
   bool IsSupported(vtkRenderWindow* window);
   std::string GetSupportReason();
+  ///@}
 
   /**
    * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
@@ -107,8 +81,9 @@ protected:
   ~vtkTetrahedraGPURayCastMapper() override;
 
   void DrawFrame(tetralux::MapperFrame& frame) override;
+  void PrintProperties(ostream& os, vtkIndent indent) override;
+  void PrintResults(ostream& os, vtkIndent indent) override;
 
-  int Reentry = AUTOMATIC_REENTRY;
   int StepsPerPass = 128;
   vtkTypeBool CountFragments = 0;
 

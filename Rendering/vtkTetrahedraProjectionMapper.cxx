@@ -10,6 +10,8 @@
 #include "GpuProjection/ProjectionPicture.h"
 #include "Integral/SegmentWeightError.h"
 #include "Projection/ScreenFrame.h"
+#include "Properties/PropertyPrinter.h"
+#include "Properties/PropertySetters.h"
 #include "Report/OnceWarning.h"
 #include "Scene/IntegratorChoice.h"
 #include "Scene/VolumeScene.h"
@@ -29,6 +31,7 @@
 #include <vector>
 
 using tetralux::CameraRays;
+using Sort = vtkMeshedPolyhedraVisibilitySort;
 using tetralux::ChannelFormat;
 using tetralux::Integrator;
 using tetralux::Json;
@@ -131,6 +134,8 @@ public:
   tetralux::ProjectionPicture Picture;
   tetralux::ImageCompositor Compositor;
   tetralux::OpaqueDepth Opaque;
+  bool Sorted = false; ///< in the last frame, by Method
+  VisibilityMethod Method = VisibilityMethod::Meshed;
 
 private:
   /// Projects the points of the mesh, and finds what limits rays and which cells are drawn.
@@ -139,9 +144,9 @@ private:
   /// The order of the cells that are drawn. False after an abort.
   bool PrepareOrder(MapperFrame& frame);
 
-  /// Makes the sorter anew where the mesh or the kind of order is another one. False after an abort.
+  /// Makes the sorter anew where the mesh or the kind of order is another one. False after an
+  /// abort.
   bool PrepareSorter(MapperFrame& frame);
-  VisibilityMethod ChooseMethod() const;
   bool IsOrderExact() const;
 
   ChannelFormat ChooseFormat(const MapperFrame& frame) const;
@@ -155,8 +160,6 @@ private:
   std::vector<std::int32_t> Order;
   std::unique_ptr<tetralux::VisibilityOrder> Sorter;
   tetralux::CacheStamp SorterStamp; ///< of the points, and whether imaginary cells take part
-  bool Sorted = false;              ///< in the last frame
-  VisibilityMethod Method = VisibilityMethod::Meshed;
   tetralux::OnceWarning OrderWarning;
 };
 
@@ -321,13 +324,13 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
     }
     const tetralux::Stopwatch stopwatch;
     this->Order = this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
-      this->ChooseMethod(),
+      Sort::GetMethodOf(this->Self->Order, *this->Sorter),
       this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
                               : tetralux::VisibilityDirection::BackToFront,
       this->DrawnCells);
     this->Method = this->Sorter->GetUsedMethod();
     this->WarnOfOrder(
-      this->Self->Order == EXACT_ORDER && this->Method == VisibilityMethod::MeshedNonConvex
+      this->Self->Order == Sort::EXACT_ORDER && this->Method == VisibilityMethod::MeshedNonConvex
         ? mesh.GetConvexification()->Refusal
         : "");
     frame.Seconds.emplace_back("order", stopwatch.GetSeconds());
@@ -347,7 +350,7 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
 //------------------------------------------------------------------------------------------------
 bool vtkTetrahedraProjectionMapper::Internals::IsOrderExact() const
 {
-  return this->Self->Order == AUTOMATIC_ORDER || this->Self->Order == EXACT_ORDER;
+  return this->Self->Order == Sort::AUTOMATIC_ORDER || this->Self->Order == Sort::EXACT_ORDER;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -374,17 +377,6 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareSorter(MapperFrame& frame)
     frame.Seconds.emplace_back("convexification", stopwatch.GetSeconds());
   }
   return true;
-}
-
-//------------------------------------------------------------------------------------------------
-VisibilityMethod vtkTetrahedraProjectionMapper::Internals::ChooseMethod() const
-{
-  if (this->IsOrderExact())
-  {
-    return this->Sorter->IsConvex() ? VisibilityMethod::Meshed : VisibilityMethod::MeshedAcrossGaps;
-  }
-  return this->Self->Order == NON_CONVEX_ORDER ? VisibilityMethod::MeshedNonConvex
-                                               : VisibilityMethod::CentroidDistance;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -475,11 +467,35 @@ void vtkTetrahedraProjectionMapper::ReleaseGraphicsResources(vtkWindow* window)
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraProjectionMapper::PrintSelf(ostream& os, vtkIndent indent)
+tetraluxEnumerationMacro(vtkTetrahedraProjectionMapper, ColorBuffer);
+tetraluxEnumerationMacro(vtkTetrahedraProjectionMapper, Order);
+
+//------------------------------------------------------------------------------------------------
+int vtkTetrahedraProjectionMapper::GetUsedOrder()
 {
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "PerspectiveInterpolation: " << this->PerspectiveInterpolation << "\n"
-     << indent << "ColorBuffer: " << this->ColorBuffer << "\n"
-     << indent << "AlphaDithering: " << this->AlphaDithering << "\n"
-     << indent << "Order: " << this->Order << "\n";
+  return this->Private->Sorted ? Sort::GetOrderOf(this->Private->Method) : Sort::AUTOMATIC_ORDER;
+}
+
+//------------------------------------------------------------------------------------------------
+const char* vtkTetrahedraProjectionMapper::GetUsedOrderAsString()
+{
+  return this->Private->Sorted ? tetralux::GetValueName("Order", this->GetUsedOrder()) : "none";
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::PrintProperties(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintProperties(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
+  printer.Print("PerspectiveInterpolation", this->PerspectiveInterpolation);
+  printer.Print("ColorBuffer", this->ColorBuffer);
+  printer.Print("AlphaDithering", this->AlphaDithering);
+  printer.Print("Order", this->Order);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::PrintResults(ostream& os, vtkIndent indent)
+{
+  os << indent << "UsedOrder: " << this->GetUsedOrderAsString() << "\n";
+  this->Superclass::PrintResults(os, indent);
 }

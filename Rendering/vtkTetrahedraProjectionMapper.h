@@ -3,21 +3,20 @@
  * @class   vtkTetrahedraProjectionMapper
  * @brief   direct volume rendering of unstructured grids by projected tetrahedra, without artifacts
  *
- * Draws each cell's silhouette as triangles, in order of visibility, and lets each fragment find
- * where its ray enters and leaves the cell, with which scalars, and what that adds to the picture
- * (Kraus et al., Projecting Tetrahedra without Rendering Artifacts, 2004). With everything on, as
- * it is by default, the picture is that of ray casting, up to the order of cells that hide each
- * other in a cycle. Each of the paper's corrections can be turned off, so that its artifact can be
- * studied:
+ * Draws each cell's silhouette as triangles in visibility order. Each fragment finds where its ray
+ * enters and leaves the cell, with which scalars, and what that adds to the picture (Kraus et al.,
+ * Projecting Tetrahedra without Rendering Artifacts, 2004). With the defaults the picture is that
+ * of ray casting, except for cells that occlude each other in a cycle. Each of the paper's
+ * corrections can be turned off, so that its artifact can be studied:
  *
  * - perspective interpolation (section 2): PerspectiveInterpolation;
- * - the table's texels and its logarithmic scale (section 3): TableFormat and TableLengthScale, with
- *   IntegrationToTable; by default there is no table where the integral has a cheap closed form;
+ * - the table's texels and its logarithmic scale (section 3): TableFormat and TableLengthScale,
+ *   with IntegrationToTable; by default there is no table if the integral has a cheap closed form;
  * - compositing (section 4): ColorBuffer, and AlphaDithering for the 8-bit buffer.
  *
- * The order of cells is by VisibilityOrder; models whose light adds up in any order have none.
- * Cells that nothing can be seen of are neither ordered nor drawn. Input, optical models and what
- * they are set by: see vtkTetrahedraVolumeMapper.
+ * Order is the visibility order; models whose contributions commute need none. Cells that can't be
+ * seen are neither ordered nor drawn. See vtkTetrahedraVolumeMapper for the input, the optical
+ * models and their properties; Reentry is not one of this mapper's.
  *
  * Needs OpenGL 3.2 and draws on a graphics card or in software.
  *
@@ -26,7 +25,8 @@
 #ifndef vtkTetrahedraProjectionMapper_h
 #define vtkTetrahedraProjectionMapper_h
 
-#include "TetraluxRenderingModule.h" // For export macro
+#include "TetraluxRenderingModule.h"          // For export macro
+#include "vtkMeshedPolyhedraVisibilitySort.h" // For VisibilityOrder
 #include "vtkTetrahedraVolumeMapper.h"
 
 #include <memory> // For std::unique_ptr
@@ -36,14 +36,15 @@ class TETRALUXRENDERING_EXPORT vtkTetrahedraProjectionMapper : public vtkTetrahe
 public:
   static vtkTetrahedraProjectionMapper* New();
   vtkTypeMacro(vtkTetrahedraProjectionMapper, vtkTetrahedraVolumeMapper);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**
-   * Whether depths and scalars are interpolated with perspective correction (section 2.2 of the
-   * paper); on by default. Off, they are interpolated linearly on the screen, as by
-   * vtkProjectedTetrahedraMapper: wrong in a perspective, the more the nearer a cell is, and cells
-   * that reach behind the camera are left out. A parallel projection is the same with both.
+   * Set whether depths and scalars are interpolated with perspective correction (Kraus et al. 2004,
+   * section 2.2). Default on. Off: they are interpolated linearly on the screen, as by
+   * vtkProjectedTetrahedraMapper, and cells that reach behind the camera are left out. A parallel
+   * projection is the same with both.
+   *
+   * @warning Off is wrong in a perspective, the more the nearer a cell is.
    */
   vtkSetMacro(PerspectiveInterpolation, vtkTypeBool);
   vtkGetMacro(PerspectiveInterpolation, vtkTypeBool);
@@ -60,14 +61,15 @@ public:
 
   ///@{
   /**
-   * What colours are composited in, by the hardware's blending (section 4.1 of the paper): 32-bit
-   * floats, 16-bit floats, or 8 bits a channel. Automatic (default): 16-bit floats where their
-   * rounding stays within a quarter of MaximumError, else 32-bit floats. 32-bit floats are
-   * composited front to back, which keeps the smallest opacities; the others back to front, where
-   * rounding does less harm.
+   * Set the format that colours are composited in by the hardware's blending (Kraus et al. 2004,
+   * section 4.1): 32-bit floats, 16-bit floats, or 8 bits a channel. Default AUTOMATIC_BUFFER:
+   * 16-bit floats if their rounding is within a quarter of MaximumError, else 32-bit floats. 32-bit
+   * floats are composited front to back, which keeps the smallest opacities. The others are
+   * composited back to front, where rounding does less harm.
    */
-  vtkSetClampMacro(ColorBuffer, int, AUTOMATIC_BUFFER, UNORM8_BUFFER);
+  virtual void SetColorBuffer(int buffer);
   vtkGetMacro(ColorBuffer, int);
+  const char* GetColorBufferAsString();
   void SetColorBufferToAutomatic() { this->SetColorBuffer(AUTOMATIC_BUFFER); }
   void SetColorBufferToFloat() { this->SetColorBuffer(FLOAT_BUFFER); }
   void SetColorBufferToHalf() { this->SetColorBuffer(HALF_BUFFER); }
@@ -76,43 +78,42 @@ public:
 
   ///@{
   /**
-   * Whether opacities are rounded to 8 bits up or down at random instead of to the nearest (section
-   * 4.2 of the paper), where ColorBuffer is UNORM8_BUFFER; on by default. The random numbers belong
-   * to pixels and cells, so frames of the same view are the same.
+   * Set whether opacities are rounded to 8 bits up or down at random instead of to the nearest
+   * (Kraus et al. 2004, section 4.2), if ColorBuffer is UNORM8_BUFFER. Default on. The random
+   * numbers belong to pixels and cells, so frames of the same view are the same.
    */
   vtkSetMacro(AlphaDithering, vtkTypeBool);
   vtkGetMacro(AlphaDithering, vtkTypeBool);
   vtkBooleanMacro(AlphaDithering, vtkTypeBool);
   ///@}
 
-  enum OrderType
-  {
-    AUTOMATIC_ORDER,
-    EXACT_ORDER,
-    NON_CONVEX_ORDER,
-    CENTROID_ORDER
-  };
-
   ///@{
   /**
-   * In which order cells are composited; see VisibilityOrder and vtkMeshedPolyhedraVisibilitySort,
-   * which has the same orders for VTK's own mapper. EXACT_ORDER: by common faces, after the mesh
-   * was made convex by imaginary cells in the first frame (see vtkConvexifyTetrahedra); where it
-   * can't be, by common faces, and by all pairs of boundary faces that rays leave and enter it by,
-   * which takes several times as long; where these are too many, as NON_CONVEX_ORDER, and one
-   * warning says why. NON_CONVEX_ORDER: by common faces, and a guess across empty space (MPVONC of
-   * Williams 1992). CENTROID_ORDER: by distance of centroids, the fastest, and wrong here and
-   * there. AUTOMATIC_ORDER (default): as EXACT_ORDER, without the warning. Cells that hide each
-   * other in a cycle have no right order; GetStatistics() counts them, and
-   * vtkMeshedPolyhedraVisibilitySort, given the same input, camera and matrix, names them. Optical
-   * models whose contributions commute need no order and have none.
+   * Set the visibility order that cells are composited in, one of
+   * vtkMeshedPolyhedraVisibilitySort::VisibilityOrder, which has what each of them does. Default
+   * AUTOMATIC_ORDER: as EXACT_ORDER, without its warning. EXACT_ORDER makes the mesh convex in the
+   * first frame (see vtkConvexifyTetrahedra). It warns once, and says why, if neither the convex
+   * mesh nor ACROSS_GAPS_ORDER is possible and the order is that of NON_CONVEX_ORDER.
+   *
+   * GetUsedOrder() returns the order of the last frame: AUTOMATIC_ORDER before the first frame, and
+   * if the cells' contributions commute and need no order ("none" as a string).
+   *
+   * @warning Cells that occlude each other in a cycle have no right order. GetStatistics() counts
+   * them; vtkMeshedPolyhedraVisibilitySort, given the same input, camera and matrix, names them.
    */
-  vtkSetClampMacro(Order, int, AUTOMATIC_ORDER, CENTROID_ORDER);
+  virtual void SetOrder(int order);
   vtkGetMacro(Order, int);
-  void SetOrderToAutomatic() { this->SetOrder(AUTOMATIC_ORDER); }
-  void SetOrderToExact() { this->SetOrder(EXACT_ORDER); }
-  void SetOrderToNonConvex() { this->SetOrder(NON_CONVEX_ORDER); }
-  void SetOrderToCentroid() { this->SetOrder(CENTROID_ORDER); }
+  const char* GetOrderAsString();
+  void SetOrderToAutomatic() { this->SetOrder(vtkMeshedPolyhedraVisibilitySort::AUTOMATIC_ORDER); }
+  void SetOrderToExact() { this->SetOrder(vtkMeshedPolyhedraVisibilitySort::EXACT_ORDER); }
+  void SetOrderToAcrossGaps()
+  {
+    this->SetOrder(vtkMeshedPolyhedraVisibilitySort::ACROSS_GAPS_ORDER);
+  }
+  void SetOrderToNonConvex() { this->SetOrder(vtkMeshedPolyhedraVisibilitySort::NON_CONVEX_ORDER); }
+  void SetOrderToCentroid() { this->SetOrder(vtkMeshedPolyhedraVisibilitySort::CENTROID_ORDER); }
+  int GetUsedOrder();
+  const char* GetUsedOrderAsString();
   ///@}
 
   /**
@@ -125,11 +126,13 @@ protected:
   ~vtkTetrahedraProjectionMapper() override;
 
   void DrawFrame(tetralux::MapperFrame& frame) override;
+  void PrintProperties(ostream& os, vtkIndent indent) override;
+  void PrintResults(ostream& os, vtkIndent indent) override;
 
   vtkTypeBool PerspectiveInterpolation = 1;
   int ColorBuffer = AUTOMATIC_BUFFER;
   vtkTypeBool AlphaDithering = 1;
-  int Order = AUTOMATIC_ORDER;
+  int Order = vtkMeshedPolyhedraVisibilitySort::AUTOMATIC_ORDER;
 
 private:
   vtkTetrahedraProjectionMapper(const vtkTetrahedraProjectionMapper&) = delete;

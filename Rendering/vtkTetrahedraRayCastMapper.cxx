@@ -6,8 +6,9 @@
 #include "Frame/ImageCompositor.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/OpaqueDistances.h"
+#include "Properties/PropertyPrinter.h"
+#include "Properties/PropertySetters.h"
 #include "RayCast/RayCaster.h"
-#include "Report/OnceWarning.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
@@ -26,19 +27,6 @@ using tetralux::MapperFrame;
 
 namespace
 {
-
-const char* GetPrecisionName(int precision)
-{
-  switch (precision)
-  {
-    case vtkTetrahedraRayCastMapper::SINGLE_PRECISION:
-      return "single";
-    case vtkTetrahedraRayCastMapper::DOUBLE_PRECISION:
-      return "double";
-    default:
-      return "automatic";
-  }
-}
 
 void Describe(const tetralux::RayCastStatistics& rays, const tetralux::RayGrid& grid,
   double sampleDistance, MapperFrame& frame)
@@ -88,11 +76,9 @@ public:
 private:
   double ChooseSampleDistance(const MapperFrame& frame) const;
   tetralux::RayCastOptions MakeOptions(const MapperFrame& frame) const;
-  void WarnOfReentry(const tetralux::WalkMesh& mesh);
 
   vtkTetrahedraRayCastMapper* Self;
   double SecondsPerRay = 0; ///< of the last frame that was cast; 0: none yet
-  tetralux::OnceWarning ReentryWarning;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -128,7 +114,7 @@ void vtkTetrahedraRayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   frame.Integration = statistics.Integration;
   frame.Aborted = statistics.Aborted;
   Describe(statistics, grid, sampleDistance, frame);
-  this->WarnOfReentry(*frame.Scene->Mesh.GetMesh());
+  this->Self->WarnOfReentry(*frame.Scene->Mesh.GetMesh());
   if (frame.Aborted)
   {
     return;
@@ -169,24 +155,14 @@ tetralux::RayCastOptions vtkTetrahedraRayCastMapper::Internals::MakeOptions(
   options.Arithmetic = this->Self->Precision == SINGLE_PRECISION ? tetralux::Precision::Single
     : this->Self->Precision == DOUBLE_PRECISION                  ? tetralux::Precision::Double
                                                                  : tetralux::Precision::Automatic;
-  options.ReentryBy = this->Self->Reentry == IMAGINARY_CELLS ? tetralux::Reentry::Imaginary
-                                                             : tetralux::Reentry::Boundary;
+  options.ReentryBy = this->Self->Reentry == IMAGINARY_CELLS_REENTRY ? tetralux::Reentry::Imaginary
+                                                                     : tetralux::Reentry::Boundary;
   options.Shaded = frame.Shaded;
   options.SmoothShading = frame.Settings.SmoothShading;
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
   options.Progress = [&frame](double fraction) { return frame.ReportProgress(fraction); };
   return options;
-}
-
-//------------------------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::Internals::WarnOfReentry(const tetralux::WalkMesh& mesh)
-{
-  const tetralux::Convexification* convex = mesh.GetConvexification();
-  const bool refused = this->Self->Reentry == IMAGINARY_CELLS && convex && !convex->Refusal.empty();
-  this->ReentryWarning.Update(this->Self,
-    refused ? "the mesh can't be made convex, rays enter it by its boundary: " + convex->Refusal
-            : "");
 }
 
 //------------------------------------------------------------------------------------------------
@@ -212,14 +188,21 @@ void vtkTetrahedraRayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
+tetraluxSetNumberMacro(vtkTetrahedraRayCastMapper, NumberOfThreads, int);
+tetraluxEnumerationMacro(vtkTetrahedraRayCastMapper, Precision);
+tetraluxSetNumberMacro(vtkTetrahedraRayCastMapper, ImageSampleDistance, float);
+tetraluxSetNumberMacro(vtkTetrahedraRayCastMapper, MinimumImageSampleDistance, float);
+tetraluxSetNumberMacro(vtkTetrahedraRayCastMapper, MaximumImageSampleDistance, float);
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::PrintProperties(ostream& os, vtkIndent indent)
 {
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Reentry: " << this->Reentry << "\n"
-     << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n"
-     << indent << "Precision: " << GetPrecisionName(this->Precision) << "\n"
-     << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n"
-     << indent << "MinimumImageSampleDistance: " << this->MinimumImageSampleDistance << "\n"
-     << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n"
-     << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << "\n";
+  this->Superclass::PrintProperties(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
+  printer.Print("NumberOfThreads", this->NumberOfThreads);
+  printer.Print("Precision", this->Precision);
+  printer.Print("ImageSampleDistance", this->ImageSampleDistance);
+  printer.Print("MinimumImageSampleDistance", this->MinimumImageSampleDistance);
+  printer.Print("MaximumImageSampleDistance", this->MaximumImageSampleDistance);
+  printer.Print("AutoAdjustSampleDistances", this->AutoAdjustSampleDistances);
 }

@@ -3,11 +3,13 @@
  * @class   vtkTetrahedraRayCastMapper
  * @brief   direct volume rendering of unstructured grids by cell-to-cell ray casting on the CPU
  *
- * Renders the cells of a data set as a volume, with an error that is known: the integral over each
- * cell is evaluated in closed form, never sampled, and the picture does not depend on the number
- * of threads. Input, optical models and what they are set by: see vtkTetrahedraVolumeMapper.
+ * Renders the cells of a data set as a volume with a known error. The integral over each cell is
+ * evaluated in closed form, never sampled. The picture does not depend on the number of threads.
+ * See vtkTetrahedraVolumeMapper for the input, the optical models and their properties. Reentry is
+ * AUTOMATIC_REENTRY, BOUNDARY_HIERARCHY_REENTRY or IMAGINARY_CELLS_REENTRY; the hierarchy was
+ * faster in every scene that was measured.
  *
- * @sa vtkTetrahedraFilter, vtkUnstructuredGridVolumeRayCastMapper
+ * @sa vtkTetrahedralizeCells, vtkUnstructuredGridVolumeRayCastMapper
  */
 #ifndef vtkTetrahedraRayCastMapper_h
 #define vtkTetrahedraRayCastMapper_h
@@ -22,37 +24,13 @@ class TETRALUXRENDERING_EXPORT vtkTetrahedraRayCastMapper : public vtkTetrahedra
 public:
   static vtkTetrahedraRayCastMapper* New();
   vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkTetrahedraVolumeMapper);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum ReentryType
-  {
-    AUTOMATIC_REENTRY,
-    BOUNDARY_HIERARCHY,
-    IMAGINARY_CELLS
-  };
 
   ///@{
   /**
-   * How rays that left the mesh find where they enter it again: by a hierarchy over its boundary
-   * faces, or through imaginary cells between the mesh and its convex hull (Weiler et al. 2003,
-   * section 3.4, see vtkConvexifyTetrahedra), which are made in the first frame that needs them.
-   * Automatic (default) is BOUNDARY_HIERARCHY: it was faster in every scene that was measured. A mesh
-   * that can't be made convex is entered by its boundary, and one warning says why. The picture is
-   * the same.
+   * Set the number of threads that cast rays, 1 to 1024. Default 0: as many as OpenMP offers. The
+   * picture does not depend on it.
    */
-  vtkSetClampMacro(Reentry, int, AUTOMATIC_REENTRY, IMAGINARY_CELLS);
-  vtkGetMacro(Reentry, int);
-  void SetReentryToAutomatic() { this->SetReentry(AUTOMATIC_REENTRY); }
-  void SetReentryToBoundaryHierarchy() { this->SetReentry(BOUNDARY_HIERARCHY); }
-  void SetReentryToImaginaryCells() { this->SetReentry(IMAGINARY_CELLS); }
-  ///@}
-
-  ///@{
-  /**
-   * Threads that cast rays; 0 (default): as many as OpenMP offers. At most 1024. The picture does
-   * not depend on it.
-   */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
+  virtual void SetNumberOfThreads(int threads);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
@@ -65,12 +43,13 @@ public:
 
   ///@{
   /**
-   * Arithmetic of the geometry along rays. Automatic (default): single where its estimated error
-   * stays within a quarter of MaximumError, else double. Double precision takes 32 bytes a point
-   * more.
+   * Set the arithmetic of the geometry along rays. Default AUTOMATIC_PRECISION: single if its
+   * estimated error is within a quarter of MaximumError, else double. Double precision takes 32
+   * bytes a point more.
    */
-  vtkSetClampMacro(Precision, int, AUTOMATIC_PRECISION, DOUBLE_PRECISION);
+  virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);
+  const char* GetPrecisionAsString();
   void SetPrecisionToAutomatic() { this->SetPrecision(AUTOMATIC_PRECISION); }
   void SetPrecisionToSingle() { this->SetPrecision(SINGLE_PRECISION); }
   void SetPrecisionToDouble() { this->SetPrecision(DOUBLE_PRECISION); }
@@ -78,30 +57,29 @@ public:
 
   ///@{
   /**
-   * Distance of rays in pixels, 0.1..100, default 1: one ray through each pixel's centre. At 2 one
-   * ray does for 2 x 2 pixels, and the picture is interpolated; at 0.5 a pixel is the mean of 4.
-   * Used where AutoAdjustSampleDistances is off.
+   * Set the distance of rays in pixels, 0.1 to 100, for frames with AutoAdjustSampleDistances off.
+   * Default 1: one ray through each pixel's centre. At 2 one ray covers 2 x 2 pixels, and the
+   * picture is interpolated; at 0.5 a pixel is the mean of 4 rays.
    */
-  vtkSetClampMacro(ImageSampleDistance, float, 0.1f, 100.0f);
+  virtual void SetImageSampleDistance(float distance);
   vtkGetMacro(ImageSampleDistance, float);
   ///@}
 
   ///@{
   /**
-   * The range that automatic adjustment may choose the distance of rays from, in pixels, each
-   * 0.1..100, default 1 and 10.
+   * Set the range of the automatic distance of rays in pixels, each 0.1 to 100. Default 1 and 10.
    */
-  vtkSetClampMacro(MinimumImageSampleDistance, float, 0.1f, 100.0f);
+  virtual void SetMinimumImageSampleDistance(float distance);
   vtkGetMacro(MinimumImageSampleDistance, float);
-  vtkSetClampMacro(MaximumImageSampleDistance, float, 0.1f, 100.0f);
+  virtual void SetMaximumImageSampleDistance(float distance);
   vtkGetMacro(MaximumImageSampleDistance, float);
   ///@}
 
   ///@{
   /**
-   * Whether the distance of rays follows from the time that the renderer allocates to the volume
-   * and the time that a ray took in the last frame. On by default. Without a desired update rate,
-   * as in still and off-screen frames, that time is hours, and the distance
+   * Set whether the distance of rays follows from the time that the renderer allocates to the
+   * volume and the time that a ray took in the last frame. Default on. Without a desired update
+   * rate, as in still and off-screen frames, that time is hours, and the distance is
    * MinimumImageSampleDistance.
    */
   vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
@@ -119,8 +97,8 @@ protected:
   ~vtkTetrahedraRayCastMapper() override;
 
   void DrawFrame(tetralux::MapperFrame& frame) override;
+  void PrintProperties(ostream& os, vtkIndent indent) override;
 
-  int Reentry = AUTOMATIC_REENTRY;
   int NumberOfThreads = 0;
   int Precision = AUTOMATIC_PRECISION;
   float ImageSampleDistance = 1;

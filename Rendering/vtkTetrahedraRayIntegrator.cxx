@@ -294,6 +294,22 @@ void vtkTetrahedraRayIntegrator::Integrate(vtkDoubleArray* intersectionLengths,
 }
 
 //----------------------------------------------------------------------------
+void vtkTetrahedraRayIntegrator::SetMaximumError(double error)
+{
+  if (std::isnan(error))
+  {
+    vtkErrorMacro("MaximumError: nan is not a number from 1e-09 to 1");
+    return;
+  }
+  const double accepted = std::clamp(error, 1e-9, 1.);
+  if (this->MaximumError != accepted)
+  {
+    this->MaximumError = accepted;
+    this->Modified();
+  }
+}
+
+//----------------------------------------------------------------------------
 void vtkTetrahedraRayIntegrator::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

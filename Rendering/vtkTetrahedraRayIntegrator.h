@@ -49,11 +49,12 @@ public:
 
   ///@{
   /**
-   * Error of a premultiplied colour channel, 0..1, up to which functions of the property that are
-   * not piecewise linear (other colour spaces than RGB, sharpness, logarithmic scale) are
-   * subdivided. Default 1e-5. Piecewise linear ones are exact.
+   * Set the largest error per premultiplied channel, 1e-9 to 1, up to which functions of the
+   * property that are not piecewise linear (other colour spaces than RGB, sharpness, logarithmic
+   * scale) are subdivided. Default 1e-5. Piecewise linear functions are exact. NaN is refused with
+   * an error.
    */
-  vtkSetClampMacro(MaximumError, double, 1e-9, 1.0);
+  virtual void SetMaximumError(double error);
   vtkGetMacro(MaximumError, double);
   ///@}
 

@@ -6,7 +6,11 @@
 #include "Frame/RendererLights.h"
 #include "Preparation/ScenePreparation.h"
 #include "Preparation/SceneReport.h"
+#include "Properties/PropertyPrinter.h"
+#include "Properties/PropertySetters.h"
 #include "Report/Json.h"
+#include "Report/OnceWarning.h"
+#include "Walk/WalkMesh.h"
 
 #include "Intake/TetrahedraIntake.h"
 #include "vtkBoundingBox.h"
@@ -25,8 +29,11 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 using tetralux::Json;
@@ -42,8 +49,6 @@ tetralux::OpticalModel GetOpticalModel(int blendMode)
 {
   switch (blendMode)
   {
-    case vtkTetrahedraVolumeMapper::COMPOSITE_BLEND:
-      return tetralux::OpticalModel::EmissionAbsorption;
     case vtkTetrahedraVolumeMapper::MAXIMUM_INTENSITY_BLEND:
       return tetralux::OpticalModel::MaximumIntensity;
     case vtkTetrahedraVolumeMapper::ADDITIVE_BLEND:
@@ -52,10 +57,8 @@ tetralux::OpticalModel GetOpticalModel(int blendMode)
       return tetralux::OpticalModel::Isosurfaces;
     case vtkTetrahedraVolumeMapper::ABSORPTION_BLEND:
       return tetralux::OpticalModel::AbsorptionOnly;
-    default:
-      throw std::invalid_argument("BlendMode " + std::to_string(blendMode) +
-        " is none of this mapper's: composite, maximum intensity, additive, isosurface or "
-        "absorption");
+    default: // SetBlendMode refuses all others
+      return tetralux::OpticalModel::EmissionAbsorption;
   }
 }
 
@@ -88,6 +91,7 @@ public:
   double ErrorEstimate = 0;
   std::string Statistics = "{}";
   std::string LastError;
+  tetralux::OnceWarning ReentryWarning;
 
 private:
   tetralux::MapperSettings MakeSettings() const;
@@ -165,9 +169,9 @@ tetralux::MapperSettings vtkTetrahedraVolumeMapper::Internals::MakeSettings() co
   scalars.VectorComponent = self->VectorComponent;
 
   tetralux::TableWishes& table = settings.Table;
-  table.Use = self->Integration == CLOSED_FORM ? tetralux::TableUse::Never
-    : self->Integration == TABLE               ? tetralux::TableUse::Always
-                                               : tetralux::TableUse::Automatic;
+  table.Use = self->Integration == CLOSED_FORM_INTEGRATION ? tetralux::TableUse::Never
+    : self->Integration == TABLE_INTEGRATION               ? tetralux::TableUse::Always
+                                                           : tetralux::TableUse::Automatic;
   table.ScalarSize = self->TableScalarSize;
   table.LengthSize = self->TableLengthSize;
   table.MaximumBytes = static_cast<std::size_t>(self->TableMaximumBytes);
@@ -432,26 +436,99 @@ vtkIdType vtkTetrahedraVolumeMapper::GetNumberOfBlankCells()
 }
 
 //------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::WarnOfReentry(const tetralux::WalkMesh& mesh)
+{
+  const tetralux::Convexification* convex = mesh.GetConvexification();
+  const bool refused =
+    this->Reentry == IMAGINARY_CELLS_REENTRY && convex && !convex->Refusal.empty();
+  this->Private->ReentryWarning.Update(this,
+    refused ? "the mesh can't be made convex, rays enter it by its boundary: " + convex->Refusal
+            : "");
+}
+
+//------------------------------------------------------------------------------------------------
+tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, BlendMode);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, MaximumError, double);
+tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, Integration);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, TableScalarSize, int);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, TableLengthSize, int);
+tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, TableLengthScale);
+tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, TableScalarAxis);
+tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, TableFormat);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, TableMaximumBytes, vtkIdType);
+tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, VectorMode);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, VectorComponent, int);
+tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, Reentry);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, CroppingRegionFlags, int);
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::SetCroppingRegionPlanes(
+  double xMin, double xMax, double yMin, double yMax, double zMin, double zMax)
+{
+  const double planes[6] = { xMin, xMax, yMin, yMax, zMin, zMax };
+  this->SetCroppingRegionPlanes(planes);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::SetCroppingRegionPlanes(const double planes[6])
+{
+  if (std::any_of(planes, planes + 6, [](double plane) { return std::isnan(plane); }))
+  {
+    vtkErrorMacro("CroppingRegionPlanes: nan is not a place of a plane");
+    return;
+  }
+  if (!std::equal(planes, planes + 6, this->CroppingRegionPlanes))
+  {
+    std::copy_n(planes, 6, this->CroppingRegionPlanes);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
-  this->Superclass::PrintSelf(os, indent);
+  // Not the superclass's, which prints BlendMode as a number.
+  this->vtkAbstractVolumeMapper::PrintSelf(os, indent);
+  this->PrintProperties(os, indent);
+  this->PrintResults(os, indent);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::PrintProperties(ostream& os, vtkIndent indent)
+{
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
+  printer.Print("BlendMode", this->BlendMode);
+  printer.Print("MaximumError", this->MaximumError);
+  printer.Print("Integration", this->Integration);
+  printer.Print("TableScalarSize", this->TableScalarSize);
+  printer.Print("TableLengthSize", this->TableLengthSize);
+  printer.Print("TableLengthScale", this->TableLengthScale);
+  printer.Print("TableScalarAxis", this->TableScalarAxis);
+  printer.Print("TableFormat", this->TableFormat);
+  printer.Print("TableMaximumBytes", this->TableMaximumBytes);
+  printer.Print("SmoothShading", this->SmoothShading);
+  printer.Print("VectorMode", this->VectorMode);
+  printer.Print("VectorComponent", this->VectorComponent);
+  printer.Print("Reentry", this->Reentry);
+  printer.Print("IntermixIntersectingGeometry", this->IntermixIntersectingGeometry);
+  printer.Print("Cropping", this->Cropping);
   const double* planes = this->CroppingRegionPlanes;
-  os << indent << "MaximumError: " << this->MaximumError << "\n"
-     << indent << "BlendMode: " << this->BlendMode << "\n"
-     << indent << "Integration: " << this->Integration << "\n"
-     << indent << "TableScalarSize: " << this->TableScalarSize << "\n"
-     << indent << "TableLengthSize: " << this->TableLengthSize << "\n"
-     << indent << "TableLengthScale: " << this->TableLengthScale << "\n"
-     << indent << "TableScalarAxis: " << this->TableScalarAxis << "\n"
-     << indent << "TableFormat: " << this->TableFormat << "\n"
-     << indent << "TableMaximumBytes: " << this->TableMaximumBytes << "\n"
-     << indent << "SmoothShading: " << this->SmoothShading << "\n"
-     << indent << "VectorMode: " << this->VectorMode << "\n"
-     << indent << "VectorComponent: " << this->VectorComponent << "\n"
-     << indent << "IntermixIntersectingGeometry: " << this->IntermixIntersectingGeometry << "\n"
-     << indent << "Cropping: " << this->Cropping << "\n"
-     << indent << "CroppingRegionPlanes: " << planes[0] << ", " << planes[1] << ", " << planes[2]
-     << ", " << planes[3] << ", " << planes[4] << ", " << planes[5] << "\n"
-     << indent << "CroppingRegionFlags: " << this->CroppingRegionFlags << "\n"
-     << indent << "Statistics: " << this->Private->Statistics << "\n";
+  printer.Print(
+    "CroppingRegionPlanes", planes[0], planes[1], planes[2], planes[3], planes[4], planes[5]);
+  printer.Print("CroppingRegionFlags", this->CroppingRegionFlags);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::PrintResults(ostream& os, vtkIndent indent)
+{
+  os << indent << "ErrorEstimate: " << this->GetErrorEstimate() << "\n"
+     << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n"
+     << indent << "NumberOfRemovedCells: " << this->GetNumberOfRemovedCells() << "\n"
+     << indent << "NumberOfBlankCells: " << this->GetNumberOfBlankCells() << "\n"
+     << indent << "Statistics:\n";
+  std::istringstream lines(this->GetStatistics());
+  for (std::string line; std::getline(lines, line);)
+  {
+    os << indent.GetNextIndent() << line << "\n";
+  }
 }

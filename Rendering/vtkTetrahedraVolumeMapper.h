@@ -3,31 +3,36 @@
  * @class   vtkTetrahedraVolumeMapper
  * @brief   what all mappers have in common that render unstructured grids with a known error
  *
- * Accepts whatever vtkTetrahedraFilter accepts: unstructured, structured, rectilinear and image
- * grids, any other vtkDataSet, and composites of these. Cells that can't be rendered are left out
- * and counted, see GetStatistics(), with one warning where their types are not supported. A point
- * or cell whose scalar is not a finite number leaves the cells that touch it empty.
+ * Accepts what vtkTetrahedralizeCells accepts: unstructured, structured, rectilinear and image
+ * grids, any other vtkDataSet, and composites of these. Skips cells that can't be rendered and
+ * counts them, see GetStatistics(); one warning names types that are not supported. Cells that
+ * touch a scalar that is not a finite number are empty.
  *
  * Optical model: attenuation per world unit is the scalar opacity over the property's
- * ScalarOpacityUnitDistance, radiance is the integral of attenuation x colour x exp(-optical
- * depth). That is the model of VTK's own mappers of unstructured grids, not the 1 - (1 - a)^(l / d)
- * of its mappers of image data. The property's colour (RGB in any colour space, or grey), scalar
- * opacity and unit distance of component 0 are used at the exact scalars of their nodes. Other
- * BlendModes are below. Where the property's Shade is on, lights of the renderer shine on composite
- * volumes and isosurfaces of scalars at points, from the side of the viewer: ambient, diffuse and
- * specular (Blinn) as in VTK's mappers of image data. Gradient opacity, and Shade elsewhere, are not
- * used, and one warning says so.
+ * ScalarOpacityUnitDistance. Radiance is the integral of attenuation x colour x exp(-optical
+ * depth). VTK's own mappers of unstructured grids have the same model; its mappers of image data
+ * have 1 - (1 - a)^(l / d). The property's colour (RGB in any colour space, or grey), scalar
+ * opacity and unit distance of component 0 are used at the exact scalars of their nodes.
+ * SetBlendMode() has the other models.
+ *
+ * If the property's Shade is on, lights of the renderer shine on composite volumes and isosurfaces
+ * of scalars at points, from the side of the viewer: ambient, diffuse and specular (Blinn) as in
+ * VTK's mappers of image data.
  *
  * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
  * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper
  * are in world coordinates and keep their positive side, as in VTK's other mappers.
  *
- * What is built is kept: tetrahedra and their neighbours until points, cells or ghost flags of the
- * input change, scalars until the array or the choice of it changes, the transfer function until
- * the property changes. A new camera rebuilds nothing.
+ * What is built is cached: tetrahedra and their neighbours until points, cells or ghost flags of
+ * the input change, scalars until the array or the choice of it changes, the transfer function
+ * until the property changes. A new camera rebuilds nothing.
  *
- * Mappers are created by name, there is no object factory behind them. Errors are reported once for
- * each cause; the volume is then not drawn.
+ * Mappers are created by name; there is no object factory behind them. Each cause of an error is
+ * reported once; the volume is then not drawn. Setters clamp numbers to the range that is stated,
+ * and refuse, with an error that names the right values, any other value of an enumeration and NaN.
+ *
+ * @warning Gradient opacity is not used, nor is Shade with other blend modes or scalars at cells;
+ * one warning says so.
  *
  * @sa vtkTetrahedraRayCastMapper, vtkTetrahedraGPURayCastMapper, vtkTetrahedraProjectionMapper
  */
@@ -46,6 +51,7 @@ class vtkImageData;
 namespace tetralux
 {
 struct MapperFrame;
+class WalkMesh;
 } // namespace tetralux
 
 class TETRALUXRENDERING_EXPORT vtkTetrahedraVolumeMapper : public vtkUnstructuredGridVolumeMapper
@@ -72,27 +78,9 @@ public:
   using Superclass::GetBounds;
   ///@}
 
-  ///@{
   /**
-   * Error aimed at, of each premultiplied colour channel and of the opacity, absolute, 0..1.
-   * Default 1e-4. Rays end where what is behind can't matter, arithmetic is single or double
-   * precision, and colour functions that are not piecewise linear are subdivided, each as far as
-   * this allows. Below 1e-6 the single precision of the result is the limit.
-   */
-  vtkSetClampMacro(MaximumError, double, 0.0, 1.0);
-  vtkGetMacro(MaximumError, double);
-  ///@}
-
-  /**
-   * What BlendMode may be beside COMPOSITE_BLEND (default) and MAXIMUM_INTENSITY_BLEND, with the
-   * numbers of vtkVolumeMapper where it has them (Weiler et al. 2003, section 4).
-   *
-   * MAXIMUM_INTENSITY_BLEND: colour and scalar opacity of the largest scalar along a ray.
-   * ADDITIVE_BLEND: light adds up and nothing is absorbed; the opacity of the picture is 0.
-   * ISOSURFACE_BLEND: the surfaces of the property's IsoSurfaceValues, each with its colour and
-   * scalar opacity, composited front to back; where Shade is on, lit by the lights of the renderer
-   * from both sides. Scalars must be at points.
-   * ABSORPTION_BLEND: dark smoke, without colour, that hides what is behind.
+   * Values of BlendMode beside COMPOSITE_BLEND and MAXIMUM_INTENSITY_BLEND of the superclass, with
+   * the numbers of vtkVolumeMapper where it has them (Weiler et al. 2003, section 4).
    */
   enum FurtherBlendModes
   {
@@ -100,40 +88,76 @@ public:
     ISOSURFACE_BLEND = 5,
     ABSORPTION_BLEND = 16
   };
-  void SetBlendModeToAdditive() { this->SetBlendMode(ADDITIVE_BLEND); }
-  void SetBlendModeToIsoSurface() { this->SetBlendMode(ISOSURFACE_BLEND); }
-  void SetBlendModeToAbsorption() { this->SetBlendMode(ABSORPTION_BLEND); }
-
-  enum IntegrationType
-  {
-    AUTOMATIC_INTEGRATION,
-    CLOSED_FORM,
-    TABLE
-  };
 
   ///@{
   /**
-   * How segments of composite blending are integrated. Automatic (default): by a table where that is
-   * faster and right enough for a quarter of MaximumError, else in closed form, which is exact.
-   * TABLE: by a table in any case, the smallest that is right enough or else the best within
-   * TableMaximumBytes; GetErrorEstimate() says how right. Scalars at cells, constant colours and
-   * other blend modes need no table and have none.
+   * Set what rays gather. Default COMPOSITE_BLEND. Any other number, such as vtkVolumeMapper's
+   * MINIMUM_INTENSITY_BLEND and AVERAGE_INTENSITY_BLEND, is refused with an error.
+   *
+   * - COMPOSITE_BLEND (0): emission and absorption.
+   * - MAXIMUM_INTENSITY_BLEND (1): colour and scalar opacity of the largest scalar along a ray.
+   * - ADDITIVE_BLEND (4): emission without absorption; the picture has opacity 0.
+   * - ISOSURFACE_BLEND (5): the surfaces of the property's IsoSurfaceValues, each with its colour
+   *   and scalar opacity, composited front to back. If Shade is on, the lights of the renderer
+   *   shine on them from both sides.
+   * - ABSORPTION_BLEND (16): absorption without emission: dark smoke.
+   *
+   * @warning ISOSURFACE_BLEND needs scalars at points.
    */
-  vtkSetClampMacro(Integration, int, AUTOMATIC_INTEGRATION, TABLE);
-  vtkGetMacro(Integration, int);
-  void SetIntegrationToAutomatic() { this->SetIntegration(AUTOMATIC_INTEGRATION); }
-  void SetIntegrationToClosedForm() { this->SetIntegration(CLOSED_FORM); }
-  void SetIntegrationToTable() { this->SetIntegration(TABLE); }
+  void SetBlendMode(int mode) override;
+  const char* GetBlendModeAsString();
+  void SetBlendModeToAdditive() { this->SetBlendMode(ADDITIVE_BLEND); }
+  void SetBlendModeToIsoSurface() { this->SetBlendMode(ISOSURFACE_BLEND); }
+  void SetBlendModeToAbsorption() { this->SetBlendMode(ABSORPTION_BLEND); }
   ///@}
 
   ///@{
   /**
-   * Texels of a table along each of the two scalars and along the length of a segment, 2..4096; 0
-   * (default): chosen by MaximumError.
+   * Set the largest absolute error per premultiplied channel, 0 to 1. Default 1e-4. Rays end early,
+   * arithmetic is in single precision, and colour functions that are not piecewise linear are
+   * subdivided, each as far as this error allows.
+   *
+   * @warning Below 1e-6 the single precision of the picture limits the error.
    */
-  vtkSetClampMacro(TableScalarSize, int, 0, 4096);
+  virtual void SetMaximumError(double error);
+  vtkGetMacro(MaximumError, double);
+  ///@}
+
+  enum IntegrationType
+  {
+    AUTOMATIC_INTEGRATION,
+    CLOSED_FORM_INTEGRATION,
+    TABLE_INTEGRATION
+  };
+
+  ///@{
+  /**
+   * Set how segments of composite blending are integrated. Default AUTOMATIC_INTEGRATION.
+   *
+   * - AUTOMATIC_INTEGRATION: a table if it is faster and its error is within a quarter of
+   *   MaximumError, else the closed form.
+   * - CLOSED_FORM_INTEGRATION: the closed form (Weiler et al. 2003, section 3.3).
+   * - TABLE_INTEGRATION: the smallest table whose error is within a quarter of MaximumError. If
+   *   none is, the best one within TableMaximumBytes; GetErrorEstimate() returns its error.
+   *
+   * Scalars at cells, constant colours and other blend modes use no table.
+   */
+  virtual void SetIntegration(int integration);
+  vtkGetMacro(Integration, int);
+  const char* GetIntegrationAsString();
+  void SetIntegrationToAutomatic() { this->SetIntegration(AUTOMATIC_INTEGRATION); }
+  void SetIntegrationToClosedForm() { this->SetIntegration(CLOSED_FORM_INTEGRATION); }
+  void SetIntegrationToTable() { this->SetIntegration(TABLE_INTEGRATION); }
+  ///@}
+
+  ///@{
+  /**
+   * Set the number of texels of a table along each of its two scalars and along the length of a
+   * segment, 2 to 4096. Default 0: the smallest that MaximumError allows.
+   */
+  virtual void SetTableScalarSize(int size);
   vtkGetMacro(TableScalarSize, int);
-  vtkSetClampMacro(TableLengthSize, int, 0, 4096);
+  virtual void SetTableLengthSize(int size);
   vtkGetMacro(TableLengthSize, int);
   ///@}
 
@@ -146,11 +170,16 @@ public:
 
   ///@{
   /**
-   * How texels lie along the length: in equal steps (Weiler et al. 2003), or in steps that double
-   * (Kraus et al. 2004, equation 1). Automatic by default.
+   * Set the spacing of a table's texels along the length of a segment: equal steps (Weiler et al.
+   * 2003, section 4) or steps that double (Kraus et al. 2004, equation 1). Default AUTOMATIC_SCALE:
+   * what MaximumError allows at the smallest size.
    */
-  vtkSetClampMacro(TableLengthScale, int, AUTOMATIC_SCALE, LOGARITHMIC_SCALE);
+  virtual void SetTableLengthScale(int scale);
   vtkGetMacro(TableLengthScale, int);
+  const char* GetTableLengthScaleAsString();
+  void SetTableLengthScaleToAutomatic() { this->SetTableLengthScale(AUTOMATIC_SCALE); }
+  void SetTableLengthScaleToLinear() { this->SetTableLengthScale(LINEAR_SCALE); }
+  void SetTableLengthScaleToLogarithmic() { this->SetTableLengthScale(LOGARITHMIC_SCALE); }
   ///@}
 
   enum TableScalarAxisType
@@ -162,11 +191,15 @@ public:
 
   ///@{
   /**
-   * How texels lie along the scalars: in equal steps, or on the nodes of the transfer function.
-   * Automatic by default.
+   * Set the spacing of a table's texels along the scalars: equal steps, or on the nodes of the
+   * transfer function. Default AUTOMATIC_AXIS: what MaximumError allows at the smallest size.
    */
-  vtkSetClampMacro(TableScalarAxis, int, AUTOMATIC_AXIS, NODES_AXIS);
+  virtual void SetTableScalarAxis(int axis);
   vtkGetMacro(TableScalarAxis, int);
+  const char* GetTableScalarAxisAsString();
+  void SetTableScalarAxisToAutomatic() { this->SetTableScalarAxis(AUTOMATIC_AXIS); }
+  void SetTableScalarAxisToUniform() { this->SetTableScalarAxis(UNIFORM_AXIS); }
+  void SetTableScalarAxisToNodes() { this->SetTableScalarAxis(NODES_AXIS); }
   ///@}
 
   enum TableFormatType
@@ -180,27 +213,33 @@ public:
 
   ///@{
   /**
-   * What texels are rounded to; automatic by default. The formats of textures: on the graphics
-   * card texels have them; on the processor, where their error can so be studied, rays read texels in
-   * single precision in any case, and only that needs no copy of them.
+   * Set the texture format that a table's texels are rounded to. Default AUTOMATIC_FORMAT: what
+   * MaximumError allows at the smallest size. On the processor texels are rounded to the format, so
+   * that its error can be studied, and rays read them in single precision.
    */
-  vtkSetClampMacro(TableFormat, int, AUTOMATIC_FORMAT, FLOAT_FORMAT);
+  virtual void SetTableFormat(int format);
   vtkGetMacro(TableFormat, int);
+  const char* GetTableFormatAsString();
+  void SetTableFormatToAutomatic() { this->SetTableFormat(AUTOMATIC_FORMAT); }
+  void SetTableFormatToUNorm8() { this->SetTableFormat(UNORM8_FORMAT); }
+  void SetTableFormatToUNorm16() { this->SetTableFormat(UNORM16_FORMAT); }
+  void SetTableFormatToHalf() { this->SetTableFormat(HALF_FORMAT); }
+  void SetTableFormatToFloat() { this->SetTableFormat(FLOAT_FORMAT); }
   ///@}
 
   ///@{
   /**
-   * The most bytes that a table may take, default 64 MiB.
+   * Set the largest size of a table in bytes, 65536 to 2^40. Default 67108864 (64 MiB).
    */
-  vtkSetClampMacro(TableMaximumBytes, vtkIdType, 65536, VTK_ID_MAX);
+  virtual void SetTableMaximumBytes(vtkIdType bytes);
   vtkGetMacro(TableMaximumBytes, vtkIdType);
   ///@}
 
   ///@{
   /**
-   * Whether lighting, where the property's Shade is on, takes its normals from gradients that are
-   * interpolated between the points, each the mean of its cells' gradients by volume: smooth. Off, each
-   * cell has its own gradient, and facets show. On by default.
+   * Set whether lighting, if the property's Shade is on, takes its normals from gradients that are
+   * interpolated between points. The gradient of a point is the mean over its cells by volume. Off:
+   * each cell has its own gradient, and facets show. Default on.
    */
   vtkSetMacro(SmoothShading, vtkTypeBool);
   vtkGetMacro(SmoothShading, vtkTypeBool);
@@ -209,27 +248,82 @@ public:
 
   enum VectorModeType
   {
-    DISABLED = -1,
-    MAGNITUDE = 0,
-    COMPONENT = 1
+    DISABLED_MODE = -1,
+    MAGNITUDE_MODE = 0,
+    COMPONENT_MODE = 1
   };
 
   ///@{
   /**
-   * How an array of several components becomes the scalar, as in vtkSmartVolumeMapper: DISABLED
-   * (default), the first component; MAGNITUDE, the Euclidean norm; COMPONENT, component
-   * VectorComponent, counted from 0, which is 0 by default and must exist.
+   * Set how an array of several components becomes the scalar, with the numbers of
+   * vtkSmartVolumeMapper. Default DISABLED_MODE.
+   *
+   * - DISABLED_MODE (-1): the first component.
+   * - MAGNITUDE_MODE (0): the Euclidean norm.
+   * - COMPONENT_MODE (1): component VectorComponent.
    */
-  vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
+  virtual void SetVectorMode(int mode);
   vtkGetMacro(VectorMode, int);
-  vtkSetClampMacro(VectorComponent, int, 0, VTK_INT_MAX);
-  vtkGetMacro(VectorComponent, int);
+  const char* GetVectorModeAsString();
+  void SetVectorModeToDisabled() { this->SetVectorMode(DISABLED_MODE); }
+  void SetVectorModeToMagnitude() { this->SetVectorMode(MAGNITUDE_MODE); }
+  void SetVectorModeToComponent() { this->SetVectorMode(COMPONENT_MODE); }
   ///@}
 
   ///@{
   /**
-   * Whether rays end at opaque geometry that was drawn before, by the depth buffer. On by default;
-   * off, the volume is in front of all geometry.
+   * Set the component that COMPONENT_MODE takes, counted from 0. Default 0.
+   *
+   * @warning A frame fails with an error if the array has no such component.
+   */
+  virtual void SetVectorComponent(int component);
+  vtkGetMacro(VectorComponent, int);
+  ///@}
+
+  enum ReentryType
+  {
+    AUTOMATIC_REENTRY,
+    BOUNDARY_HIERARCHY_REENTRY,
+    IMAGINARY_CELLS_REENTRY,
+    BOUNDARY_LAYERS_REENTRY,
+    NO_REENTRY
+  };
+
+  ///@{
+  /**
+   * Set how rays that left the mesh find where they enter it again. Default AUTOMATIC_REENTRY. All
+   * values decide by the same exact signs as the walk from cell to cell, and give the same picture.
+   *
+   * - AUTOMATIC_REENTRY: BOUNDARY_HIERARCHY_REENTRY. vtkTetrahedraGPURayCastMapper uses NO_REENTRY
+   *   if the mesh is convex and no cell is left out.
+   * - BOUNDARY_HIERARCHY_REENTRY: a hierarchy over the boundary faces.
+   * - IMAGINARY_CELLS_REENTRY: imaginary cells between the mesh and its convex hull (Weiler et al.
+   *   2003, section 3.4, see vtkConvexifyTetrahedra). The first frame that needs them makes them.
+   *   Transparent cells are not left out. If the mesh can't be made convex, rays enter by its
+   *   boundary, and one warning says why.
+   * - BOUNDARY_LAYERS_REENTRY, vtkTetrahedraGPURayCastMapper only: boundary faces, depth-peeled.
+   *   The hierarchy is used if the mesh reaches through the plane of the eye.
+   * - NO_REENTRY, vtkTetrahedraGPURayCastMapper only: rays end where they leave the mesh.
+   *
+   * A value that the mapper does not have is refused with an error; vtkTetrahedraProjectionMapper
+   * casts no rays and refuses all of them.
+   *
+   * @warning NO_REENTRY is exact for convex meshes only.
+   */
+  virtual void SetReentry(int reentry);
+  vtkGetMacro(Reentry, int);
+  const char* GetReentryAsString();
+  void SetReentryToAutomatic() { this->SetReentry(AUTOMATIC_REENTRY); }
+  void SetReentryToBoundaryHierarchy() { this->SetReentry(BOUNDARY_HIERARCHY_REENTRY); }
+  void SetReentryToImaginaryCells() { this->SetReentry(IMAGINARY_CELLS_REENTRY); }
+  void SetReentryToBoundaryLayers() { this->SetReentry(BOUNDARY_LAYERS_REENTRY); }
+  void SetReentryToNone() { this->SetReentry(NO_REENTRY); }
+  ///@}
+
+  ///@{
+  /**
+   * Set whether rays end at opaque geometry that was drawn before, by the depth buffer. Off: the
+   * volume is in front of all geometry. Default on.
    */
   vtkSetMacro(IntermixIntersectingGeometry, vtkTypeBool);
   vtkGetMacro(IntermixIntersectingGeometry, vtkTypeBool);
@@ -238,23 +332,31 @@ public:
 
   ///@{
   /**
-   * Whether only some of the 27 regions are rendered that CroppingRegionPlanes (xmin, xmax, ymin,
-   * ymax, zmin, zmax, in coordinates of the data; default 0, 1, 0, 1, 0, 1) cut space into. As in
-   * vtkVolumeMapper. Off by default.
+   * Set whether only the regions of CroppingRegionFlags are rendered. Default off.
    */
   vtkSetMacro(Cropping, vtkTypeBool);
   vtkGetMacro(Cropping, vtkTypeBool);
   vtkBooleanMacro(Cropping, vtkTypeBool);
-  vtkSetVector6Macro(CroppingRegionPlanes, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set the six planes that cut space into 27 regions: xmin, xmax, ymin, ymax, zmin, zmax, in
+   * coordinates of the data. Default 0, 1, 0, 1, 0, 1. NaN is refused with an error.
+   */
+  virtual void SetCroppingRegionPlanes(
+    double xMin, double xMax, double yMin, double yMax, double zMin, double zMax);
+  virtual void SetCroppingRegionPlanes(const double planes[6]);
   vtkGetVector6Macro(CroppingRegionPlanes, double);
   ///@}
 
   ///@{
   /**
-   * Which regions are rendered: bit x + 3 y + 9 z is that of region x, y, z, each 0 below, 1
-   * between and 2 above its two planes. Default: the subvolume between the planes, 0x2000.
+   * Set the regions that are rendered, 0 to 0x7ffffff: bit x + 3 y + 9 z is region x, y, z, each 0
+   * below, 1 between and 2 above its two planes. Default 0x2000: between all planes. The numbers
+   * are those of vtkVolumeMapper.
    */
-  vtkSetClampMacro(CroppingRegionFlags, int, 0x0, 0x7ffffff);
+  virtual void SetCroppingRegionFlags(int flags);
   vtkGetMacro(CroppingRegionFlags, int);
   void SetCroppingRegionFlagsToSubVolume() { this->SetCroppingRegionFlags(0x0002000); }
   void SetCroppingRegionFlagsToFence() { this->SetCroppingRegionFlags(0x2ebfeba); }
@@ -321,6 +423,18 @@ protected:
    */
   virtual void DrawFrame(tetralux::MapperFrame& frame) = 0;
 
+  /**
+   * Print properties, then what the last frame found: subclasses add theirs behind those of their
+   * superclass. PrintSelf calls the first, then the second.
+   */
+  virtual void PrintProperties(ostream& os, vtkIndent indent);
+  virtual void PrintResults(ostream& os, vtkIndent indent);
+
+  /**
+   * Warn once if the mesh was to be made convex for IMAGINARY_CELLS_REENTRY and can't be.
+   */
+  void WarnOfReentry(const tetralux::WalkMesh& mesh);
+
   double MaximumError = 1e-4;
   int Integration = AUTOMATIC_INTEGRATION;
   int TableScalarSize = 0;
@@ -330,8 +444,9 @@ protected:
   int TableFormat = AUTOMATIC_FORMAT;
   vtkIdType TableMaximumBytes = 64 << 20;
   vtkTypeBool SmoothShading = 1;
-  int VectorMode = DISABLED;
+  int VectorMode = DISABLED_MODE;
   int VectorComponent = 0;
+  int Reentry = AUTOMATIC_REENTRY;
   vtkTypeBool IntermixIntersectingGeometry = 1;
   vtkTypeBool Cropping = 0;
   double CroppingRegionPlanes[6] = { 0, 1, 0, 1, 0, 1 };

@@ -10,7 +10,7 @@
 #include "Files/TransferFunctionFile.h"
 #include "Generate/GeneratedMeshes.h"
 #include "Setup/Arrays.h"
-#include "vtkTetrahedraFilter.h"
+#include "vtkTetrahedralizeCells.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellData.h"
@@ -56,7 +56,7 @@ void SetMesh(
   BenchScene& scene, vtkDataObject* data, const std::string& array, const std::string& component)
 {
   const ArrayChoice choice = ChooseArray(data, array, component);
-  vtkNew<vtkTetrahedraFilter> filter;
+  vtkNew<vtkTetrahedralizeCells> filter;
   filter->SetInputDataObject(data);
   filter->Update();
   vtkUnstructuredGrid* tetrahedra = filter->GetOutput();

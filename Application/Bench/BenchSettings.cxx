@@ -13,22 +13,21 @@ namespace
 
 using Assignments = std::vector<std::string>;
 
-/// The values of the mapper's enumerations, as --set takes them.
-constexpr const char* ClosedForm = "Integration=1";
-constexpr const char* Table = "Integration=2";
-constexpr const char* LinearLengths = "TableLengthScale=1";
-constexpr const char* LogarithmicLengths = "TableLengthScale=2";
-constexpr const char* Format8Bit = "TableFormat=1";
-constexpr const char* Format16Bit = "TableFormat=2";
-constexpr const char* FormatHalf = "TableFormat=3";
-constexpr const char* FormatFloat = "TableFormat=4";
-constexpr const char* UniformScalars = "TableScalarAxis=1";
-constexpr const char* ScalarsAtNodes = "TableScalarAxis=2";
-constexpr const char* SinglePrecision = "Precision=1";
-constexpr const char* DoublePrecision = "Precision=2";
-constexpr const char* HalfBuffer = "ColorBuffer=2";
-constexpr const char* EightBitBuffer = "ColorBuffer=3";
-constexpr const char* FloatBuffer = "ColorBuffer=1";
+constexpr const char* ClosedForm = "Integration=closed-form";
+constexpr const char* Table = "Integration=table";
+constexpr const char* LinearLengths = "TableLengthScale=linear";
+constexpr const char* LogarithmicLengths = "TableLengthScale=logarithmic";
+constexpr const char* Format8Bit = "TableFormat=unorm8";
+constexpr const char* Format16Bit = "TableFormat=unorm16";
+constexpr const char* FormatHalf = "TableFormat=half";
+constexpr const char* FormatFloat = "TableFormat=float";
+constexpr const char* UniformScalars = "TableScalarAxis=uniform";
+constexpr const char* ScalarsAtNodes = "TableScalarAxis=nodes";
+constexpr const char* SinglePrecision = "Precision=single";
+constexpr const char* DoublePrecision = "Precision=double";
+constexpr const char* HalfBuffer = "ColorBuffer=half";
+constexpr const char* EightBitBuffer = "ColorBuffer=unorm8";
+constexpr const char* FloatBuffer = "ColorBuffer=float";
 constexpr const char* ToTheEnd = "MaximumError=0";
 
 /// A table of given sizes, with further assignments.
@@ -119,11 +118,11 @@ void AddTables(std::vector<BenchSetting>& settings)
 void AddReentry(std::vector<BenchSetting>& settings)
 {
   const std::string group = "how rays enter again";
-  settings.push_back(
-    { "reentry-hierarchy", group, "by a hierarchy of the boundary", "ray-cast", { "Reentry=1" } });
+  settings.push_back({ "reentry-hierarchy", group, "by a hierarchy of the boundary", "ray-cast",
+    { "Reentry=boundary-hierarchy" } });
   settings.push_back({ "reentry-imaginary", group,
     "through imaginary cells of a convexified mesh (Weiler 2003, section 3.4)", "ray-cast",
-    { "Reentry=2" } });
+    { "Reentry=imaginary-cells" } });
 }
 
 void AddGpuRayCast(std::vector<BenchSetting>& settings)
@@ -134,9 +133,9 @@ void AddGpuRayCast(std::vector<BenchSetting>& settings)
   settings.push_back(
     { "gpu-no-termination", group, "early ray termination switched off", method, { ToTheEnd } });
   settings.push_back({ "gpu-imaginary", group, "through imaginary cells of a convexified mesh",
-    method, { "Reentry=2" } });
-  settings.push_back(
-    { "gpu-layers", group, "by layers of the boundary, depth-peeled", method, { "Reentry=3" } });
+    method, { "Reentry=imaginary-cells" } });
+  settings.push_back({ "gpu-layers", group, "by layers of the boundary, depth-peeled", method,
+    { "Reentry=boundary-layers" } });
   settings.push_back({ "gpu-weiler", group,
     "table 128 x 128 x 256, linear lengths, 8 bit, uniform in the scalar, as in the paper", method,
     MakeTable(128, 256, { LinearLengths, Format8Bit, UniformScalars }) });
@@ -161,7 +160,7 @@ void AddProjection(std::vector<BenchSetting>& settings)
     "as in the paper: table 256 x 256 x 16, logarithmic, 16 bit; 8-bit buffer with dithering",
     method, with(kraus, { EightBitBuffer }) });
   settings.push_back({ "projection-no-perspective", group, "perspective interpolation switched off",
-    method, { "PerspectiveInterpolation=0" } });
+    method, { "PerspectiveInterpolation=off" } });
   settings.push_back({ "projection-linear-table", group, "table with linear lengths, 16 bit",
     method, MakeTable(256, 16, { LinearLengths, Format16Bit, UniformScalars }) });
   settings.push_back({ "projection-8-bit-table", group, "table with 8 bit", method,
@@ -171,17 +170,18 @@ void AddProjection(std::vector<BenchSetting>& settings)
   settings.push_back(
     { "projection-half-buffer", group, "16-bit float buffer", method, { HalfBuffer } });
   settings.push_back({ "projection-8-bit-buffer", group, "8-bit buffer, no dithering", method,
-    { EightBitBuffer, "AlphaDithering=0" } });
+    { EightBitBuffer, "AlphaDithering=off" } });
   settings.push_back(
     { "projection-dithered", group, "8-bit buffer, dithering", method, { EightBitBuffer } });
-  settings.push_back(
-    { "projection-mpvonc", group, "order across gaps guessed (MPVONC)", method, { "Order=2" } });
-  settings.push_back(
-    { "projection-centroids", group, "order by distance of centroids", method, { "Order=3" } });
+  settings.push_back({ "projection-mpvonc", group, "order across gaps guessed (MPVONC)", method,
+    { "Order=non-convex" } });
+  settings.push_back({ "projection-centroids", group, "order by distance of centroids", method,
+    { "Order=centroid" } });
   settings.push_back({ "projection-plain", group,
     "all corrections off: linear interpolation, 8-bit table and buffer, order by centroids", method,
     with(MakeTable(256, 16, { LinearLengths, Format8Bit, UniformScalars }),
-      { "PerspectiveInterpolation=0", EightBitBuffer, "AlphaDithering=0", "Order=3" }) });
+      { "PerspectiveInterpolation=off", EightBitBuffer, "AlphaDithering=off",
+        "Order=centroid" }) });
 }
 
 void AddPeers(std::vector<BenchSetting>& settings)

@@ -99,8 +99,8 @@ void SelectScalars(const ArrayChoice& choice, vtkTetrahedraVolumeMapper* mapper)
   mapper->SetScalarMode(choice.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
                                               : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
   mapper->SelectScalarArray(choice.Array.Name.c_str());
-  mapper->SetVectorMode(
-    choice.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE : vtkTetrahedraVolumeMapper::COMPONENT);
+  mapper->SetVectorMode(choice.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE_MODE
+                                         : vtkTetrahedraVolumeMapper::COMPONENT_MODE);
   mapper->SetVectorComponent(choice.Component);
 }
 

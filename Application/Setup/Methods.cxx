@@ -3,6 +3,7 @@
 
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/OptionValues.h"
+#include "MapperPropertyAccess.h"
 #include "Setup/MapperProperties.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
@@ -11,7 +12,9 @@
 #include "vtkNew.h"
 #include "vtkRenderWindow.h"
 
+#include <algorithm>
 #include <functional>
+#include <sstream>
 
 namespace
 {
@@ -38,7 +41,75 @@ const std::vector<Method>& GetMethods()
   return methods;
 }
 
+/// Names of the methods whose mappers are of these kinds.
+std::string JoinMethods(unsigned kinds)
+{
+  std::vector<std::string> names;
+  for (const Method& method : GetMethods())
+  {
+    if ((tetralux::GetKind(method.Make()) & kinds) != 0)
+    {
+      names.push_back(method.Name);
+    }
+  }
+  return JoinNames(names);
+}
+
+/// The default as --set takes it.
+std::string FormatDefault(const tetralux::MapperProperty& property)
+{
+  std::string text = FormatValues(property, property.Default);
+  text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+  return text;
+}
+
+void Describe(const tetralux::MapperProperty& property, std::ostream& text)
+{
+  const std::string unit = property.Unit;
+  text << "  " << property.Name << "=" << FormatDefault(property) << "\n      " << property.Meaning
+       << "\n";
+  if (property.Type != tetralux::PropertyType::Enumeration)
+  {
+    constexpr unsigned WithoutNames = 0;
+    text << "      " << DescribeValues(property, WithoutNames)
+         << (unit.empty() ? "" : ", in " + unit) << "\n";
+  }
+  for (const tetralux::NamedValue& value : property.Values)
+  {
+    const bool ofAll = (value.Kinds & property.Kinds) == property.Kinds;
+    text << "      " << value.Name << " (" << value.Number << "): " << value.Meaning
+         << (ofAll ? "" : "; " + JoinMethods(value.Kinds) + " only") << "\n";
+  }
+}
+
 } // namespace
+
+std::string DescribeProperties()
+{
+  std::ostringstream text;
+  text << "What --set takes, with defaults; AutoAdjustSampleDistances is turned off by the tool. "
+          "Values are\nnames or numbers; case, '-' and '_' do not matter.\n";
+  std::vector<unsigned> groups;
+  for (const tetralux::MapperProperty& property : tetralux::GetMapperProperties())
+  {
+    if (std::find(groups.begin(), groups.end(), property.Kinds) == groups.end())
+    {
+      groups.push_back(property.Kinds);
+    }
+  }
+  for (const unsigned kinds : groups)
+  {
+    text << "\n" << JoinMethods(kinds) << ":\n";
+    for (const tetralux::MapperProperty* property : GetSettableProperties())
+    {
+      if (property->Kinds == kinds)
+      {
+        Describe(*property, text);
+      }
+    }
+  }
+  return text.str();
+}
 
 std::vector<std::string> GetMethodNames()
 {

@@ -13,10 +13,13 @@ class vtkTetrahedraVolumeMapper;
 /// Names that --method takes, "auto" first.
 std::vector<std::string> GetMethodNames();
 
-/// The mapper of a method other than "auto", for still pictures: one ray a pixel unless something else
-/// is set. numberOfThreads: 0 for as many as there are. settings: as SetProperty takes them. Throws
-/// UsageError where there is no such method, where it has no threads to be set, and what SetProperty
-/// throws.
+/// What --set can set: for each property of each method its values, default and meaning.
+std::string DescribeProperties();
+
+/// The mapper of a method other than "auto", for still pictures: one ray a pixel unless something
+/// else is set. numberOfThreads: 0 for as many as there are. settings: as SetProperty takes them.
+/// Throws UsageError where there is no such method, where it has no threads to be set, and what
+/// SetProperty throws.
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
   const std::string& method, int numberOfThreads, const std::vector<std::string>& settings = {});
 

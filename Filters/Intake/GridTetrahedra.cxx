@@ -65,7 +65,7 @@ std::string ReadTetrahedra(vtkUnstructuredGrid* grid, TetrahedralMesh& mesh)
       if (type != lowerDimensionalType && GetCellDimension(type) == 3)
       {
         return "cell " + std::to_string(cell) + " is a " + GetCellTypeName(type) +
-          ", not a vtkTetra; vtkTetrahedraFilter makes tetrahedra of it";
+          ", not a vtkTetra; vtkTetrahedralizeCells makes tetrahedra of it";
       }
       lowerDimensionalType = type;
       continue;

@@ -162,17 +162,17 @@ class Bench(ToolTest):
         arguments = [
             "bench", "m.vtu", "--array", "Field", "--transfer", "steps.json", "--camera-position",
             "0,0,4", "--camera-parallel-scale", 1.2, "--size", "30,20", "--frames", 1, "--threads", 1,
-            "--setting", "Precision=1 MaximumError=1e-2", "--setting", "Precision=2", "--output", "out",
+            "--setting", "Precision=Single MaximumError=1e-2", "--setting", "Precision=double", "--output", "out",
         ]
         self.succeed(*arguments)
         rows = self.read_results("out")
         self.assertEqual(
             [row["setting"] for row in rows],
-            ["reference", "default", "Precision-1-MaximumError-1e-2", "Precision-2", *PEERS],
+            ["reference", "default", "Precision-Single-MaximumError-1e-2", "Precision-double", *PEERS],
         )
         self.assertEqual({row["scene"] for row in rows}, {"m"})
         self.assertEqual({row["frames"] for row in rows}, {1})
-        self.assertEqual(rows[2]["properties"], "Precision=1 MaximumError=1e-2")
+        self.assertEqual(rows[2]["properties"], "Precision=Single MaximumError=1e-2")
         self.assertLessEqual(rows[2]["largest_error"], 1e-2)
         self.check_page("out", rows)
         picture = self.read_png("out", "pictures", "m-reference.png")

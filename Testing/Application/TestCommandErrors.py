@@ -41,7 +41,7 @@ class WrongUsage(ToolTest):
 
     def test_properties_of_other_methods(self):
         self.render_fails(
-            "--method", "projection", "--set", "Precision=2", says=["'Precision'", "ColorBuffer"]
+            "--method", "projection", "--set", "Precision=2", says=["vtkTetrahedraProjectionMapper has no property 'Precision'", "ColorBuffer"]
         )
         self.render_fails("--method", "gpu-ray-cast", "--threads", 2, says=["--threads", "gpu-ray-cast"])
 
@@ -90,10 +90,22 @@ class WrongUsage(ToolTest):
         self.render_fails("--set", "=3", says="Property=Value")
         self.render_fails("--set", "MaximumError=x", says=["--set MaximumError", "'x'"])
         self.render_fails("--set", "MaximumError=2", says="from 0 to 1")
-        self.render_fails("--set", "BlendMode=loud", says=["'loud'", "isosurface"])
+        self.render_fails("--set", "BlendMode=loud", says=["'loud'", "absorption (16)"])
         self.render_fails("--set", "BlendMode=isosurface", says="--isovalues")
         self.render_fails("--isovalues", "1,x", says="list of numbers")
-        self.render_fails("--set", "Cropping=2", says="integer from 0 to 1")
+        self.render_fails("--set", "BlendMode=2", says=["'2'", "maximum-intensity (1)"])
+        self.render_fails("--set", "Precision=half", says=["automatic (0), single (1) or double (2)"])
+        self.render_fails("--set", "VectorMode=component", says="has no property 'VectorMode'")
+        self.render_fails("--set", "Cropping=2", says="on or off")
+        self.render_fails("--set", "TableScalarSize=1", says="an integer from 2 to 4096, or automatic (0)")
+        self.render_fails("--set", "TableScalarSize=2.5", says="an integer from 2 to 4096")
+        self.render_fails(
+            "--method", "ray-cast", "--set", "Reentry=boundary-layers",
+            says="not automatic (0), boundary-hierarchy (1) or imaginary-cells (2)",
+        )
+        self.render_fails(
+            "--method", "projection", "--set", "Reentry=automatic", says="has no property 'Reentry'"
+        )
         self.render_fails("--set", "ImageSampleDistance=0", says="from 0.1 to 100")
         self.render_fails("--set", "CroppingRegionPlanes=1,2", says="XMIN,XMAX")
 

@@ -4,6 +4,7 @@
 import json
 import os
 import pty
+import re
 import unittest
 
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -52,7 +53,7 @@ class Commands(ToolTest):
         for option in (
             "--array --component --method --transfer --opacity-unit-distance --camera-position "
             "--camera-focal-point --camera-view-up --camera-view-angle --camera-parallel-scale "
-            "--size --background --shade --max-error --set --threads --stats --output --plot3d-q"
+            "--size --background --shade --max-error --set --list-properties --threads --stats --output --plot3d-q"
         ).split():
             self.assertIn(option, text)
         self.assertIn("--plot3d-q", self.succeed("info", "--help"))
@@ -266,6 +267,56 @@ class Commands(ToolTest):
             "render", "ball.vtu", *view, "--set", "ImageSampleDistance=2", "--output", "coarse.png"
         )
         self.assertEqual(self.read_png("coarse.png").shape, (40, 40, 3))
+
+    def test_values_of_properties_have_names(self):
+        self.succeed("generate", "ball", "--cells", 6, "--output", "ball.vtu")
+
+        def render(method, *settings):
+            options = [text for setting in settings for text in ("--set", setting)]
+            self.succeed(
+                "render", "ball.vtu", "--size", "20,20", "--method", method, *options,
+                "--stats", "s.json", "--output", "out.png",
+            )
+            with open(self.path("s.json"), encoding="utf-8") as file:
+                return json.load(file)
+
+        for text in ("centroid", "CENTROID", "4"):
+            statistics = render("projection", f"Order={text}")
+            self.assertEqual(statistics["projection"]["order"], "distance of centroids")
+        for text in ("non-convex", "Non_Convex", "NonConvex"):
+            statistics = render("projection", f"Order={text}")
+            self.assertEqual(statistics["projection"]["order"], "meshed polyhedra, not convex")
+        statistics = render("ray-cast", "Precision=double", "NumberOfThreads=1", "Cropping=on")
+        self.assertEqual(statistics["rays"]["precision"], "double")
+        self.assertEqual(statistics["rays"]["threads"], 1)
+        self.assertNotIn("cropping", statistics["left_out"])
+        self.assertIn("cropping", render("ray-cast", "Cropping=False")["left_out"])
+        statistics = render("ray-cast", "Integration=table", "TableFormat=half", "TableScalarSize=64")
+        self.assertEqual(statistics["segments"]["integration"], "table")
+        self.assertIn("half", json.dumps(statistics["segments"]))
+
+    def test_properties_are_listed(self):
+        text = self.succeed("render", "--list-properties")
+        for words in (
+            "  MaximumError=0.0001\n", "a number from 0 to 1", "closed-form (1)", "projection:\n",
+            "boundary-layers (3): depth-peeled boundary faces; gpu-ray-cast only",
+            "CroppingRegionPlanes=0,1,0,1,0,1\n", "NumberOfThreads=automatic\n",
+        ):
+            self.assertIn(words, text)
+        self.assertNotIn("VectorMode", text)
+        # What it says is a default can be set.
+        self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
+        groups = re.split(r"\n\n", text)[1:]
+        self.assertEqual(len(groups), 5)
+        for group in groups:
+            method = re.split(r",|:| and ", group)[0]
+            defaults = re.findall(r"^  (\w+=\S+)$", group, re.MULTILINE)
+            self.assertGreater(len(defaults), 0)
+            options = [word for default in defaults for word in ("--set", default)]
+            self.succeed(
+                "render", "ball.vtu", "--size", "8,8", "--method", method, *options,
+                "--output", "out.png",
+            )
 
 
 @unittest.skipUnless(os.environ.get("TETRALUX_DATA"), "TETRALUX_DATA is not set")

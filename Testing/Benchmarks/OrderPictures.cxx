@@ -9,6 +9,7 @@
 #include "ImageComparison.h"
 #include "Intake/TetrahedraIntake.h"
 #include "vtkHeadlessRenderWindow.h"
+#include "vtkMeshedPolyhedraVisibilitySort.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
@@ -158,8 +159,8 @@ void PrintRow(const ComparisonMesh& mesh, double opticalDepth = 10)
   const std::vector<double> reference(picture.begin(), picture.end());
 
   std::printf("| %s |", mesh.Name.c_str());
-  using Mapper = vtkTetrahedraProjectionMapper;
-  for (const int order : { Mapper::EXACT_ORDER, Mapper::NON_CONVEX_ORDER, Mapper::CENTROID_ORDER })
+  using Sort = vtkMeshedPolyhedraVisibilitySort;
+  for (const int order : { Sort::EXACT_ORDER, Sort::NON_CONVEX_ORDER, Sort::CENTROID_ORDER })
   {
     vtkNew<vtkTetrahedraProjectionMapper> mapper;
     mapper->SetOrder(order);

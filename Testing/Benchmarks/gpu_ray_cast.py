@@ -30,7 +30,7 @@ import numpy
 import tetralux
 from benchmark_meshes import generate, read_blunt_fin
 from benchmark_scene import VolumeWindow, make_property
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 
 REENTRY = {"boundary hierarchy": 1, "imaginary cells": 2, "boundary layers": 3}
@@ -104,7 +104,7 @@ class Scene(VolumeWindow):
         return json.loads(self.mapper.GetStatistics())
 
     def get_colors(self):
-        return vtk_to_numpy(self.mapper.GetOutputImage().GetPointData().GetArray("RGBA")).copy()
+        return tetralux.picture(self.mapper)[0]
 
 
 def measure_frames(name, data, sizes, frames, renderer_name):

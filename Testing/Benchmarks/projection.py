@@ -32,16 +32,17 @@ from benchmark_scene import (
     make_property,
     time_frames,
 )
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingVolume import vtkProjectedTetrahedraMapper
 
 Mapper = tetralux.vtkTetrahedraProjectionMapper
+Sort = tetralux.vtkMeshedPolyhedraVisibilitySort
 
 # The paper's lookup table: 256 x 256 x 16 texels.
 TABLE = {
-    "Integration": Mapper.TABLE,
+    "Integration": Mapper.TABLE_INTEGRATION,
     "TableScalarSize": 256,
     "TableLengthSize": 16,
     "TableScalarAxis": Mapper.UNIFORM_AXIS,
@@ -107,15 +108,10 @@ def make_mapper(settings):
     return mapper
 
 
-def get_picture(mapper, width, height):
-    rgba = mapper.GetOutputImage().GetPointData().GetArray("RGBA")
-    return vtk_to_numpy(rgba).reshape(height, width, 4).astype(float)
-
-
 def render(scene, mapper, width, height):
     volume_window = scene.make_window(mapper, width, height)
     volume_window.window.Render()
-    return get_picture(mapper, width, height)
+    return tetralux.picture(mapper)[0].astype(float)
 
 
 def render_reference(scene, width, height):
@@ -421,9 +417,9 @@ def main():
             reference = render_reference(fin, 512, 512)
             rows = []
             for name, order in (
-                ("exact, by common faces of the convexified mesh", Mapper.EXACT_ORDER),
-                ("by common faces, not convexified", Mapper.NON_CONVEX_ORDER),
-                ("by distance of centroids", Mapper.CENTROID_ORDER),
+                ("exact, by common faces of the convexified mesh", Sort.EXACT_ORDER),
+                ("by common faces, not convexified", Sort.NON_CONVEX_ORDER),
+                ("by distance of centroids", Sort.CENTROID_ORDER),
             ):
                 picture = render(fin, make_mapper({"Order": order}), 512, 512)
                 rows.append((name, *describe_errors(picture, reference)))

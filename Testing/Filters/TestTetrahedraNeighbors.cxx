@@ -486,7 +486,7 @@ TEST(TetrahedraNeighbors, RefusesOtherCellsAndGrids)
     filter->SetInputDataObject(example.Input);
     filter->Update();
     EXPECT_NE(errors.Text.find(example.Name), std::string::npos) << errors.Text;
-    EXPECT_NE(errors.Text.find("vtkTetrahedraFilter"), std::string::npos);
+    EXPECT_NE(errors.Text.find("vtkTetrahedralizeCells"), std::string::npos);
     EXPECT_EQ(filter->GetNumberOfBoundaryFaces(), 0);
     for (int port = 0; port < 2; ++port)
     {

@@ -10,7 +10,7 @@ import tetralux
 
 
 def convexify(data):
-    tetrahedra = tetralux.vtkTetrahedraFilter()
+    tetrahedra = tetralux.vtkTetrahedralizeCells()
     tetrahedra.SetInputDataObject(data)
     convexify = tetralux.vtkConvexifyTetrahedra()
     convexify.SetInputConnection(tetrahedra.GetOutputPort())

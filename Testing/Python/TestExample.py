@@ -24,7 +24,10 @@ writer.SetFileName(grid_file)
 assert writer.Write() == 1
 
 command = [sys.executable, example, grid_file]
-subprocess.run([*command, "DistanceToCenter", str(picture_file)], check=True)
+run = subprocess.run(
+    [*command, "DistanceToCenter", str(picture_file)], check=True, capture_output=True, text=True
+)
+assert "% of the pixels are covered, the nearest at a distance of " in run.stdout, run.stdout
 reader = vtkPNGReader()
 reader.SetFileName(str(picture_file))
 reader.Update()

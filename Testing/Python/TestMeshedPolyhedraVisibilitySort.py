@@ -34,7 +34,7 @@ def get_cells(sort):
 
 def test_order():
     sort = tetralux.vtkMeshedPolyhedraVisibilitySort()
-    assert sort.GetOrder() == sort.CONVEXIFIED
+    assert sort.GetOrder() == sort.AUTOMATIC_ORDER
     sort.SetInput(make_stack(5))
     camera = vtkCamera()
     camera.SetFocalPoint(0.2, 0.2, 2)
@@ -45,11 +45,11 @@ def test_order():
     sort.SetDirectionToFrontToBack()
     assert get_cells(sort) == [4, 3, 2, 1, 0]
     camera.SetPosition(0.3, 0.3, -20)
-    for order in sort.CONVEXIFIED, sort.ACROSS_GAPS, sort.NON_CONVEX, sort.CENTROID_DISTANCE:
+    for order in range(sort.EXACT_ORDER, sort.CENTROID_ORDER + 1):
         sort.SetOrder(order)
         assert get_cells(sort) == [0, 1, 2, 3, 4]
         assert sort.GetUsedOrder() == order
-    sort.SetOrderToConvexified()
+    sort.SetOrderToExact()
     get_cells(sort)
     assert sort.GetNumberOfCycles() == sort.GetNumberOfIgnoredFaces() == 0
     assert sort.GetRefusal() == ""

@@ -57,7 +57,7 @@ for name, value in (
     ("PerspectiveInterpolation", 0),
     ("ColorBuffer", mapper.HALF_BUFFER),
     ("AlphaDithering", 0),
-    ("Order", mapper.CENTROID_ORDER),
+    ("Order", tetralux.vtkMeshedPolyhedraVisibilitySort.CENTROID_ORDER),
 ):
     getattr(mapper, "Set" + name)(value)
     assert getattr(mapper, "Get" + name)() == value

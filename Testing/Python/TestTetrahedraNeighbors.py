@@ -9,7 +9,7 @@ import tetralux
 
 
 def find_neighbors(data):
-    tetrahedra = tetralux.vtkTetrahedraFilter()
+    tetrahedra = tetralux.vtkTetrahedralizeCells()
     tetrahedra.SetInputDataObject(data)
     neighbors = tetralux.vtkTetrahedraNeighbors()
     neighbors.SetInputConnection(tetrahedra.GetOutputPort())

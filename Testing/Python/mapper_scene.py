@@ -4,7 +4,7 @@
 import json
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPiecewiseFunction
 from vtkmodules.vtkRenderingCore import (
     vtkColorTransferFunction,
@@ -76,9 +76,4 @@ class MapperScene:
     def render(self):
         """Rows from the bottom of a Tetralux mapper's colors and depths, and its statistics."""
         self.window.Render()
-        image = self.mapper.GetOutputImage()
-        width, height, _ = image.GetDimensions()
-        points = image.GetPointData()
-        rgba = vtk_to_numpy(points.GetArray("RGBA")).reshape(height, width, 4)
-        depth = vtk_to_numpy(points.GetArray("Depth")).reshape(height, width)
-        return rgba.copy(), depth.copy(), json.loads(self.mapper.GetStatistics())
+        return (*tetralux.picture(self.mapper), json.loads(self.mapper.GetStatistics()))

@@ -187,9 +187,9 @@ TEST(GPURayCastMapper, ReentryGivesTheSamePicture)
 
   // A box is convex.
   GPUScene box;
-  for (const int reentry :
-    { vtkTetrahedraGPURayCastMapper::NO_REENTRY, vtkTetrahedraGPURayCastMapper::IMAGINARY_CELLS,
-      vtkTetrahedraGPURayCastMapper::AUTOMATIC_REENTRY })
+  for (const int reentry : { vtkTetrahedraGPURayCastMapper::NO_REENTRY,
+         vtkTetrahedraGPURayCastMapper::IMAGINARY_CELLS_REENTRY,
+         vtkTetrahedraGPURayCastMapper::AUTOMATIC_REENTRY })
   {
     box.GPUMapper->SetReentry(reentry);
     box.ExpectProcessorsPicture();
@@ -311,8 +311,9 @@ class GPURayCastMapperReentry : public testing::TestWithParam<int>
 };
 
 INSTANTIATE_TEST_SUITE_P(Modes, GPURayCastMapperReentry,
-  testing::Values(vtkTetrahedraGPURayCastMapper::BOUNDARY_HIERARCHY,
-    vtkTetrahedraGPURayCastMapper::BOUNDARY_LAYERS, vtkTetrahedraGPURayCastMapper::NO_REENTRY));
+  testing::Values(vtkTetrahedraGPURayCastMapper::BOUNDARY_HIERARCHY_REENTRY,
+    vtkTetrahedraGPURayCastMapper::BOUNDARY_LAYERS_REENTRY,
+    vtkTetrahedraGPURayCastMapper::NO_REENTRY));
 
 TEST_P(GPURayCastMapperReentry, RaysAlongTheLattice)
 {
@@ -370,8 +371,9 @@ TEST(GPURayCastMapper, RaysThroughPoints)
     }
     ASSERT_NE(eye, focus);
     scene.SetCamera(eye, focus, { 0.1, 0.3, 1 }, 0.01, 50);
-    scene.GPUMapper->SetReentry(k % 2 == 0 ? vtkTetrahedraGPURayCastMapper::BOUNDARY_HIERARCHY
-                                           : vtkTetrahedraGPURayCastMapper::BOUNDARY_LAYERS);
+    scene.GPUMapper->SetReentry(k % 2 == 0
+        ? vtkTetrahedraGPURayCastMapper::BOUNDARY_HIERARCHY_REENTRY
+        : vtkTetrahedraGPURayCastMapper::BOUNDARY_LAYERS_REENTRY);
     scene.ExpectProcessorsPicture(4); // that graze the hull
   }
 }

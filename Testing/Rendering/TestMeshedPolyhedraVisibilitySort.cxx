@@ -136,25 +136,25 @@ TEST(MeshedPolyhedraVisibilitySort, IsExactInTheWorld)
       std::reverse(back.begin(), back.end());
       EXPECT_EQ(front, back);
       EXPECT_EQ(FindWrongPairs(pairs, front).size(), 0U);
-      EXPECT_EQ(sort->GetUsedOrder(), Sort::CONVEXIFIED);
+      EXPECT_EQ(sort->GetUsedOrder(), Sort::EXACT_ORDER);
       EXPECT_EQ(sort->GetNumberOfCycles(), 0);
       EXPECT_STREQ(sort->GetRefusal(), "");
 
       sort->SetOrderToAcrossGaps();
       EXPECT_EQ(FindWrongPairs(pairs, GetCells(sort)).size(), 0U);
-      EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS);
+      EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS_ORDER);
 
       // The others are less exact, but not without sense.
       sort->SetOrderToNonConvex();
       const auto nonConvex = GetCells(sort);
       ExpectEachOnce(nonConvex, grid->GetNumberOfCells());
       EXPECT_LT(FindWrongPairs(pairs, nonConvex).size(), pairs.size() / 5);
-      sort->SetOrderToCentroidDistance();
+      sort->SetOrderToCentroid();
       const auto centroids = GetCells(sort);
       ExpectEachOnce(centroids, grid->GetNumberOfCells());
       EXPECT_LT(FindWrongPairs(pairs, centroids).size(), pairs.size() / 20);
-      EXPECT_EQ(sort->GetUsedOrder(), Sort::CENTROID_DISTANCE);
-      sort->SetOrderToConvexified();
+      EXPECT_EQ(sort->GetUsedOrder(), Sort::CENTROID_ORDER);
+      sort->SetOrderToExact();
     }
   }
 }
@@ -262,7 +262,7 @@ TEST(MeshedPolyhedraVisibilitySort, ReportsWhatCanNotBeSorted)
   const auto crossingGrid = MakeGridWithoutField(crossing);
   sort->SetInput(crossingGrid);
   ExpectEachOnce(GetCells(sort), 2);
-  EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS);
+  EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS_ORDER);
   EXPECT_STRNE(sort->GetRefusal(), "");
   EXPECT_EQ(errors.Count, 3);
 }

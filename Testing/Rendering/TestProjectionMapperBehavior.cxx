@@ -309,11 +309,21 @@ TEST(ProjectionMapper, Orders)
   scene.Projection->SetOrderToNonConvex();
   EXPECT_LT(FindLargestDifference(scene.Render(), best), Exact);
   EXPECT_TRUE(scene.Says("\"order\": \"meshed polyhedra, not convex\""));
+  EXPECT_STREQ(scene.Projection->GetUsedOrderAsString(), "non-convex");
+  scene.Projection->SetOrderToAcrossGaps();
+  EXPECT_LT(FindLargestDifference(scene.Render(), best), Exact);
+  EXPECT_STREQ(scene.Projection->GetUsedOrderAsString(), "across-gaps");
   scene.Projection->SetOrderToCentroid();
   EXPECT_LT(FindLargestDifference(scene.Render(), best), 0.2);
   EXPECT_TRUE(scene.Says("\"order\": \"distance of centroids\""));
   scene.Projection->SetOrderToExact();
   EXPECT_LT(FindLargestDifference(scene.Render(), best), Exact);
+  EXPECT_EQ(scene.Projection->GetUsedOrder(), vtkMeshedPolyhedraVisibilitySort::EXACT_ORDER);
+  EXPECT_STREQ(scene.Projection->GetUsedOrderAsString(), "exact");
+  scene.Projection->SetBlendModeToAdditive();
+  scene.Render();
+  EXPECT_EQ(scene.Projection->GetUsedOrder(), vtkMeshedPolyhedraVisibilitySort::AUTOMATIC_ORDER);
+  EXPECT_STREQ(scene.Projection->GetUsedOrderAsString(), "none");
 }
 
 // After a frame with all that frames may have, and after an aborted one.

@@ -114,7 +114,7 @@ TEST(RayCastMapperCaching, RebuildsWhatChanged)
   EXPECT_EQ(RenderAndGetRebuilt(scene), Nothing);
   scene.Grid->GetPointData()->SetActiveScalars("Other");
   EXPECT_EQ(RenderAndGetRebuilt(scene), Scalars);
-  scene.Mapper->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE);
+  scene.Mapper->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE_MODE);
   EXPECT_EQ(RenderAndGetRebuilt(scene), Scalars);
 
   // Transfer function.
@@ -439,8 +439,6 @@ TEST(RayCastMapperBehavior, RefusesWhatCannotBeDrawn)
     [](RayCastScene& scene) { scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(0); });
   expectError(
     "matrix has no inverse", [](RayCastScene& scene) { scene.Volume->SetScale(1, 0, 1); });
-  expectError("BlendMode 2 is none of this mapper's",
-    [](RayCastScene& scene) { scene.Mapper->SetBlendMode(2); });
   expectError("has no IsoSurfaceValues",
     [](RayCastScene& scene)
     {
@@ -653,16 +651,20 @@ TEST(RayCastMapperBehavior, DoesNotDisturbSelection)
   EXPECT_EQ(CopyColors(scene), before);
 }
 
-TEST(RayCastMapperBehavior, PrintsItself)
+// Properties are looked at in TestMapperProperties.
+TEST(RayCastMapperBehavior, PrintsWhatTheLastFrameFound)
 {
   RayCastScene scene;
+  scene.Window->Render();
   std::ostringstream text;
   scene.Mapper->Print(text);
-  for (const char* property : { "MaximumError: 0.0001", "Precision: automatic", "VectorMode: -1",
-         "Cropping: 0", "ImageSampleDistance: 1", "NumberOfThreads: 0" })
-  {
-    EXPECT_NE(text.str().find(property), std::string::npos) << property;
-  }
+  std::ostringstream estimate;
+  estimate << "  ErrorEstimate: " << scene.Mapper->GetErrorEstimate() << "\n";
+  EXPECT_GT(scene.Mapper->GetErrorEstimate(), 0);
+  EXPECT_NE(text.str().find(estimate.str()), std::string::npos) << text.str();
+  EXPECT_NE(
+    text.str().find("  Statistics:\n    {\n      \"method\": \"ray-cast\""), std::string::npos)
+    << text.str();
 }
 
 } // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @class   vtkTetrahedraFilter
+ * @class   vtkTetrahedralizeCells
  * @brief   turn any three-dimensional cells into tetrahedra whose faces agree
  *
  * Splits the cells of a data set, or of all data sets of a composite, into the tetrahedra that the
- * mappers of this module render, so that two cells that share a face cut it alike.
+ * mappers of Tetralux render. Two cells that share a face cut it alike.
  *
  * Accepts vtkUnstructuredGrid, vtkStructuredGrid, vtkRectilinearGrid, vtkImageData, any other
  * vtkDataSet, and composites (multi-block, partitioned, AMR) of these, whose blocks are put one
@@ -22,13 +22,14 @@
  * two arrays of vtkIdType lead back to the input: OriginalPointIds, with -1 for an added point, and
  * OriginalCellIds; ids of a composite count through its blocks.
  *
- * Fails, with an error, on more than 2^31 - 1 points or 2^29 - 1 tetrahedra. Linear time, parallel
- * through vtkSMPTools; the output does not depend on the number of threads.
+ * Linear time, parallel through vtkSMPTools; the output does not depend on the number of threads.
+ *
+ * @warning Fails, with an error, on more than 2^31 - 1 points or 2^29 - 1 tetrahedra.
  *
  * @sa vtkTetrahedraRayCastMapper, vtkDataSetTriangleFilter
  */
-#ifndef vtkTetrahedraFilter_h
-#define vtkTetrahedraFilter_h
+#ifndef vtkTetrahedralizeCells_h
+#define vtkTetrahedralizeCells_h
 
 #include "TetraluxFiltersModule.h"
 #include "vtkUnstructuredGridAlgorithm.h"
@@ -36,28 +37,28 @@
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
 
-class TETRALUXFILTERS_EXPORT vtkTetrahedraFilter : public vtkUnstructuredGridAlgorithm
+class TETRALUXFILTERS_EXPORT vtkTetrahedralizeCells : public vtkUnstructuredGridAlgorithm
 {
 public:
-  static vtkTetrahedraFilter* New();
-  vtkTypeMacro(vtkTetrahedraFilter, vtkUnstructuredGridAlgorithm);
+  static vtkTetrahedralizeCells* New();
+  vtkTypeMacro(vtkTetrahedralizeCells, vtkUnstructuredGridAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**
-   * Whether the output has the point array OriginalPointIds and the cell array OriginalCellIds.
-   * On by default.
+   * Set whether the output has the point array OriginalPointIds and the cell array OriginalCellIds.
+   * Default on.
    */
-  vtkSetMacro(PassOriginalIds, bool);
-  vtkGetMacro(PassOriginalIds, bool);
-  vtkBooleanMacro(PassOriginalIds, bool);
+  vtkSetMacro(PassOriginalIds, vtkTypeBool);
+  vtkGetMacro(PassOriginalIds, vtkTypeBool);
+  vtkBooleanMacro(PassOriginalIds, vtkTypeBool);
   ///@}
 
   ///@{
   /**
-   * What the last update left out. Skipped: three-dimensional cells of types that can't be split.
-   * Ghost, blanked, lower-dimensional and invalid cells are as in the description of the class.
-   * All 0 before the first update.
+   * Return how many cells the last update left out; 0 before the first update. Skipped cells are
+   * three-dimensional cells of types that can't be split. The description of the class has what
+   * ghost, blanked, lower-dimensional and invalid cells are.
    */
   vtkIdType GetNumberOfSkippedCells();
   vtkIdType GetNumberOfGhostCells();
@@ -67,31 +68,31 @@ public:
   ///@}
 
   /**
-   * The types of the skipped cells with their numbers, as "12 vtkLagrangeHexahedron"; empty where
-   * none was skipped.
+   * Return the types of the skipped cells with their numbers, as "12 vtkLagrangeHexahedron"; empty
+   * if none was skipped.
    */
   const char* GetSkippedCellTypes();
 
   /**
-   * How many points the last update added in the middle of cells.
+   * Return how many points the last update added in the middle of cells.
    */
   vtkIdType GetNumberOfAddedPoints();
 
 protected:
-  vtkTetrahedraFilter();
-  ~vtkTetrahedraFilter() override;
+  vtkTetrahedralizeCells();
+  ~vtkTetrahedralizeCells() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
 private:
-  vtkTetrahedraFilter(const vtkTetrahedraFilter&) = delete;
-  void operator=(const vtkTetrahedraFilter&) = delete;
+  vtkTetrahedralizeCells(const vtkTetrahedralizeCells&) = delete;
+  void operator=(const vtkTetrahedralizeCells&) = delete;
 
   struct Counts;
   std::unique_ptr<Counts> LastCounts;
-  bool PassOriginalIds = true;
+  vtkTypeBool PassOriginalIds = 1;
 };
 
 #endif

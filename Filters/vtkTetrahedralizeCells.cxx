@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkTetrahedraFilter.h"
+#include "vtkTetrahedralizeCells.h"
 
 #include "Intake/TetrahedraIntake.h"
 
@@ -25,9 +25,9 @@
 #include <algorithm>
 #include <numeric>
 
-vtkStandardNewMacro(vtkTetrahedraFilter);
+vtkStandardNewMacro(vtkTetrahedralizeCells);
 
-struct vtkTetrahedraFilter::Counts
+struct vtkTetrahedralizeCells::Counts
 {
   tetralux::TetrahedraIntakeReport Report;
   std::string SkippedCellTypes;
@@ -178,16 +178,16 @@ void AddIds(vtkDataSetAttributes* output, const char* name, const std::vector<st
 } // namespace
 
 //----------------------------------------------------------------------------
-vtkTetrahedraFilter::vtkTetrahedraFilter()
+vtkTetrahedralizeCells::vtkTetrahedralizeCells()
   : LastCounts(new Counts)
 {
 }
 
 //----------------------------------------------------------------------------
-vtkTetrahedraFilter::~vtkTetrahedraFilter() = default;
+vtkTetrahedralizeCells::~vtkTetrahedralizeCells() = default;
 
 //----------------------------------------------------------------------------
-int vtkTetrahedraFilter::FillInputPortInformation(int, vtkInformation* info)
+int vtkTetrahedralizeCells::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
@@ -196,7 +196,7 @@ int vtkTetrahedraFilter::FillInputPortInformation(int, vtkInformation* info)
 }
 
 //----------------------------------------------------------------------------
-int vtkTetrahedraFilter::RequestData(
+int vtkTetrahedralizeCells::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
@@ -279,46 +279,46 @@ int vtkTetrahedraFilter::RequestData(
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraFilter::GetNumberOfSkippedCells()
+vtkIdType vtkTetrahedralizeCells::GetNumberOfSkippedCells()
 {
   return this->LastCounts->Report.GetNumberOfSkippedCells();
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraFilter::GetNumberOfGhostCells()
+vtkIdType vtkTetrahedralizeCells::GetNumberOfGhostCells()
 {
   return this->LastCounts->Report.GhostCells;
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraFilter::GetNumberOfBlankedCells()
+vtkIdType vtkTetrahedralizeCells::GetNumberOfBlankedCells()
 {
   return this->LastCounts->Report.BlankedCells;
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraFilter::GetNumberOfLowerDimensionalCells()
+vtkIdType vtkTetrahedralizeCells::GetNumberOfLowerDimensionalCells()
 {
   return this->LastCounts->Report.LowerDimensionalCells;
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraFilter::GetNumberOfInvalidCells()
+vtkIdType vtkTetrahedralizeCells::GetNumberOfInvalidCells()
 {
   return this->LastCounts->Report.InvalidCells;
 }
 
 //----------------------------------------------------------------------------
-const char* vtkTetrahedraFilter::GetSkippedCellTypes()
+const char* vtkTetrahedralizeCells::GetSkippedCellTypes()
 {
   return this->LastCounts->SkippedCellTypes.c_str();
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraFilter::GetNumberOfAddedPoints() { return this->LastCounts->AddedPoints; }
+vtkIdType vtkTetrahedralizeCells::GetNumberOfAddedPoints() { return this->LastCounts->AddedPoints; }
 
 //----------------------------------------------------------------------------
-void vtkTetrahedraFilter::PrintSelf(ostream& os, vtkIndent indent)
+void vtkTetrahedralizeCells::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "PassOriginalIds: " << (this->PassOriginalIds ? "On" : "Off") << "\n";

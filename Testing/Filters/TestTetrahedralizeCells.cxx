@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkTetrahedraFilter.h"
+#include "vtkTetrahedralizeCells.h"
 
 #include "CellPatch.h"
 #include "GhostArray.h"
@@ -53,13 +53,13 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(int type)
 
 } // namespace
 
-TEST(TetrahedraFilter, CarriesPointAndCellData)
+TEST(TetrahedralizeCells, CarriesPointAndCellData)
 {
   for (int type :
     { VTK_TETRA, VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON })
   {
     auto grid = MakeGrid(type);
-    vtkNew<vtkTetrahedraFilter> filter;
+    vtkNew<vtkTetrahedralizeCells> filter;
     filter->SetInputData(grid);
     filter->Update();
     vtkUnstructuredGrid* output = filter->GetOutput();
@@ -90,9 +90,9 @@ TEST(TetrahedraFilter, CarriesPointAndCellData)
   }
 }
 
-TEST(TetrahedraFilter, OriginalIdsAreOptional)
+TEST(TetrahedralizeCells, OriginalIdsAreOptional)
 {
-  vtkNew<vtkTetrahedraFilter> filter;
+  vtkNew<vtkTetrahedralizeCells> filter;
   filter->SetInputData(MakeGrid(VTK_HEXAHEDRON));
   EXPECT_TRUE(filter->GetPassOriginalIds());
   filter->PassOriginalIdsOff();
@@ -101,7 +101,7 @@ TEST(TetrahedraFilter, OriginalIdsAreOptional)
   EXPECT_EQ(filter->GetOutput()->GetCellData()->GetArray("OriginalCellIds"), nullptr);
 }
 
-TEST(TetrahedraFilter, CountsAndNamesWhatItLeavesOut)
+TEST(TetrahedralizeCells, CountsAndNamesWhatItLeavesOut)
 {
   auto grid = MakeGrid(VTK_HEXAHEDRON);
   const vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
@@ -113,7 +113,7 @@ TEST(TetrahedraFilter, CountsAndNamesWhatItLeavesOut)
     11, { { 0, vtkDataSetAttributes::DUPLICATECELL }, { 1, vtkDataSetAttributes::HIDDENCELL } }));
   grid->GetCellData()->RemoveArray("Number");
 
-  vtkNew<vtkTetrahedraFilter> filter;
+  vtkNew<vtkTetrahedralizeCells> filter;
   MessageObserver messages(filter, { vtkCommand::ErrorEvent, vtkCommand::WarningEvent });
   filter->SetInputData(grid);
   filter->Update();
@@ -131,7 +131,7 @@ TEST(TetrahedraFilter, CountsAndNamesWhatItLeavesOut)
   EXPECT_NE(text.str().find("NumberOfGhostCells: 1"), std::string::npos);
 }
 
-TEST(TetrahedraFilter, CompositesKeepTheArraysThatAllBlocksHave)
+TEST(TetrahedralizeCells, CompositesKeepTheArraysThatAllBlocksHave)
 {
   auto first = MakeGrid(VTK_QUADRATIC_HEXAHEDRON);
   auto second = MakeGrid(VTK_WEDGE);
@@ -141,7 +141,7 @@ TEST(TetrahedraFilter, CompositesKeepTheArraysThatAllBlocksHave)
   blocks->SetBlock(0, empty);
   blocks->SetBlock(1, first);
   blocks->SetBlock(2, second);
-  vtkNew<vtkTetrahedraFilter> filter;
+  vtkNew<vtkTetrahedralizeCells> filter;
   filter->SetInputData(blocks);
   filter->Update();
   vtkUnstructuredGrid* output = filter->GetOutput();
@@ -156,7 +156,7 @@ TEST(TetrahedraFilter, CompositesKeepTheArraysThatAllBlocksHave)
   EXPECT_EQ(output->GetCellData()->GetArray("Number"), nullptr);
 }
 
-TEST(TetrahedraFilter, KeepsThePrecisionOfThePoints)
+TEST(TetrahedralizeCells, KeepsThePrecisionOfThePoints)
 {
   for (int type : { VTK_FLOAT, VTK_DOUBLE })
   {
@@ -165,18 +165,18 @@ TEST(TetrahedraFilter, KeepsThePrecisionOfThePoints)
     points->SetDataType(type);
     points->DeepCopy(grid->GetPoints());
     grid->SetPoints(points);
-    vtkNew<vtkTetrahedraFilter> filter;
+    vtkNew<vtkTetrahedralizeCells> filter;
     filter->SetInputData(grid);
     filter->Update();
     EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), type);
   }
 }
 
-TEST(TetrahedraFilter, AnErrorLeavesAnEmptyOutput)
+TEST(TetrahedralizeCells, AnErrorLeavesAnEmptyOutput)
 {
   vtkNew<vtkImageData> image;
   image->SetDimensions(480, 480, 480);
-  vtkNew<vtkTetrahedraFilter> filter;
+  vtkNew<vtkTetrahedralizeCells> filter;
   MessageObserver messages(filter);
   MessageObserver executiveMessages(filter->GetExecutive());
   filter->SetInputData(image);
@@ -185,15 +185,15 @@ TEST(TetrahedraFilter, AnErrorLeavesAnEmptyOutput)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
-TEST(TetrahedraFilter, AbortsOnRequest)
+TEST(TetrahedralizeCells, AbortsOnRequest)
 {
   vtkNew<vtkImageData> image;
   image->SetDimensions(101, 101, 101);
-  vtkNew<vtkTetrahedraFilter> filter;
+  vtkNew<vtkTetrahedralizeCells> filter;
   filter->SetInputData(image);
   vtkNew<vtkCallbackCommand> abort;
   abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-    { static_cast<vtkTetrahedraFilter*>(caller)->SetAbortExecute(1); });
+    { static_cast<vtkTetrahedralizeCells*>(caller)->SetAbortExecute(1); });
   filter->AddObserver(vtkCommand::ProgressEvent, abort);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkPreIntegrationTable.h"
+#include "vtkPreIntegrationTableSource.h"
 
 #include "Integral/IntegrationPlan.h"
 #include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationError.h"
 #include "Preparation/TransferFunctionFromProperty.h"
+#include "Properties/PropertySetters.h"
 
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
@@ -28,7 +29,10 @@
 #include <cstring>
 #include <exception>
 #include <stdexcept>
+#include <string>
 #include <vector>
+
+using Mapper = vtkTetrahedraVolumeMapper;
 
 namespace
 {
@@ -98,10 +102,21 @@ void SetTexels(vtkImageData* image, const tetralux::PreIntegrationTable& table)
   SetTexels<vtkFloatArray>(image, values.data(), count);
 }
 
+/// The values of a property of the mappers, without the one that leaves the choice to them.
+std::vector<tetralux::NamedValue> GetDefiniteValues(const char* property)
+{
+  std::vector<tetralux::NamedValue> values = tetralux::GetMapperProperty(property).Values;
+  values.erase(
+    std::remove_if(values.begin(), values.end(),
+      [](const tetralux::NamedValue& value) { return std::string(value.Name) == "automatic"; }),
+    values.end());
+  return values;
+}
+
 } // namespace
 
 /// What is to be built, as far as it needs no texels.
-struct vtkPreIntegrationTable::Plan
+struct vtkPreIntegrationTableSource::Plan
 {
   tetralux::PropertyTransferFunction Property;
   tetralux::PreIntegrationSettings Settings;
@@ -111,13 +126,13 @@ struct vtkPreIntegrationTable::Plan
   double Spacing[3] = { 1, 1, 1 };
 };
 
-vtkStandardNewMacro(vtkPreIntegrationTable);
+vtkStandardNewMacro(vtkPreIntegrationTableSource);
 
-vtkPreIntegrationTable::vtkPreIntegrationTable() { this->SetNumberOfInputPorts(0); }
+vtkPreIntegrationTableSource::vtkPreIntegrationTableSource() { this->SetNumberOfInputPorts(0); }
 
-vtkPreIntegrationTable::~vtkPreIntegrationTable() = default;
+vtkPreIntegrationTableSource::~vtkPreIntegrationTableSource() = default;
 
-void vtkPreIntegrationTable::SetVolumeProperty(vtkVolumeProperty* property)
+void vtkPreIntegrationTableSource::SetVolumeProperty(vtkVolumeProperty* property)
 {
   if (this->VolumeProperty != property)
   {
@@ -126,15 +141,18 @@ void vtkPreIntegrationTable::SetVolumeProperty(vtkVolumeProperty* property)
   }
 }
 
-vtkVolumeProperty* vtkPreIntegrationTable::GetVolumeProperty() { return this->VolumeProperty; }
+vtkVolumeProperty* vtkPreIntegrationTableSource::GetVolumeProperty()
+{
+  return this->VolumeProperty;
+}
 
-vtkMTimeType vtkPreIntegrationTable::GetMTime()
+vtkMTimeType vtkPreIntegrationTableSource::GetMTime()
 {
   const vtkMTimeType own = this->Superclass::GetMTime();
   return this->VolumeProperty ? std::max(own, this->VolumeProperty->GetMTime()) : own;
 }
 
-vtkPreIntegrationTable::Plan vtkPreIntegrationTable::MakePlan()
+vtkPreIntegrationTableSource::Plan vtkPreIntegrationTableSource::MakePlan()
 {
   if (!this->VolumeProperty)
   {
@@ -148,14 +166,13 @@ vtkPreIntegrationTable::Plan vtkPreIntegrationTable::MakePlan()
   tetralux::PreIntegrationSettings& settings = plan.Settings;
   settings.ScalarSize = this->ScalarSize;
   settings.LengthSize = this->LengthSize;
-  settings.Scale =
-    this->LengthScale == 2 ? tetralux::LengthScale::Logarithmic : tetralux::LengthScale::Linear;
+  settings.Scale = this->LengthScale == Mapper::LOGARITHMIC_SCALE
+    ? tetralux::LengthScale::Logarithmic
+    : tetralux::LengthScale::Linear;
   settings.StepsPerDoubling = this->StepsPerDoubling;
-  settings.Axis =
-    this->ScalarAxis == 2 ? tetralux::ScalarAxis::Nodes : tetralux::ScalarAxis::Uniform;
-  settings.Format = static_cast<tetralux::TexelFormat>(this->Format - 1);
-  settings.Method = this->Incremental ? tetralux::PreIntegrationMethod::Incremental
-                                      : tetralux::PreIntegrationMethod::ClosedForm;
+  settings.Axis = this->ScalarAxis == Mapper::NODES_AXIS ? tetralux::ScalarAxis::Nodes
+                                                         : tetralux::ScalarAxis::Uniform;
+  settings.Format = static_cast<tetralux::TexelFormat>(this->Format - Mapper::UNORM8_FORMAT);
   std::copy_n(this->ScalarRange, 2, settings.ScalarRange);
   if (this->ScalarRange[0] > this->ScalarRange[1])
   {
@@ -175,10 +192,10 @@ vtkPreIntegrationTable::Plan vtkPreIntegrationTable::MakePlan()
       plan.Spacing[axis] = step;
     }
   };
-  if (this->OpticalModel != EMISSION_ABSORPTION)
+  if (this->BlendMode != Mapper::COMPOSITE_BLEND)
   {
     setScalarAxis(0, settings.ScalarSize, true);
-    if (this->OpticalModel != MAXIMUM_INTENSITY)
+    if (this->BlendMode != Mapper::MAXIMUM_INTENSITY_BLEND)
     {
       setScalarAxis(1, settings.ScalarSize, true);
     }
@@ -198,7 +215,7 @@ vtkPreIntegrationTable::Plan vtkPreIntegrationTable::MakePlan()
   return plan;
 }
 
-int vtkPreIntegrationTable::RequestInformation(
+int vtkPreIntegrationTableSource::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   try
@@ -211,9 +228,9 @@ int vtkPreIntegrationTable::RequestInformation(
     info->Set(vtkDataObject::ORIGIN(), plan.Origin, 3);
     info->Set(vtkDataObject::SPACING(), plan.Spacing, 3);
     vtkDataObject::SetPointDataActiveScalarInfo(info,
-      this->Format <= 1     ? VTK_UNSIGNED_CHAR
-        : this->Format == 2 ? VTK_UNSIGNED_SHORT
-                            : VTK_FLOAT,
+      this->Format == Mapper::UNORM8_FORMAT      ? VTK_UNSIGNED_CHAR
+        : this->Format == Mapper::UNORM16_FORMAT ? VTK_UNSIGNED_SHORT
+                                                 : VTK_FLOAT,
       4);
     return 1;
   }
@@ -224,7 +241,7 @@ int vtkPreIntegrationTable::RequestInformation(
   }
 }
 
-int vtkPreIntegrationTable::RequestData(
+int vtkPreIntegrationTableSource::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkImageData* image = vtkImageData::GetData(outputVector);
@@ -238,7 +255,7 @@ int vtkPreIntegrationTable::RequestData(
     AddNumbers(image, "FunctionError", { plan.Property.Error });
 
     const double* range = plan.Settings.ScalarRange;
-    if (this->OpticalModel != EMISSION_ABSORPTION)
+    if (this->BlendMode != Mapper::COMPOSITE_BLEND)
     {
       // Opacity is not per length where there is no length.
       tetralux::TransferFunction opacities = function;
@@ -248,11 +265,11 @@ int vtkPreIntegrationTable::RequestData(
         node.Right.Attenuation *= this->VolumeProperty->GetScalarOpacityUnitDistance();
       }
       tetralux::ScalarTable table;
-      if (this->OpticalModel == MAXIMUM_INTENSITY)
+      if (this->BlendMode == Mapper::MAXIMUM_INTENSITY_BLEND)
       {
         table = tetralux::MakeTransferTable(opacities, range, this->ScalarSize);
       }
-      else if (this->OpticalModel == ISOSURFACES)
+      else if (this->BlendMode == Mapper::ISOSURFACE_BLEND)
       {
         std::vector<tetralux::Isosurface> surfaces;
         vtkContourValues* values = this->VolumeProperty->GetIsoSurfaceValues();
@@ -316,18 +333,60 @@ int vtkPreIntegrationTable::RequestData(
   }
 }
 
-void vtkPreIntegrationTable::PrintSelf(ostream& os, vtkIndent indent)
+void vtkPreIntegrationTableSource::SetBlendMode(int value)
+{
+  tetralux::SetEnumeration(
+    this, "BlendMode", GetDefiniteValues("BlendMode"), this->BlendMode, value);
+}
+
+const char* vtkPreIntegrationTableSource::GetBlendModeAsString()
+{
+  return tetralux::GetValueName("BlendMode", this->BlendMode);
+}
+
+void vtkPreIntegrationTableSource::SetLengthScale(int value)
+{
+  tetralux::SetEnumeration(
+    this, "LengthScale", GetDefiniteValues("TableLengthScale"), this->LengthScale, value);
+}
+
+const char* vtkPreIntegrationTableSource::GetLengthScaleAsString()
+{
+  return tetralux::GetValueName("TableLengthScale", this->LengthScale);
+}
+
+void vtkPreIntegrationTableSource::SetScalarAxis(int value)
+{
+  tetralux::SetEnumeration(
+    this, "ScalarAxis", GetDefiniteValues("TableScalarAxis"), this->ScalarAxis, value);
+}
+
+const char* vtkPreIntegrationTableSource::GetScalarAxisAsString()
+{
+  return tetralux::GetValueName("TableScalarAxis", this->ScalarAxis);
+}
+
+void vtkPreIntegrationTableSource::SetFormat(int value)
+{
+  tetralux::SetEnumeration(this, "Format", GetDefiniteValues("TableFormat"), this->Format, value);
+}
+
+const char* vtkPreIntegrationTableSource::GetFormatAsString()
+{
+  return tetralux::GetValueName("TableFormat", this->Format);
+}
+
+void vtkPreIntegrationTableSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "VolumeProperty: " << this->VolumeProperty << '\n';
-  os << indent << "ScalarRange: " << this->ScalarRange[0] << ' ' << this->ScalarRange[1] << '\n';
+  os << indent << "ScalarRange: " << this->ScalarRange[0] << ", " << this->ScalarRange[1] << '\n';
   os << indent << "LongestSegment: " << this->LongestSegment << '\n';
-  os << indent << "OpticalModel: " << this->OpticalModel << '\n';
+  os << indent << "BlendMode: " << this->GetBlendModeAsString() << '\n';
   os << indent << "ScalarSize: " << this->ScalarSize << '\n';
   os << indent << "LengthSize: " << this->LengthSize << '\n';
-  os << indent << "LengthScale: " << this->LengthScale << '\n';
+  os << indent << "LengthScale: " << this->GetLengthScaleAsString() << '\n';
   os << indent << "StepsPerDoubling: " << this->StepsPerDoubling << '\n';
-  os << indent << "ScalarAxis: " << this->ScalarAxis << '\n';
-  os << indent << "Format: " << this->Format << '\n';
-  os << indent << "Incremental: " << this->Incremental << '\n';
+  os << indent << "ScalarAxis: " << this->GetScalarAxisAsString() << '\n';
+  os << indent << "Format: " << this->GetFormatAsString() << '\n';
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkTetrahedraFilter from Python; with real data where TETRALUX_DATA names its folder."""
+"""vtkTetrahedralizeCells from Python; with real data where TETRALUX_DATA names its folder."""
 
 import os
 
@@ -14,7 +14,7 @@ import tetralux
 
 
 def split(data):
-    tetrahedra = tetralux.vtkTetrahedraFilter()
+    tetrahedra = tetralux.vtkTetrahedralizeCells()
     tetrahedra.SetInputDataObject(data)
     tetrahedra.Update()
     return tetrahedra

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkPreIntegrationTable from Python: build, save, read again, compare."""
+"""vtkPreIntegrationTableSource from Python: build, save, read again, compare."""
 
 import math
 import os
@@ -12,7 +12,7 @@ from mapper_scene import make_property
 
 
 def make_table():
-    table = tetralux.vtkPreIntegrationTable()
+    table = tetralux.vtkPreIntegrationTableSource()
     colors = [(0, 1, 0, 0), (1, 0, 0, 1)]
     table.SetVolumeProperty(make_property(colors, opacities=[(0, 0.5), (1, 0.5)]))
     table.SetScalarSize(17)
@@ -51,7 +51,7 @@ def test_errors_are_stated():
 
 def test_saved_and_read_again():
     table = make_table()
-    table.SetFormat(2)
+    table.SetFormatToUNorm16()
     with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, "table.vti")
         writer = vtkXMLImageDataWriter()
