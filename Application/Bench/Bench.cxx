@@ -6,6 +6,7 @@
 #include "Bench/BenchFeatures.h"
 #include "Bench/BenchMachine.h"
 #include "Bench/BenchMeasure.h"
+#include "Bench/BenchOptions.h"
 #include "Bench/BenchPage.h"
 #include "Bench/BenchPictures.h"
 #include "Bench/BenchScenes.h"
@@ -40,7 +41,7 @@ constexpr int QuickFrames = 2;
 
 void CheckOptions(const BenchOptions& options)
 {
-  const RenderOptions& scene = options.Scene;
+  const SceneOptions& scene = options.Scene;
   const bool ofFile = !scene.Plot3dSolution.empty() || !scene.Array.empty() ||
     !scene.Component.empty() || !scene.TransferFile.empty() || scene.OpacityUnitDistance ||
     scene.CameraPosition || scene.CameraFocalPoint || scene.CameraViewUp || scene.CameraViewAngle ||

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchChart.h"
 
+#include "Bench/BenchSettings.h"
 #include "CommandLine/OptionValues.h"
 #include "vtkHeadlessRenderWindow.h"
 

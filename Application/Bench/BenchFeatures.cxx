@@ -5,10 +5,10 @@
 #include "Bench/BenchPictures.h"
 #include "Bench/BenchResults.h"
 #include "Bench/BenchScenes.h"
-#include "Bench/BenchSettings.h"
+#include "Bench/BenchSetting.h"
 #include "Bench/BenchTransferFunctions.h"
 #include "Bench/BenchView.h"
-#include "Commands/Render.h"
+#include "Setup/SceneOptions.h"
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraVolumeMapper.h"
 
@@ -250,7 +250,7 @@ Comparison ComparePrecision(const BenchScene& ball)
     { "in double precision", ball, { "Precision=2" }, {} } };
 }
 
-std::unique_ptr<BenchView> MakeView(const Variant& variant, const RenderOptions& view)
+std::unique_ptr<BenchView> MakeView(const Variant& variant, const SceneOptions& view)
 {
   if (variant.Description.empty())
   {
@@ -274,7 +274,7 @@ nlohmann::json GetLeftOut(const BenchView& view)
   return nlohmann::json::parse(view.GetStatistics()).at("left_out");
 }
 
-BenchFeature MeasureFeature(const Comparison& comparison, const RenderOptions& options, int frames,
+BenchFeature MeasureFeature(const Comparison& comparison, const SceneOptions& options, int frames,
   const std::function<void()>& checkInterrupt)
 {
   const Variant* variants[3] = { &comparison.Plain, &comparison.Forced, &comparison.Used };
@@ -317,7 +317,7 @@ BenchFeature MeasureFeature(const Comparison& comparison, const RenderOptions& o
 } // namespace
 
 std::vector<BenchFeature> MeasureFeatures(
-  const RenderOptions& view, int frames, bool quick, const std::function<void()>& checkInterrupt)
+  const SceneOptions& view, int frames, bool quick, const std::function<void()>& checkInterrupt)
 {
   const int cells = quick ? 8 : 40;
   const BenchScene ball = MakeBallScene(cells, false);

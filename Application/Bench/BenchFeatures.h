@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-struct RenderOptions;
+struct SceneOptions;
 
 /// What a feature costs: times of frames, best of those measured in turns, seconds.
 struct BenchFeature
@@ -31,6 +31,6 @@ struct BenchFeature
 /// had, and used. view: size and threads; frames: of each; quick: with small meshes;
 /// checkInterrupt is called between frames.
 std::vector<BenchFeature> MeasureFeatures(
-  const RenderOptions& view, int frames, bool quick, const std::function<void()>& checkInterrupt);
+  const SceneOptions& view, int frames, bool quick, const std::function<void()>& checkInterrupt);
 
 #endif

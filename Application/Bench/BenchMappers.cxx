@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchMappers.h"
 
-#include "Bench/BenchSettings.h"
+#include "Bench/BenchSetting.h"
 #include "Setup/Methods.h"
 #include "vtkTetrahedraRayIntegrator.h"
 #include "vtkTetrahedraVolumeMapper.h"

@@ -4,10 +4,11 @@
 #include "Bench/BenchMappers.h"
 #include "Bench/BenchPictures.h"
 #include "Bench/BenchScenes.h"
+#include "Bench/BenchSettings.h"
 #include "CommandLine/CommandErrors.h"
-#include "Commands/Render.h"
 #include "Files/AtomicFolder.h"
 #include "Files/WriteData.h"
+#include "Setup/SceneOptions.h"
 
 #include "vtkImageData.h"
 #include "vtkUnstructuredGridVolumeMapper.h"

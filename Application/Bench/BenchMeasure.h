@@ -7,15 +7,15 @@
 
 class AtomicFolder;
 struct BenchScene;
-struct RenderOptions;
+struct SceneOptions;
 
 /// A scene, and how it is measured.
 struct BenchRun
 {
   const BenchScene& Scene;
-  const RenderOptions& View; ///< size, camera, threads
-  int Frames;                ///< at most
-  AtomicFolder& Folder;      ///< for pictures
+  const SceneOptions& View; ///< size, camera, threads
+  int Frames;               ///< at most
+  AtomicFolder& Folder;     ///< for pictures
   vtkHeadlessRenderWindow* Window;
 };
 

@@ -2,7 +2,7 @@
 #ifndef BenchResults_h
 #define BenchResults_h
 
-#include "Bench/BenchSettings.h"
+#include "Bench/BenchSetting.h"
 #include "ImageComparison.h"
 
 #include <cmath>

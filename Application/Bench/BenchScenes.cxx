@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchScenes.h"
 
-#include "Bench/Bench.h"
+#include "Bench/BenchOptions.h"
 #include "Bench/BenchTransferFunctions.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/OptionValues.h"
@@ -183,7 +183,7 @@ BenchSceneMaker MakeFileMaker(const std::string& name, const std::string& title,
     } };
 }
 
-BenchSceneMaker MakeUserMaker(const RenderOptions& options)
+BenchSceneMaker MakeUserMaker(const SceneOptions& options)
 {
   const std::string name = std::filesystem::path(options.Input).stem().string();
   return { name,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchSettings.h"
 
-#include "Bench/Bench.h"
 #include "Bench/BenchMappers.h"
+#include "Bench/BenchOptions.h"
 #include "CommandLine/CommandErrors.h"
 
 #include <algorithm>
@@ -260,13 +260,4 @@ std::vector<BenchSetting> ListSettings(const BenchOptions& options)
   }
   AddPeers(settings);
   return settings;
-}
-
-bool IsPeer(const BenchSetting& setting) { return setting.Method.rfind("vtk-", 0) == 0; }
-
-bool HasFloatPicture(const BenchSetting& setting)
-{
-  const bool coarse = std::any_of(setting.Assignments.begin(), setting.Assignments.end(),
-    [](const std::string& text) { return text.rfind("ImageSampleDistance=", 0) == 0; });
-  return !IsPeer(setting) && !coarse;
 }

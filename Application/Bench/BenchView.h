@@ -10,7 +10,7 @@
 #include <vector>
 
 struct BenchScene;
-struct RenderOptions;
+struct SceneOptions;
 class vtkHeadlessRenderWindow;
 class vtkRenderer;
 class vtkVolume;
@@ -26,7 +26,7 @@ struct BenchPicture
 
 /// A window as every method gets it: without multisampling, since there is no geometry to smooth and
 /// it costs all of them. view: its size.
-vtkSmartPointer<vtkHeadlessRenderWindow> MakeBenchWindow(const RenderOptions& view);
+vtkSmartPointer<vtkHeadlessRenderWindow> MakeBenchWindow(const SceneOptions& view);
 
 /// OpenGL's name of what renders in a window.
 std::string GetOpenGLRenderer(vtkHeadlessRenderWindow* window);
@@ -38,7 +38,7 @@ class BenchView
 public:
   /// view: the camera. The window is ready, with a frame that shows nothing behind it.
   BenchView(vtkHeadlessRenderWindow* window, const BenchScene& scene,
-    vtkSmartPointer<vtkUnstructuredGridVolumeMapper> mapper, const RenderOptions& view);
+    vtkSmartPointer<vtkUnstructuredGridVolumeMapper> mapper, const SceneOptions& view);
   ~BenchView();
   BenchView(const BenchView&) = delete;
   BenchView& operator=(const BenchView&) = delete;

@@ -53,14 +53,14 @@ void CheckOptions(const RenderOptions& options)
   {
     throw UsageError("--stats: '" + options.StatisticsFile + "' must end in .json");
   }
-  CheckCamera(options);
+  CheckCamera(options.Scene);
 }
 
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
   const std::string& method, const RenderOptions& options)
 {
   vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper =
-    MakeMapper(method, options.NumberOfThreads, options.Settings);
+    MakeMapper(method, options.Scene.NumberOfThreads, options.Settings);
   if (options.MaximumError)
   {
     mapper->SetMaximumError(*options.MaximumError);
@@ -86,7 +86,7 @@ MethodChoice ChooseMethodFor(const RenderOptions& options, vtkRenderWindow* wind
   // The window may fail to make its context.
   const MessageCapture messages;
   const MethodChoice choice =
-    ChooseMethod(options.Method, window, options.NumberOfThreads, options.Settings);
+    ChooseMethod(options.Method, window, options.Scene.NumberOfThreads, options.Settings);
   if (!messages.GetError().empty())
   {
     throw WorkError(messages.GetError());
@@ -158,7 +158,7 @@ void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicFile&
 /// The picture over the background, rounded to 8 bit once. The frame buffer of a window has 8 bit
 /// already before its background is added.
 vtkSmartPointer<vtkImageData> PutOverBackground(
-  vtkImageData* image, const RenderOptions::Vector& background)
+  vtkImageData* image, const SceneOptions::Vector& background)
 {
   auto result = vtkSmartPointer<vtkImageData>::New();
   result->SetDimensions(image->GetDimensions());
@@ -197,7 +197,8 @@ void WritePicture(const RenderOptions& options, vtkRenderWindow* window, vtkImag
     return;
   }
   const int* dimensions = image->GetDimensions();
-  const bool oneRayPerPixel = dimensions[0] == options.Width && dimensions[1] == options.Height;
+  const bool oneRayPerPixel =
+    dimensions[0] == options.Scene.Width && dimensions[1] == options.Scene.Height;
   WritePng(oneRayPerPixel ? PutOverBackground(image, options.Background) : CaptureWindow(window),
     output.GetTemporaryName(), output.GetName());
 }
@@ -208,7 +209,7 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetColor(functions.Color);
   property->SetScalarOpacity(functions.Opacity);
-  property->SetScalarOpacityUnitDistance(options.OpacityUnitDistance.value_or(
+  property->SetScalarOpacityUnitDistance(options.Scene.OpacityUnitDistance.value_or(
     DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
   for (std::size_t i = 0; i < options.Isovalues.size(); ++i)
   {
@@ -259,7 +260,7 @@ void RenderPicture(const RenderOptions& options)
 {
   CheckOptions(options);
   vtkNew<vtkHeadlessRenderWindow> window;
-  window->SetSize(options.Width, options.Height);
+  window->SetSize(options.Scene.Width, options.Scene.Height);
   window->SetMultiSamples(0);
   MethodChoice method = ChooseMethodFor(options, window);
   vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeConfiguredMapper(method.Method, options);
@@ -271,14 +272,15 @@ void RenderPicture(const RenderOptions& options)
     statisticsOutput = std::make_unique<AtomicFile>(options.StatisticsFile);
   }
   ColorAndOpacity functions;
-  if (!options.TransferFile.empty())
+  if (!options.Scene.TransferFile.empty())
   {
-    ReadTransferFunction(options.TransferFile, functions);
+    ReadTransferFunction(options.Scene.TransferFile, functions);
   }
 
-  const vtkSmartPointer<vtkDataObject> data = ReadMesh(options.Input, options.Plot3dSolution);
-  const ArrayChoice choice = ChooseArray(data, options.Array, options.Component);
-  if (options.TransferFile.empty())
+  const vtkSmartPointer<vtkDataObject> data =
+    ReadMesh(options.Scene.Input, options.Scene.Plot3dSolution);
+  const ArrayChoice choice = ChooseArray(data, options.Scene.Array, options.Scene.Component);
+  if (options.Scene.TransferFile.empty())
   {
     MakeDefaultTransferFunction(choice.Range.data(), functions);
   }
@@ -288,7 +290,7 @@ void RenderPicture(const RenderOptions& options)
   mapper->GetBounds(bounds);
   if (!vtkBoundingBox(bounds).IsValid())
   {
-    throw WorkError("'" + options.Input + "': it has no points");
+    throw WorkError("'" + options.Scene.Input + "': it has no points");
   }
 
   vtkNew<vtkVolume> volume;
@@ -299,9 +301,9 @@ void RenderPicture(const RenderOptions& options)
   renderer->AddVolume(volume);
   renderer->GetCullers()->RemoveAllItems(); // what is out of sight gives a picture, too
   window->AddRenderer(renderer);
-  PlaceCamera(options, bounds, renderer);
+  PlaceCamera(options.Scene, bounds, renderer);
 
-  std::string error = Draw(options.Input, mapper, window);
+  std::string error = Draw(options.Scene.Input, mapper, window);
   if (!error.empty() && options.Method == "auto" && method.Method != "ray-cast")
   {
     // No room for the mesh, say: a processor has it.
@@ -310,11 +312,11 @@ void RenderPicture(const RenderOptions& options)
     SelectScalars(choice, mapper);
     mapper->SetInputData(data.GetPointer());
     volume->SetMapper(mapper);
-    error = Draw(options.Input, mapper, window);
+    error = Draw(options.Scene.Input, mapper, window);
   }
   if (!error.empty())
   {
-    throw WorkError("'" + options.Input + "': " + error);
+    throw WorkError("'" + options.Scene.Input + "': " + error);
   }
   const nlohmann::ordered_json statistics = ReadStatistics(mapper, method);
   vtkImageData* image = mapper->GetOutputImage();

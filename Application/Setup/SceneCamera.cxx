@@ -2,7 +2,7 @@
 #include "Setup/SceneCamera.h"
 
 #include "CommandLine/CommandErrors.h"
-#include "Commands/Render.h"
+#include "Setup/SceneOptions.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
@@ -39,8 +39,7 @@ constexpr double PictureMargin = 0.05;
 
 /// How far behind its focal point the camera must be, in the direction that it has, to see all
 /// corners of a box.
-double GetFittingDistance(
-  vtkCamera* camera, const vtkBoundingBox& box, const RenderOptions& options)
+double GetFittingDistance(vtkCamera* camera, const vtkBoundingBox& box, const SceneOptions& options)
 {
   const double halfAngle = vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle());
   const double tangentY = (1 - PictureMargin) * std::tan(halfAngle);
@@ -67,7 +66,7 @@ double GetFittingDistance(
 
 } // namespace
 
-void CheckCamera(const RenderOptions& options)
+void CheckCamera(const SceneOptions& options)
 {
   if (options.CameraViewAngle && options.CameraParallelScale)
   {
@@ -84,7 +83,7 @@ void CheckCamera(const RenderOptions& options)
   }
 }
 
-void PlaceCamera(const RenderOptions& options, const double bounds[6], vtkRenderer* renderer)
+void PlaceCamera(const SceneOptions& options, const double bounds[6], vtkRenderer* renderer)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   const vtkBoundingBox box(bounds);
@@ -92,8 +91,8 @@ void PlaceCamera(const RenderOptions& options, const double bounds[6], vtkRender
   box.GetCenter(center);
   const double radius = 0.5 * box.GetDiagonalLength();
 
-  const RenderOptions::Vector focalPoint =
-    options.CameraFocalPoint.value_or(RenderOptions::Vector{ center[0], center[1], center[2] });
+  const SceneOptions::Vector focalPoint =
+    options.CameraFocalPoint.value_or(SceneOptions::Vector{ center[0], center[1], center[2] });
   camera->SetFocalPoint(focalPoint.data());
   if (options.CameraViewAngle)
   {
