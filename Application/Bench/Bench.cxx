@@ -14,7 +14,7 @@
 #include "Bench/BenchView.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/ProgressLine.h"
-#include "Files/AtomicFolder.h"
+#include "Files/AtomicOutput.h"
 #include "Files/WriteData.h"
 #include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
@@ -98,9 +98,9 @@ std::string DescribeCommand(const BenchOptions& options)
     " --output FOLDER";
 }
 
-void WriteText(const AtomicFolder& folder, const std::string& file, const std::string& text)
+void WriteText(AtomicOutput& folder, const std::string& file, const std::string& text)
 {
-  std::ofstream stream(folder.GetPath(file), std::ios::binary);
+  std::ofstream stream(folder.AddFile(file), std::ios::binary);
   stream << text;
   stream.close();
   if (!stream)
@@ -128,7 +128,7 @@ void PrintRow(const BenchRow& row)
 }
 
 BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& options,
-  AtomicFolder& folder, vtkHeadlessRenderWindow* window)
+  AtomicOutput& folder, vtkHeadlessRenderWindow* window)
 {
   const BenchRun run = { scene, options.Scene, options.Frames, folder, window };
   BenchSceneResult result;
@@ -156,7 +156,6 @@ BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& optio
   for (std::size_t i = 0; i < settings.size(); ++i)
   {
     progress.Show(static_cast<double>(i) / static_cast<double>(settings.size()));
-    folder.CheckInterrupt();
     BenchMeasurement measurement = Measure(run, settings[i]);
     if (measurement.Row.Failure.empty())
     {
@@ -169,7 +168,7 @@ BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& optio
 
   const vtkSmartPointer<vtkImageData> chart = DrawErrorChart(result);
   result.ChartFile = "charts/" + scene.Name + ".png";
-  WritePng(chart, folder.GetPath(result.ChartFile), result.ChartFile);
+  WritePng(chart, folder.AddFile(result.ChartFile), result.ChartFile);
   result.ChartUri = MakePngUri(chart);
   return result;
 }
@@ -183,9 +182,9 @@ void RunBench(const BenchOptions& given)
   const std::vector<BenchSceneMaker> makers = ListScenes(options);
   ListSettings(options); // throws where one is none
 
-  AtomicFolder folder(options.Output, ResultsFile);
-  folder.MakeFolder("pictures");
-  folder.MakeFolder("charts");
+  AtomicOutput folder(options.Output, ResultsFile);
+  folder.AddFolder("pictures");
+  folder.AddFolder("charts");
   std::vector<BenchSceneResult> results;
   const vtkSmartPointer<vtkHeadlessRenderWindow> window = MakeBenchWindow(options.Scene);
   for (const BenchSceneMaker& maker : makers)
@@ -195,8 +194,7 @@ void RunBench(const BenchOptions& given)
   std::vector<BenchFeature> features;
   if (options.Features)
   {
-    features = MeasureFeatures(
-      options.Scene, options.Frames, options.Quick, [&folder] { folder.CheckInterrupt(); });
+    features = MeasureFeatures(options.Scene, options.Frames, options.Quick);
   }
   WriteText(folder, ResultsFile, MakeCsv(results));
   WriteText(folder, PageFile,

@@ -32,6 +32,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <limits>
 #include <memory>
 
 namespace
@@ -274,8 +276,7 @@ nlohmann::json GetLeftOut(const BenchView& view)
   return nlohmann::json::parse(view.GetStatistics()).at("left_out");
 }
 
-BenchFeature MeasureFeature(const Comparison& comparison, const SceneOptions& options, int frames,
-  const std::function<void()>& checkInterrupt)
+BenchFeature MeasureFeature(const Comparison& comparison, const SceneOptions& options, int frames)
 {
   const Variant* variants[3] = { &comparison.Plain, &comparison.Forced, &comparison.Used };
   std::unique_ptr<BenchView> views[3];
@@ -288,7 +289,6 @@ BenchFeature MeasureFeature(const Comparison& comparison, const SceneOptions& op
   // In turns, so that what else the machine does falls on all of them.
   for (int frame = 0; frame < frames; ++frame)
   {
-    checkInterrupt();
     for (int i = 0; i < 3; ++i)
     {
       if (views[i])
@@ -316,8 +316,7 @@ BenchFeature MeasureFeature(const Comparison& comparison, const SceneOptions& op
 
 } // namespace
 
-std::vector<BenchFeature> MeasureFeatures(
-  const SceneOptions& view, int frames, bool quick, const std::function<void()>& checkInterrupt)
+std::vector<BenchFeature> MeasureFeatures(const SceneOptions& view, int frames, bool quick)
 {
   const int cells = quick ? 8 : 40;
   const BenchScene ball = MakeBallScene(cells, false);
@@ -330,7 +329,7 @@ std::vector<BenchFeature> MeasureFeatures(
          CompareModel(ball, "maximum intensity", "maximum-intensity"),
          CompareModel(ball, "five flat isosurfaces", "isosurface") })
   {
-    features.push_back(MeasureFeature(comparison, view, frames, checkInterrupt));
+    features.push_back(MeasureFeature(comparison, view, frames));
   }
   return features;
 }

@@ -2,7 +2,6 @@
 #ifndef BenchFeatures_h
 #define BenchFeatures_h
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,9 +27,7 @@ struct BenchFeature
 };
 
 /// Measures each feature: without it, with it though the scene does not need it, where that can be
-/// had, and used. view: size and threads; frames: of each; quick: with small meshes;
-/// checkInterrupt is called between frames.
-std::vector<BenchFeature> MeasureFeatures(
-  const SceneOptions& view, int frames, bool quick, const std::function<void()>& checkInterrupt);
+/// had, and used. view: size and threads; frames: of each; quick: with small meshes.
+std::vector<BenchFeature> MeasureFeatures(const SceneOptions& view, int frames, bool quick);
 
 #endif

@@ -6,7 +6,7 @@
 #include "Bench/BenchScenes.h"
 #include "Bench/BenchSettings.h"
 #include "CommandLine/CommandErrors.h"
-#include "Files/AtomicFolder.h"
+#include "Files/AtomicOutput.h"
 #include "Files/WriteData.h"
 #include "Setup/SceneOptions.h"
 
@@ -60,7 +60,6 @@ void TimeFrames(const BenchRun& run, BenchView& view, BenchRow& row)
   while (static_cast<int>(seconds.size()) < run.Frames &&
     (seconds.empty() || total < LongestMeasurement))
   {
-    run.Folder.CheckInterrupt();
     seconds.push_back(view.Render());
     total += seconds.back();
   }
@@ -108,7 +107,7 @@ void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasuremen
 
   const vtkSmartPointer<vtkImageData> image = MakeImage(picture);
   row.PictureFile = stem + ".png";
-  WritePng(image, run.Folder.GetPath(row.PictureFile), row.PictureFile);
+  WritePng(image, run.Folder.AddFile(row.PictureFile), row.PictureFile);
   const bool isReference = row.Setting.Name == GetReferenceSetting().Name;
   if (isReference || IsPeer(row.Setting))
   {
@@ -119,7 +118,7 @@ void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasuremen
     const vtkSmartPointer<vtkImageData> difference =
       MakeDifferenceImage(picture, reference, row.Amplification);
     row.DifferenceFile = stem + "-difference.png";
-    WritePng(difference, run.Folder.GetPath(row.DifferenceFile), row.DifferenceFile);
+    WritePng(difference, run.Folder.AddFile(row.DifferenceFile), row.DifferenceFile);
     row.DifferenceUri = MakePngUri(ShrinkToMaximum(difference, DifferenceSize));
   }
 }

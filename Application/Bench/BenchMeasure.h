@@ -5,7 +5,7 @@
 #include "Bench/BenchResults.h"
 #include "Bench/BenchView.h"
 
-class AtomicFolder;
+class AtomicOutput;
 struct BenchScene;
 struct SceneOptions;
 
@@ -15,7 +15,7 @@ struct BenchRun
   const BenchScene& Scene;
   const SceneOptions& View; ///< size, camera, threads
   int Frames;               ///< at most
-  AtomicFolder& Folder;     ///< for pictures
+  AtomicOutput& Folder;     ///< for pictures
   vtkHeadlessRenderWindow* Window;
 };
 

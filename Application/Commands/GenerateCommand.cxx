@@ -5,7 +5,7 @@
 #include "CommandLine/CommandOption.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
-#include "Files/AtomicFile.h"
+#include "Files/AtomicOutput.h"
 #include "Files/GeneratedGrid.h"
 #include "Files/WriteData.h"
 #include "Generate/GeneratedMeshes.h"
@@ -60,7 +60,7 @@ void GenerateFile(const GenerateOptions& options)
     throw UsageError("--output: '" + options.Output + "' must end in .vtu");
   }
   const std::map<std::string, double> parameters = ReadParameters(options.Parameters);
-  AtomicFile output(options.Output);
+  AtomicOutput output(options.Output);
   ProgressLine progress("generating " + options.Name);
   progress.ShowLabel();
   tetralux::GeneratedMesh generated;

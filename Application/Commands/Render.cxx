@@ -5,7 +5,7 @@
 #include "CommandLine/MessageCapture.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
-#include "Files/AtomicFile.h"
+#include "Files/AtomicOutput.h"
 #include "Files/ReadMesh.h"
 #include "Files/TransferFunctionFile.h"
 #include "Files/WriteData.h"
@@ -36,7 +36,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
-#include <memory>
+#include <optional>
 
 namespace
 {
@@ -144,7 +144,7 @@ void PrintStatistics(const nlohmann::ordered_json& value, const std::string& ind
   }
 }
 
-void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicFile& file)
+void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutput& file)
 {
   std::ofstream stream(file.GetTemporaryName());
   stream << statistics.dump(2) << "\n";
@@ -189,7 +189,7 @@ vtkSmartPointer<vtkImageData> CaptureWindow(vtkRenderWindow* window)
 }
 
 void WritePicture(const RenderOptions& options, vtkRenderWindow* window, vtkImageData* image,
-  const AtomicFile& output)
+  const AtomicOutput& output)
 {
   if (GetExtension(output.GetName()) == ".vti")
   {
@@ -265,11 +265,11 @@ void RenderPicture(const RenderOptions& options)
   MethodChoice method = ChooseMethodFor(options, window);
   vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeConfiguredMapper(method.Method, options);
 
-  AtomicFile output(options.Output);
-  std::unique_ptr<AtomicFile> statisticsOutput;
+  AtomicOutput output(options.Output);
+  std::optional<AtomicOutput> statisticsOutput;
   if (!options.StatisticsFile.empty())
   {
-    statisticsOutput = std::make_unique<AtomicFile>(options.StatisticsFile);
+    statisticsOutput.emplace(options.StatisticsFile);
   }
   ColorAndOpacity functions;
   if (!options.Scene.TransferFile.empty())
