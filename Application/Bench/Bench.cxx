@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/Bench.h"
 
-#include "Bench/BenchChart.h"
 #include "Bench/BenchCsv.h"
 #include "Bench/BenchFeatures.h"
+#include "Bench/BenchFront.h"
+#include "Bench/BenchJson.h"
 #include "Bench/BenchMachine.h"
 #include "Bench/BenchMeasure.h"
 #include "Bench/BenchOptions.h"
 #include "Bench/BenchPage.h"
-#include "Bench/BenchPictures.h"
 #include "Bench/BenchScenes.h"
 #include "Bench/BenchSettings.h"
 #include "Bench/BenchView.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/ProgressLine.h"
 #include "Files/AtomicOutput.h"
-#include "Files/WriteData.h"
 #include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
-
-#include "vtkImageData.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -29,7 +26,8 @@
 namespace
 {
 
-constexpr const char* ResultsFile = "results.csv";
+constexpr const char* CsvFile = "results.csv"; ///< also tells a folder that an earlier run wrote
+constexpr const char* JsonFile = "results.json";
 constexpr const char* PageFile = "index.html";
 
 /// Pixels along an edge where --size does not say.
@@ -165,11 +163,6 @@ BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& optio
     PrintRow(result.Rows.back());
   }
   MarkFront(result);
-
-  const vtkSmartPointer<vtkImageData> chart = DrawErrorChart(result);
-  result.ChartFile = "charts/" + scene.Name + ".png";
-  WritePng(chart, folder.AddFile(result.ChartFile), result.ChartFile);
-  result.ChartUri = MakePngUri(chart);
   return result;
 }
 
@@ -182,9 +175,8 @@ void RunBench(const BenchOptions& given)
   const std::vector<BenchSceneMaker> makers = ListScenes(options);
   ListSettings(options); // throws where one is none
 
-  AtomicOutput folder(options.Output, ResultsFile);
+  AtomicOutput folder(options.Output, CsvFile);
   folder.AddFolder("pictures");
-  folder.AddFolder("charts");
   std::vector<BenchSceneResult> results;
   const vtkSmartPointer<vtkHeadlessRenderWindow> window = MakeBenchWindow(options.Scene);
   for (const BenchSceneMaker& maker : makers)
@@ -196,10 +188,11 @@ void RunBench(const BenchOptions& given)
   {
     features = MeasureFeatures(options.Scene, options.Frames, options.Quick);
   }
-  WriteText(folder, ResultsFile, MakeCsv(results));
-  WriteText(folder, PageFile,
-    MakePage(results, features,
-      DescribeMachine(GetOpenGLRenderer(window), options.Scene.NumberOfThreads),
-      DescribeCommand(options)));
+  const nlohmann::ordered_json json = MakeResults(results, features,
+    DescribeMachine(GetOpenGLRenderer(window), options.Scene.NumberOfThreads),
+    DescribeCommand(options));
+  WriteText(folder, JsonFile, json.dump(2) + "\n");
+  WriteText(folder, CsvFile, MakeCsv(json));
+  WriteText(folder, PageFile, MakePage(json, results));
   folder.Commit();
 }

@@ -108,7 +108,7 @@ void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasuremen
   const vtkSmartPointer<vtkImageData> image = MakeImage(picture);
   row.PictureFile = stem + ".png";
   WritePng(image, run.Folder.AddFile(row.PictureFile), row.PictureFile);
-  const bool isReference = row.Setting.Name == GetReferenceSetting().Name;
+  const bool isReference = row.Setting.Name == ReferenceSettingName;
   if (isReference || IsPeer(row.Setting))
   {
     row.PictureUri = MakePngUri(ShrinkToMean(image, isReference ? ReferenceSize : PeerSize));
@@ -120,22 +120,5 @@ void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasuremen
     row.DifferenceFile = stem + "-difference.png";
     WritePng(difference, run.Folder.AddFile(row.DifferenceFile), row.DifferenceFile);
     row.DifferenceUri = MakePngUri(ShrinkToMaximum(difference, DifferenceSize));
-  }
-}
-
-void MarkFront(BenchSceneResult& result)
-{
-  const auto isRanked = [](const BenchRow& row)
-  { return row.Failure.empty() && row.Setting.Group != GetReferenceSetting().Group; };
-  for (BenchRow& row : result.Rows)
-  {
-    row.OnFront = isRanked(row) &&
-      std::none_of(result.Rows.begin(), result.Rows.end(),
-        [&](const BenchRow& other)
-        {
-          return isRanked(other) && other.Errors.Maximum <= row.Errors.Maximum &&
-            other.BestSeconds <= row.BestSeconds &&
-            (other.Errors.Maximum < row.Errors.Maximum || other.BestSeconds < row.BestSeconds);
-        });
   }
 }

@@ -35,8 +35,4 @@ BenchMeasurement Measure(const BenchRun& run, const BenchSetting& setting);
 /// Compares a setting's picture with the reference, and writes it and the difference.
 void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasurement& measurement);
 
-/// Marks the rows that no other row is better than in both error and time; the reference and what
-/// failed are not among them.
-void MarkFront(BenchSceneResult& result);
-
 #endif

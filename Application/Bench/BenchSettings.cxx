@@ -42,9 +42,10 @@ Assignments MakeTable(int scalars, int lengths, const Assignments& others)
 
 void AddErrorDial(std::vector<BenchSetting>& settings)
 {
+  const std::string group = "error asked for";
   for (const char* error : { "1e-2", "1e-3", "1e-4", "1e-5", "1e-6" })
   {
-    settings.push_back({ std::string("error-") + error, ErrorDialGroup,
+    settings.push_back({ std::string("error-") + error, group,
       std::string("MaximumError ") + error + ", all else automatic", "ray-cast",
       { std::string("MaximumError=") + error } });
   }
@@ -235,7 +236,7 @@ BenchSetting ReadSetting(const std::string& text)
 
 BenchSetting GetReferenceSetting()
 {
-  return { "reference", "reference", "closed form, double precision, rays to their ends",
+  return { ReferenceSettingName, "reference", "closed form, double precision, rays to their ends",
     "ray-cast", { ClosedForm, DoublePrecision, ToTheEnd } };
 }
 

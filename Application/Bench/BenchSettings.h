@@ -11,8 +11,8 @@ struct BenchOptions;
 /// Name of the setting that all others are compared with: all defaults.
 constexpr const char* DefaultSettingName = "default";
 
-/// Group of the settings that set the error and nothing else.
-constexpr const char* ErrorDialGroup = "error asked for";
+/// Name of the setting that counts as right.
+constexpr const char* ReferenceSettingName = "reference";
 
 /// The most exact setting: closed form, double precision, rays to their ends.
 BenchSetting GetReferenceSetting();

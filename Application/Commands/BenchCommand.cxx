@@ -59,7 +59,8 @@ void AddRunOptions(CLI::App* command, BenchOptions& options)
     "--quick", options.Quick, "Small scenes and pictures, two frames: to see that all works");
   command
     ->add_option("--output", options.Output,
-      "Folder to write: index.html, results.csv, charts and pictures; one that an earlier run "
+      "Folder to write: index.html, results.json, results.csv and pictures; one that an earlier "
+      "run "
       "wrote is replaced")
     ->type_name("FOLDER");
 }

@@ -201,7 +201,7 @@ TEST_F(AtomicOutputTest, ASignalWaitsForTheLastHold)
 /// A signal that another thread gets, at any moment of the life of an output.
 TEST_F(AtomicOutputTest, ASignalMayComeToAnotherThread)
 {
-  for (int round = 0; round < 100; ++round)
+  for (int round = 0; round < 30; ++round)
   {
     const int status = RunInChild(
       [&]
@@ -213,6 +213,7 @@ TEST_F(AtomicOutputTest, ASignalMayComeToAnotherThread)
           {
             while (made < round)
             {
+              std::this_thread::yield();
             }
             raise(SIGINT);
           });
