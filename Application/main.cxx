@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line: the commands, errors to one line, an exit status.
+// The command line: runs a command, turns errors into one line and an exit status.
 
 #include "CommandLine/CommandErrors.h"
 #include "Commands/BenchCommand.h"
@@ -24,7 +24,7 @@ enum ExitStatus
   WrongUsage = 2
 };
 
-/// CLI11's errors in words of this tool.
+/// Describes an error of CLI11 in one line that points to the command's help.
 std::string Describe(const CLI::ParseError& error, const CLI::App& app)
 {
   std::string command = "tetralux";

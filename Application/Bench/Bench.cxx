@@ -26,15 +26,15 @@
 namespace
 {
 
-constexpr const char* CsvFile = "results.csv"; ///< also tells a folder that an earlier run wrote
+constexpr const char* CsvFile = "results.csv"; ///< marks a folder that may be replaced
 constexpr const char* JsonFile = "results.json";
 constexpr const char* PageFile = "index.html";
 
-/// Pixels along an edge where --size does not say.
+/// Pixels along an edge without --size.
 constexpr int FullSize = 512;
 constexpr int QuickSize = 64;
 
-/// Frames of a quick run, which are too few to say anything about time.
+/// Frames of a quick run: too few to measure time.
 constexpr int QuickFrames = 2;
 
 void CheckOptions(const BenchOptions& options)
@@ -56,7 +56,7 @@ void CheckOptions(const BenchOptions& options)
   CheckCamera(scene);
 }
 
-/// The options with what they leave open.
+/// Fills in what the options leave open.
 BenchOptions Complete(BenchOptions options)
 {
   const char* folder = std::getenv("TETRALUX_DATA");
@@ -75,7 +75,7 @@ BenchOptions Complete(BenchOptions options)
   return options;
 }
 
-/// What to run to have the results again, without paths.
+/// Returns the command that repeats the run, without paths.
 std::string DescribeCommand(const BenchOptions& options)
 {
   std::string command = "tetralux bench";
@@ -173,7 +173,7 @@ void RunBench(const BenchOptions& given)
   CheckOptions(given);
   const BenchOptions options = Complete(given);
   const std::vector<BenchSceneMaker> makers = ListScenes(options);
-  ListSettings(options); // throws where one is none
+  ListSettings(options); // throws if a setting is wrong
 
   AtomicOutput folder(options.Output, CsvFile);
   folder.AddFolder("pictures");

@@ -6,8 +6,8 @@
 
 #include <string>
 
-/// The results, as MakeResults yields them, as comma-separated values (RFC 4180): a line of names,
-/// then one line for each setting in each scene. What there is not is empty.
+/// Returns the results of MakeResults as comma-separated values (RFC 4180): a line of names, then
+/// one line for each setting in each scene. A missing value is empty.
 std::string MakeCsv(const nlohmann::ordered_json& results);
 
 #endif

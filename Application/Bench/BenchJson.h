@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-/// The results of a run as JSON: title, command, machine, scenes with their settings, features. Times
-/// are in milliseconds, errors absolute from 0 to 1. A number that there is not is null. A setting
-/// that failed has the member failure instead of numbers.
+/// Returns the results of a run as JSON: title, command, machine, scenes with their settings,
+/// features. Times are in milliseconds, errors absolute from 0 to 1. A missing number is null. A
+/// setting that failed has the member failure instead of numbers.
 ///
 /// machine: from DescribeMachine. features: empty if they were not measured. command: what was run.
 nlohmann::ordered_json MakeResults(const std::vector<BenchSceneResult>& results,

@@ -17,7 +17,7 @@ namespace
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeOurMapper(
   const BenchSetting& setting, int numberOfThreads)
 {
-  // Threads are set where there are any to set.
+  // Only ray-cast has threads to set.
   const int threads = setting.Method == "ray-cast" ? numberOfThreads : 0;
   return MakeMapper(setting.Method, threads, setting.Assignments);
 }

@@ -25,10 +25,10 @@ constexpr int ReferenceSize = 256;
 constexpr int PeerSize = 128;
 constexpr int DifferenceSize = 64;
 
-/// Whether a member of the statistics is a size of a table.
+/// Returns whether a member of the statistics is the size of a table.
 bool IsBytes(const std::string& name) { return name == "bytes" || name == "table_bytes"; }
 
-/// The sum of the sizes of all tables, however deep; not a number where there is none.
+/// Returns the sum of the sizes of all tables, at any depth; not a number if there are none.
 double SumBytes(const nlohmann::json& statistics)
 {
   double sum = NoNumber;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// The results as one page of HTML that needs nothing beside it: page.html with the JSON of
+/// Returns the results as one page of HTML that needs no other file: page.html with the JSON of
 /// MakeResults and the small pictures of the rows in it.
 std::string MakePage(
   const nlohmann::ordered_json& results, const std::vector<BenchSceneResult>& scenes);

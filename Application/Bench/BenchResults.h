@@ -9,24 +9,24 @@
 #include <string>
 #include <vector>
 
-/// Stands for a number that there is not.
+/// Stands for a missing number.
 constexpr double NoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// What one setting did in one scene.
 struct BenchRow
 {
   BenchSetting Setting;
-  std::string Failure; ///< one line; empty where it worked, else nothing of the rest is set
+  std::string Failure; ///< one line; if it is not empty, nothing below is set
 
   tetralux::ImageErrors Errors;    ///< over the pixels that either picture covers
   bool EightBit = false;           ///< the picture came from the frame buffer
-  double ErrorEstimate = NoNumber; ///< what the mapper says its largest error is
+  double ErrorEstimate = NoNumber; ///< the mapper's own estimate of its largest error
 
   double BestSeconds = NoNumber; ///< of the frames after the first
   double MedianSeconds = NoNumber;
   int Frames = 0;
   double PrepareSeconds = NoNumber; ///< the first frame, less the median of the others
-  double Bytes = NoNumber;          ///< of the mapper's tables, where it tells
+  double Bytes = NoNumber;          ///< of the mapper's tables, if it tells
 
   bool OnFront = false; ///< see MarkFront
 

@@ -25,7 +25,7 @@ struct BenchSetting
 /// Returns whether the method is one of VTK's own.
 bool IsPeer(const BenchSetting& setting);
 
-/// Returns whether the mapper offers its picture as floating point numbers. Otherwise the picture is
+/// Returns whether the mapper offers its picture as floating point numbers. If not, the picture is
 /// read from the frame buffer, in 8 bit over black. VTK's mappers offer none, and neither does a
 /// mapper that casts fewer rays than there are pixels.
 bool HasFloatPicture(const BenchSetting& setting);

@@ -26,7 +26,7 @@ struct GenerateOptions
 {
   std::string Name;
   std::string Output;
-  std::vector<std::string> Parameters; ///< "--name", "value", or "--name=value", as they came
+  std::vector<std::string> Parameters; ///< "--name", "value", or "--name=value"
   bool List = false;
 };
 

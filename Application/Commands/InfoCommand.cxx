@@ -34,7 +34,7 @@ void PrintRow(const std::string& label, const ValueT& value)
   std::cout << std::left << std::setw(LabelWidth) << label << " " << value << "\n";
 }
 
-/// Rows of defects and of cells left out appear where there are any.
+/// Prints a row only if the count is above 0: for defects and for cells left out.
 void PrintCount(const std::string& label, std::int64_t count)
 {
   if (count > 0)
@@ -145,7 +145,7 @@ void PrintBounds(const std::vector<double>& points)
   PrintRow("bounds", text);
 }
 
-/// What it takes to make the mesh convex, or why it can't be.
+/// Prints what it takes to make the mesh convex, or why it can't be made convex.
 void PrintConvexification(tetralux::WalkMesh& walk)
 {
   {

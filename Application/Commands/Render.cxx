@@ -41,7 +41,7 @@
 namespace
 {
 
-/// Everything of the command line that can be wrong by itself.
+/// Throws UsageError for what is wrong whatever the input is.
 void CheckOptions(const RenderOptions& options)
 {
   const std::string extension = GetExtension(options.Output);
@@ -83,7 +83,7 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
 
 MethodChoice ChooseMethodFor(const RenderOptions& options, vtkRenderWindow* window)
 {
-  // The window may fail to make its context.
+  // The window may fail to make an OpenGL context.
   const MessageCapture messages;
   const MethodChoice choice =
     ChooseMethod(options.Method, window, options.Scene.NumberOfThreads, options.Settings);
@@ -115,7 +115,7 @@ bool IsEmpty(vtkImageData* image)
   return std::all_of(pixels.begin(), pixels.end(), [](double depth) { return depth == -1; });
 }
 
-/// A picture of nothing, because there is nothing that can be rendered, is a failure.
+/// Throws WorkError if the input has no cell that can be rendered.
 void CheckRendered(const std::string& input, const nlohmann::ordered_json& statistics)
 {
   if (statistics.at("tables").at("tetrahedra") == 0)
@@ -155,8 +155,8 @@ void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutpu
   }
 }
 
-/// The picture over the background, rounded to 8 bit once. The frame buffer of a window has 8 bit
-/// already before its background is added.
+/// Returns the picture over the background, rounded to 8 bit once. A window's frame buffer would
+/// round before and after the background is added.
 vtkSmartPointer<vtkImageData> PutOverBackground(
   vtkImageData* image, const SceneOptions::Vector& background)
 {
@@ -176,7 +176,7 @@ vtkSmartPointer<vtkImageData> PutOverBackground(
   return result;
 }
 
-/// The picture as the window shows it.
+/// Returns the picture as the window shows it.
 vtkSmartPointer<vtkImageData> CaptureWindow(vtkRenderWindow* window)
 {
   vtkNew<vtkWindowToImageFilter> reader;
@@ -215,13 +215,13 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   {
     property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
   }
-  // Flat surfaces have no shape.
+  // Without light, surfaces show no shape.
   property->SetShade(options.Shade || !options.Isovalues.empty());
   return property;
 }
 
-/// Renders the volume of an input once. Returns VTK's first error, empty where there was none; warnings
-/// are printed then.
+/// Renders the volume of an input once. Returns VTK's first error. Without an error, returns an
+/// empty text and prints the warnings.
 std::string Draw(
   const std::string& input, vtkTetrahedraVolumeMapper* mapper, vtkRenderWindow* window)
 {
@@ -238,7 +238,7 @@ std::string Draw(
   return messages.GetError();
 }
 
-/// The statistics, with why this method was chosen where none was asked for.
+/// Returns the statistics, with the reason for the method if --method did not name it.
 nlohmann::ordered_json ReadStatistics(vtkTetrahedraVolumeMapper* mapper, const MethodChoice& method)
 {
   const auto ofMapper = nlohmann::ordered_json::parse(mapper->GetStatistics());
@@ -299,14 +299,14 @@ void RenderPicture(const RenderOptions& options)
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(options.Background.data());
   renderer->AddVolume(volume);
-  renderer->GetCullers()->RemoveAllItems(); // what is out of sight gives a picture, too
+  renderer->GetCullers()->RemoveAllItems(); // a volume out of sight gives an empty picture
   window->AddRenderer(renderer);
   PlaceCamera(options.Scene, bounds, renderer);
 
   std::string error = Draw(options.Scene.Input, mapper, window);
   if (!error.empty() && options.Method == "auto" && method.Method != "ray-cast")
   {
-    // No room for the mesh, say: a processor has it.
+    // The graphics card may lack room for the mesh; the processor has it.
     method = { "ray-cast", method.Method + " failed: " + error };
     mapper = MakeConfiguredMapper(method.Method, options);
     SelectScalars(choice, mapper);

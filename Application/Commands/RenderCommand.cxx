@@ -38,7 +38,7 @@ double ReadError(const std::string& option, const std::string& text)
   return error;
 }
 
-/// What is seen of the scene, and how exactly.
+/// Options that tell what is seen of the scene, and how exactly.
 void AddPictureOptions(CLI::App* command, RenderOptions& options)
 {
   AddOption(command, "--isovalues",

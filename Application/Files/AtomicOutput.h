@@ -16,9 +16,9 @@ public:
   /// A file. Throws WorkError if the file can't be made, so that this is known before any work.
   explicit AtomicOutput(const std::string& fileName);
 
-  /// A folder. A folder that exists is replaced if it is empty, or if it has a file called marker,
-  /// which tells that the same command made it. Throws WorkError if it must not be replaced or can't
-  /// be made.
+  /// A folder. An existing folder is replaced if it is empty, or if it has a file called marker,
+  /// which tells that the same command made it. Throws WorkError if the folder must not be replaced
+  /// or can't be made.
   AtomicOutput(const std::string& folderName, const std::string& marker);
 
   ~AtomicOutput();

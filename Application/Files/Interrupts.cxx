@@ -11,9 +11,9 @@
 namespace
 {
 
-/// A handler looks at the entries only if nobody holds, and a holder changes them only if no handler
-/// runs: each side raises its own counter before it reads the other's. The entries themselves can
-/// then be an ordinary list, of any length.
+/// The handler reads the entries only if nobody holds, and a holder changes them only if no handler
+/// runs: each side raises its own counter before it reads the other's. So the entries can be an
+/// ordinary list, of any length.
 std::atomic<int> Holds(0);
 std::atomic<int> Handlers(0);
 

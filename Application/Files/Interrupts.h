@@ -5,9 +5,9 @@
 #include <list>
 #include <string>
 
-/// What happens on SIGINT and SIGTERM: the process removes its unfinished outputs and ends with exit
-/// status 128 + signal, as shells report it. This is the only signal handler of the tool. The first
-/// Pending installs it; without one, signals act as in any process.
+/// The tool's only signal handler. On SIGINT and SIGTERM, it removes the unfinished outputs and
+/// ends the process with exit status 128 + signal, as shells report it. The first Pending installs
+/// it; before that, signals act as in any process.
 ///
 /// Outputs are made and committed on one thread. The signal may arrive on any thread.
 class Interrupts
@@ -16,7 +16,7 @@ public:
   enum class Kind
   {
     File,
-    Folder ///< removed after what is in it; each entry must be pending as well
+    Folder ///< removed after what is in it, which must be pending as well
   };
 
   /// Delays the handler while an object lives: a signal that came meanwhile acts when the last one

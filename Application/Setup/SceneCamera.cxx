@@ -18,13 +18,13 @@ namespace
 constexpr double DefaultAzimuth = 30;   // degrees
 constexpr double DefaultElevation = 20; // degrees
 
-/// Sine of the angle between view and up below which up does not tell the picture's vertical.
+/// Sine of the angle between view and up below which they count as parallel.
 constexpr double SmallestUpSine = 1e-6;
 
-/// Distance of the near plane, as a fraction of the bounds' radius, from a camera inside.
+/// Distance of the near plane from a camera inside the bounds, as a fraction of their radius.
 constexpr double NearFraction = 1e-6;
 
-/// Part of the bounds' radius that the clipping range leaves free, against rounding.
+/// Margin of the clipping range against rounding, as a fraction of the bounds' radius.
 constexpr double RangeMargin = 0.01;
 
 bool IsAlong(const double direction[3], const double up[3])
@@ -34,11 +34,11 @@ bool IsAlong(const double direction[3], const double up[3])
   return vtkMath::Norm(cross) <= SmallestUpSine * vtkMath::Norm(direction) * vtkMath::Norm(up);
 }
 
-/// Part of the picture that a default view leaves free on either side.
+/// Fraction of the picture that a default view leaves free on either side.
 constexpr double PictureMargin = 0.05;
 
-/// How far behind its focal point the camera must be, in the direction that it has, to see all
-/// corners of a box.
+/// Returns the distance from the focal point at which the camera sees all corners of a box. Its
+/// direction is kept.
 double GetFittingDistance(vtkCamera* camera, const vtkBoundingBox& box, const SceneOptions& options)
 {
   const double halfAngle = vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle());

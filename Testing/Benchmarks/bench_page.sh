@@ -7,9 +7,10 @@
 #
 # PAGE=FOLDER writes another folder; with the option --quick, that shows whether all works.
 #
-# The page is complete in itself. Beside it go the numbers, the table of how stable the integrals are,
-# and the chart that the README shows, which is the page's first: Chromium (apt-get install chromium)
-# runs the page's script. The folder with all pictures is left where the last line says.
+# The page is complete in itself. Beside it go the numbers, the table of how stable the integrals
+# are, and the page's first chart, which the README shows. Chromium draws the chart by running the
+# page's script (apt-get install chromium). The folder with all pictures is left where the last line
+# says.
 set -eu
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
