@@ -5,10 +5,10 @@
 #include "CommandLine/MessageCapture.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
+#include "Commands/PictureFile.h"
 #include "Files/AtomicOutput.h"
 #include "Files/ReadMesh.h"
 #include "Files/TransferFunctionFile.h"
-#include "Files/WriteData.h"
 #include "Setup/Arrays.h"
 #include "Setup/MapperProperties.h"
 #include "Setup/Methods.h"
@@ -16,6 +16,7 @@
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraVolumeMapper.h"
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
 #include "vtkContourValues.h"
@@ -28,12 +29,10 @@
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
-#include "vtkWindowToImageFilter.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -94,14 +93,76 @@ MethodChoice ChooseMethodFor(const RenderOptions& options, vtkRenderWindow* wind
   return choice;
 }
 
-void SelectScalars(const ArrayChoice& choice, vtkTetrahedraVolumeMapper* mapper)
+/// What is rendered: the data, the scalars that are shown, their colour and opacity.
+struct RenderInput
 {
-  mapper->SetScalarMode(choice.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
-                                              : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
-  mapper->SelectScalarArray(choice.Array.Name.c_str());
-  mapper->SetVectorMode(
-    choice.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE : vtkTetrahedraVolumeMapper::COMPONENT);
-  mapper->SetVectorComponent(choice.Component);
+  vtkSmartPointer<vtkDataObject> Data;
+  ArrayChoice Scalars;
+  ColorAndOpacity Functions;
+};
+
+RenderInput ReadInput(const SceneOptions& options)
+{
+  RenderInput input;
+  if (!options.TransferFile.empty())
+  {
+    ReadTransferFunction(options.TransferFile, input.Functions);
+  }
+  input.Data = ReadMesh(options.Input, options.Plot3dSolution);
+  input.Scalars = ChooseArray(input.Data, options.Array, options.Component);
+  if (options.TransferFile.empty())
+  {
+    MakeDefaultTransferFunction(input.Scalars.Range.data(), input.Functions);
+  }
+  return input;
+}
+
+void SetInput(const RenderInput& input, vtkTetrahedraVolumeMapper* mapper)
+{
+  const ArrayChoice& scalars = input.Scalars;
+  mapper->SetScalarMode(scalars.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
+                                               : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
+  mapper->SelectScalarArray(scalars.Array.Name.c_str());
+  mapper->SetVectorMode(scalars.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE
+                                          : vtkTetrahedraVolumeMapper::COMPONENT);
+  mapper->SetVectorComponent(scalars.Component);
+  mapper->SetInputData(input.Data.GetPointer());
+}
+
+vtkSmartPointer<vtkVolumeProperty> MakeProperty(
+  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6])
+{
+  auto property = vtkSmartPointer<vtkVolumeProperty>::New();
+  property->SetColor(functions.Color);
+  property->SetScalarOpacity(functions.Opacity);
+  property->SetScalarOpacityUnitDistance(options.Scene.OpacityUnitDistance.value_or(
+    DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
+  for (std::size_t i = 0; i < options.Isovalues.size(); ++i)
+  {
+    property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
+  }
+  // Without light, surfaces show no shape.
+  property->SetShade(options.Shade || !options.Isovalues.empty());
+  return property;
+}
+
+/// Shows a volume in a window, from the camera of the options.
+void ShowVolume(const RenderOptions& options, const RenderInput& input, vtkVolume* volume,
+  vtkRenderWindow* window)
+{
+  double bounds[6];
+  volume->GetMapper()->GetBounds(bounds);
+  if (!vtkBoundingBox(bounds).IsValid())
+  {
+    throw WorkError("'" + options.Scene.Input + "': it has no points");
+  }
+  volume->SetProperty(MakeProperty(options, input.Functions, bounds));
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(options.Background.data());
+  renderer->AddVolume(volume);
+  renderer->GetCullers()->RemoveAllItems(); // a volume out of sight gives an empty picture
+  window->AddRenderer(renderer);
+  PlaceCamera(options.Scene, bounds, renderer);
 }
 
 bool IsEmpty(vtkImageData* image)
@@ -155,71 +216,6 @@ void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutpu
   }
 }
 
-/// Returns the picture over the background, rounded to 8 bit once. A window's frame buffer would
-/// round before and after the background is added.
-vtkSmartPointer<vtkImageData> PutOverBackground(
-  vtkImageData* image, const SceneOptions::Vector& background)
-{
-  auto result = vtkSmartPointer<vtkImageData>::New();
-  result->SetDimensions(image->GetDimensions());
-  result->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const auto colors = vtk::DataArrayTupleRange<4>(image->GetPointData()->GetArray("RGBA"));
-  auto pixels = vtk::DataArrayTupleRange<3>(result->GetPointData()->GetScalars());
-  for (vtkIdType i = 0; i < colors.size(); ++i)
-  {
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      const double value = colors[i][channel] + (1 - colors[i][3]) * background[channel];
-      pixels[i][channel] = std::lround(255 * std::clamp(value, 0.0, 1.0));
-    }
-  }
-  return result;
-}
-
-/// Returns the picture as the window shows it.
-vtkSmartPointer<vtkImageData> CaptureWindow(vtkRenderWindow* window)
-{
-  vtkNew<vtkWindowToImageFilter> reader;
-  reader->SetInput(window);
-  reader->ShouldRerenderOff();
-  reader->ReadFrontBufferOff();
-  reader->SetInputBufferTypeToRGB();
-  reader->Update();
-  return reader->GetOutput();
-}
-
-void WritePicture(const RenderOptions& options, vtkRenderWindow* window, vtkImageData* image,
-  const AtomicOutput& output)
-{
-  if (GetExtension(output.GetName()) == ".vti")
-  {
-    WriteXml(image, output.GetTemporaryName(), output.GetName());
-    return;
-  }
-  const int* dimensions = image->GetDimensions();
-  const bool oneRayPerPixel =
-    dimensions[0] == options.Scene.Width && dimensions[1] == options.Scene.Height;
-  WritePng(oneRayPerPixel ? PutOverBackground(image, options.Background) : CaptureWindow(window),
-    output.GetTemporaryName(), output.GetName());
-}
-
-vtkSmartPointer<vtkVolumeProperty> MakeProperty(
-  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6])
-{
-  auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  property->SetColor(functions.Color);
-  property->SetScalarOpacity(functions.Opacity);
-  property->SetScalarOpacityUnitDistance(options.Scene.OpacityUnitDistance.value_or(
-    DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
-  for (std::size_t i = 0; i < options.Isovalues.size(); ++i)
-  {
-    property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
-  }
-  // Without light, surfaces show no shape.
-  property->SetShade(options.Shade || !options.Isovalues.empty());
-  return property;
-}
-
 /// Renders the volume of an input once. Returns VTK's first error. Without an error, returns an
 /// empty text and prints the warnings.
 std::string Draw(
@@ -271,37 +267,11 @@ void RenderPicture(const RenderOptions& options)
   {
     statisticsOutput.emplace(options.StatisticsFile);
   }
-  ColorAndOpacity functions;
-  if (!options.Scene.TransferFile.empty())
-  {
-    ReadTransferFunction(options.Scene.TransferFile, functions);
-  }
-
-  const vtkSmartPointer<vtkDataObject> data =
-    ReadMesh(options.Scene.Input, options.Scene.Plot3dSolution);
-  const ArrayChoice choice = ChooseArray(data, options.Scene.Array, options.Scene.Component);
-  if (options.Scene.TransferFile.empty())
-  {
-    MakeDefaultTransferFunction(choice.Range.data(), functions);
-  }
-  SelectScalars(choice, mapper);
-  mapper->SetInputData(data.GetPointer());
-  double bounds[6];
-  mapper->GetBounds(bounds);
-  if (!vtkBoundingBox(bounds).IsValid())
-  {
-    throw WorkError("'" + options.Scene.Input + "': it has no points");
-  }
-
+  const RenderInput input = ReadInput(options.Scene);
+  SetInput(input, mapper);
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);
-  volume->SetProperty(MakeProperty(options, functions, bounds));
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(options.Background.data());
-  renderer->AddVolume(volume);
-  renderer->GetCullers()->RemoveAllItems(); // a volume out of sight gives an empty picture
-  window->AddRenderer(renderer);
-  PlaceCamera(options.Scene, bounds, renderer);
+  ShowVolume(options, input, volume, window);
 
   std::string error = Draw(options.Scene.Input, mapper, window);
   if (!error.empty() && options.Method == "auto" && method.Method != "ray-cast")
@@ -309,8 +279,7 @@ void RenderPicture(const RenderOptions& options)
     // The graphics card may lack room for the mesh; the processor has it.
     method = { "ray-cast", method.Method + " failed: " + error };
     mapper = MakeConfiguredMapper(method.Method, options);
-    SelectScalars(choice, mapper);
-    mapper->SetInputData(data.GetPointer());
+    SetInput(input, mapper);
     volume->SetMapper(mapper);
     error = Draw(options.Scene.Input, mapper, window);
   }
@@ -326,7 +295,7 @@ void RenderPicture(const RenderOptions& options)
                  "transparent\n";
   }
 
-  WritePicture(options, window, image, output);
+  WritePicture(output, image, window, options.Background);
   if (statisticsOutput)
   {
     WriteStatistics(statistics, *statisticsOutput);

@@ -135,6 +135,22 @@ class Bench(ToolTest):
         )
         return re.sub(r"<(script|template|style)\b.*?</\1>", "", result.stdout, flags=re.DOTALL)
 
+    def check_shown_page(self, folder, rows):
+        """A browser shows every setting, picture and mark of the chart of one scene."""
+        shown = self.show_page(folder)
+        scene = rows[0]["scene"]
+        self.assertIn("<h1>Error against run time</h1>", shown)
+        self.assertIn(f'<h2 id="{scene}">', shown)
+        for row in rows:
+            self.assertIn(f"<b>{row['setting']}</b>", shown)
+        self.assertEqual(shown.count("<tr class=\"front\">"), sum(row["pareto"] for row in rows))
+        self.assertEqual(shown.count('<img src="data:image/png'), len(rows) - 1 + 1 + len(PEERS))
+        # The chart: every setting but the reference, and each group once more in the legend.
+        groups = {row["group"] for row in rows if row["setting"] != "reference"}
+        self.assertEqual(shown.count("<svg"), 1)
+        self.assertEqual(shown.count('class="mark"'), len(rows) - 1 + len(groups))
+        self.assertNotRegex(re.sub('"data:[^"]*"', "", shown), "NaN|undefined|null|Infinity")
+
     def test_a_quick_run(self):
         self.succeed("bench", "--quick", "--scene", "ball-smooth", "--output", "out")
         rows = self.read_rows("out")
@@ -148,6 +164,8 @@ class Bench(ToolTest):
             set(settings),
         )
         self.check_page("out", rows)
+        if BROWSER:
+            self.check_shown_page("out", rows)
 
         reference = settings["reference"]
         self.assertEqual(reference["largest_error"], 0)
@@ -266,23 +284,6 @@ class Bench(ToolTest):
             for name in features:
                 self.assertIn(f"<td>{name}</td>", shown)
             self.assertIn("not possible", shown)
-
-    @unittest.skipUnless(BROWSER, "there is no Chromium")
-    def test_the_page_in_a_browser(self):
-        self.succeed("bench", "--quick", "--scene", "ball-smooth", "--output", "out")
-        rows = self.read_rows("out")
-        shown = self.show_page("out")
-        self.assertIn("<h1>Error against run time</h1>", shown)
-        self.assertIn('<h2 id="ball-smooth">', shown)
-        for row in rows:
-            self.assertIn(f"<b>{row['setting']}</b>", shown)
-        self.assertEqual(shown.count("<tr class=\"front\">"), sum(row["pareto"] for row in rows))
-        self.assertEqual(shown.count('<img src="data:image/png'), len(rows) - 1 + 1 + len(PEERS))
-        # The chart: every setting but the reference, and each group once more in the legend.
-        groups = {row["group"] for row in rows if row["setting"] != "reference"}
-        self.assertEqual(shown.count("<svg"), 1)
-        self.assertEqual(shown.count('class="mark"'), len(rows) - 1 + len(groups))
-        self.assertNotRegex(re.sub('"data:[^"]*"', "", shown), "NaN|undefined|null|Infinity")
 
     @unittest.skipUnless(BROWSER, "there is no Chromium")
     def test_what_a_browser_shows_of_hard_results(self):
