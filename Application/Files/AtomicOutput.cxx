@@ -129,7 +129,7 @@ AtomicOutput::~AtomicOutput()
 
 std::string AtomicOutput::AddFile(const std::string& name)
 {
-  const std::string path = (fs::path(this->TemporaryName) / name).string();
+  std::string path = (fs::path(this->TemporaryName) / name).string();
   this->Pending.emplace_back(path, Interrupts::Kind::File);
   return path;
 }
