@@ -84,7 +84,7 @@ MethodChoice ChooseMethodFor(const RenderOptions& options, vtkRenderWindow* wind
 {
   // The window may fail to make an OpenGL context.
   const MessageCapture messages;
-  const MethodChoice choice =
+  MethodChoice choice =
     ChooseMethod(options.Method, window, options.Scene.NumberOfThreads, options.Settings);
   if (!messages.GetError().empty())
   {
