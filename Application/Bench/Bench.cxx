@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/Bench.h"
 
-#include "Bench/BenchChart.h"
 #include "Bench/BenchCsv.h"
 #include "Bench/BenchFeatures.h"
+#include "Bench/BenchFront.h"
+#include "Bench/BenchJson.h"
 #include "Bench/BenchMachine.h"
 #include "Bench/BenchMeasure.h"
+#include "Bench/BenchOptions.h"
 #include "Bench/BenchPage.h"
-#include "Bench/BenchPictures.h"
 #include "Bench/BenchScenes.h"
 #include "Bench/BenchSettings.h"
 #include "Bench/BenchView.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/ProgressLine.h"
-#include "Files/AtomicFolder.h"
-#include "Files/WriteData.h"
+#include "Files/AtomicOutput.h"
 #include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
-
-#include "vtkImageData.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -28,19 +26,20 @@
 namespace
 {
 
-constexpr const char* ResultsFile = "results.csv";
+constexpr const char* CsvFile = "results.csv"; ///< marks a folder that may be replaced
+constexpr const char* JsonFile = "results.json";
 constexpr const char* PageFile = "index.html";
 
-/// Pixels along an edge where --size does not say.
+/// Pixels along an edge without --size.
 constexpr int FullSize = 512;
 constexpr int QuickSize = 64;
 
-/// Frames of a quick run, which are too few to say anything about time.
+/// Frames of a quick run: too few to measure time.
 constexpr int QuickFrames = 2;
 
 void CheckOptions(const BenchOptions& options)
 {
-  const RenderOptions& scene = options.Scene;
+  const SceneOptions& scene = options.Scene;
   const bool ofFile = !scene.Plot3dSolution.empty() || !scene.Array.empty() ||
     !scene.Component.empty() || !scene.TransferFile.empty() || scene.OpacityUnitDistance ||
     scene.CameraPosition || scene.CameraFocalPoint || scene.CameraViewUp || scene.CameraViewAngle ||
@@ -57,7 +56,7 @@ void CheckOptions(const BenchOptions& options)
   CheckCamera(scene);
 }
 
-/// The options with what they leave open.
+/// Fills in what the options leave open.
 BenchOptions Complete(BenchOptions options)
 {
   const char* folder = std::getenv("TETRALUX_DATA");
@@ -76,7 +75,7 @@ BenchOptions Complete(BenchOptions options)
   return options;
 }
 
-/// What to run to have the results again, without paths.
+/// Returns the command that repeats the run, without paths.
 std::string DescribeCommand(const BenchOptions& options)
 {
   std::string command = "tetralux bench";
@@ -97,9 +96,9 @@ std::string DescribeCommand(const BenchOptions& options)
     " --output FOLDER";
 }
 
-void WriteText(const AtomicFolder& folder, const std::string& file, const std::string& text)
+void WriteText(AtomicOutput& folder, const std::string& file, const std::string& text)
 {
-  std::ofstream stream(folder.GetPath(file), std::ios::binary);
+  std::ofstream stream(folder.AddFile(file), std::ios::binary);
   stream << text;
   stream.close();
   if (!stream)
@@ -127,7 +126,7 @@ void PrintRow(const BenchRow& row)
 }
 
 BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& options,
-  AtomicFolder& folder, vtkHeadlessRenderWindow* window)
+  AtomicOutput& folder, vtkHeadlessRenderWindow* window)
 {
   const BenchRun run = { scene, options.Scene, options.Frames, folder, window };
   BenchSceneResult result;
@@ -155,7 +154,6 @@ BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& optio
   for (std::size_t i = 0; i < settings.size(); ++i)
   {
     progress.Show(static_cast<double>(i) / static_cast<double>(settings.size()));
-    folder.CheckInterrupt();
     BenchMeasurement measurement = Measure(run, settings[i]);
     if (measurement.Row.Failure.empty())
     {
@@ -165,11 +163,6 @@ BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& optio
     PrintRow(result.Rows.back());
   }
   MarkFront(result);
-
-  const vtkSmartPointer<vtkImageData> chart = DrawErrorChart(result);
-  result.ChartFile = "charts/" + scene.Name + ".png";
-  WritePng(chart, folder.GetPath(result.ChartFile), result.ChartFile);
-  result.ChartUri = MakePngUri(chart);
   return result;
 }
 
@@ -180,11 +173,10 @@ void RunBench(const BenchOptions& given)
   CheckOptions(given);
   const BenchOptions options = Complete(given);
   const std::vector<BenchSceneMaker> makers = ListScenes(options);
-  ListSettings(options); // throws where one is none
+  ListSettings(options); // throws if a setting is wrong
 
-  AtomicFolder folder(options.Output, ResultsFile);
-  folder.MakeFolder("pictures");
-  folder.MakeFolder("charts");
+  AtomicOutput folder(options.Output, CsvFile);
+  folder.AddFolder("pictures");
   std::vector<BenchSceneResult> results;
   const vtkSmartPointer<vtkHeadlessRenderWindow> window = MakeBenchWindow(options.Scene);
   for (const BenchSceneMaker& maker : makers)
@@ -194,13 +186,13 @@ void RunBench(const BenchOptions& given)
   std::vector<BenchFeature> features;
   if (options.Features)
   {
-    features = MeasureFeatures(
-      options.Scene, options.Frames, options.Quick, [&folder] { folder.CheckInterrupt(); });
+    features = MeasureFeatures(options.Scene, options.Frames, options.Quick);
   }
-  WriteText(folder, ResultsFile, MakeCsv(results));
-  WriteText(folder, PageFile,
-    MakePage(results, features,
-      DescribeMachine(GetOpenGLRenderer(window), options.Scene.NumberOfThreads),
-      DescribeCommand(options)));
+  const nlohmann::ordered_json json = MakeResults(results, features,
+    DescribeMachine(GetOpenGLRenderer(window), options.Scene.NumberOfThreads),
+    DescribeCommand(options));
+  WriteText(folder, JsonFile, json.dump(2) + "\n");
+  WriteText(folder, CsvFile, MakeCsv(json));
+  WriteText(folder, PageFile, MakePage(json, results));
   folder.Commit();
 }

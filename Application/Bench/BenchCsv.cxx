@@ -3,8 +3,19 @@
 
 #include "CommandLine/OptionValues.h"
 
+#include <nlohmann/json.hpp>
+
 namespace
 {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* LineEnd = "\r\n";
+
+/// Members of a setting, in the order of the columns; the scene's name comes before them.
+constexpr const char* Columns[] = { "method", "setting", "properties", "largest_error", "rms_error",
+  "error_99.9", "share_above_1/255", "error_estimate", "best_ms", "median_ms", "frames",
+  "prepare_ms", "bytes", "bits", "pareto", "failure" };
 
 std::string Quote(const std::string& text)
 {
@@ -14,60 +25,52 @@ std::string Quote(const std::string& text)
     quoted += c;
     if (c == '"')
     {
-      quoted += c; // as RFC 4180 has it
+      quoted += c; // a quote is written twice
     }
   }
   return quoted + "\"";
 }
 
-std::string Format(double value) { return std::isnan(value) ? "" : FormatNumber(value); }
-
-std::string JoinWithBlanks(const std::vector<std::string>& words)
+std::string Format(const Json& value)
 {
-  std::string text;
-  for (const std::string& word : words)
+  switch (value.type())
   {
-    text += (text.empty() ? "" : " ") + word;
-  }
-  return text;
-}
-
-std::string MakeLine(const BenchSceneResult& result, const BenchRow& row)
-{
-  std::string line = result.Name + "," + row.Setting.Method + "," + Quote(row.Setting.Name) + "," +
-    Quote(JoinWithBlanks(row.Setting.Assignments));
-  if (row.Failure.empty())
-  {
-    const tetralux::ImageErrors& errors = row.Errors;
-    const double values[] = { errors.Maximum, errors.RootMeanSquare, errors.Quantile999,
-      errors.ShareAbove1Of255, row.ErrorEstimate, 1e3 * row.BestSeconds, 1e3 * row.MedianSeconds,
-      static_cast<double>(row.Frames), 1e3 * row.PrepareSeconds };
-    for (const double value : values)
+    case Json::value_t::null:
+      return "";
+    case Json::value_t::string:
+      return Quote(value.get<std::string>());
+    case Json::value_t::boolean:
+      return value.get<bool>() ? "1" : "0";
+    case Json::value_t::number_float:
     {
-      line += "," + Format(value);
+      const auto number = value.get<double>();
+      return std::isnan(number) ? "" : FormatNumber(number);
     }
-    line += "," + (std::isnan(row.Bytes) ? "" : std::to_string(std::llround(row.Bytes)));
-    line += std::string(row.EightBit ? ",8" : ",32") + (row.OnFront ? ",1," : ",0,");
+    default:
+      return value.dump();
   }
-  else
-  {
-    line += ",,,,,,,,,,,,," + Quote(row.Failure);
-  }
-  return line;
 }
 
 } // namespace
 
-std::string MakeCsv(const std::vector<BenchSceneResult>& results)
+std::string MakeCsv(const Json& results)
 {
-  std::string text =
-    "scene,method,setting,properties,largest_error,rms_error,error_99.9,share_above_1/255,"
-    "error_estimate,best_ms,median_ms,frames,prepare_ms,bytes,bits,pareto,failure\r\n";
-  for (const BenchSceneResult& result : results)
+  std::string text = "scene";
+  for (const char* column : Columns)
   {
-    for (const BenchRow& row : result.Rows)
+    text += std::string(",") + column;
+  }
+  text += LineEnd;
+  for (const Json& scene : results.at("scenes"))
+  {
+    for (const Json& row : scene.at("settings"))
     {
-      text += MakeLine(result, row) + "\r\n";
+      text += Format(scene.at("name"));
+      for (const char* column : Columns)
+      {
+        text += "," + Format(row.contains(column) ? row.at(column) : Json());
+      }
+      text += LineEnd;
     }
   }
   return text;

@@ -2,13 +2,12 @@
 #ifndef BenchCsv_h
 #define BenchCsv_h
 
-#include "Bench/BenchResults.h"
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
-#include <vector>
 
-/// The results as comma-separated values: a line of names, then one line for each setting in each
-/// scene. Times in milliseconds; errors absolute, 0..1; what there is not is empty.
-std::string MakeCsv(const std::vector<BenchSceneResult>& results);
+/// Returns the results of MakeResults as comma-separated values (RFC 4180): a line of names, then
+/// one line for each setting in each scene. A missing value is empty.
+std::string MakeCsv(const nlohmann::ordered_json& results);
 
 #endif

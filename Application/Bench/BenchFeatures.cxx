@@ -5,10 +5,10 @@
 #include "Bench/BenchPictures.h"
 #include "Bench/BenchResults.h"
 #include "Bench/BenchScenes.h"
-#include "Bench/BenchSettings.h"
+#include "Bench/BenchSetting.h"
 #include "Bench/BenchTransferFunctions.h"
 #include "Bench/BenchView.h"
-#include "Commands/Render.h"
+#include "Setup/SceneOptions.h"
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraVolumeMapper.h"
 
@@ -32,19 +32,21 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <limits>
 #include <memory>
 
 namespace
 {
 
-/// A colour or opacity that varies by so little needs all the arithmetic of one that varies, and
-/// makes the picture of one that does not.
+/// A colour or opacity that varies by this much needs the arithmetic of a varying one, and yields
+/// the picture of a constant one.
 constexpr double Hardly = 1e-6;
 
 /// One of the three pictures of a feature.
 struct Variant
 {
-  std::string Description; ///< empty: there is none
+  std::string Description; ///< empty: no such picture
   BenchScene Scene;
   std::vector<std::string> Assignments;
   std::function<void(BenchView&)> Adapt;
@@ -63,8 +65,8 @@ vtkTetrahedraVolumeMapper* GetMapper(BenchView& view)
   return vtkTetrahedraVolumeMapper::SafeDownCast(view.GetMapper());
 }
 
-/// The scene with another transfer function: both vary by as much as is said between the ends of the
-/// range, red rising and blue falling, opacity rising from a middle one.
+/// Returns the scene with another transfer function. Over the range, red rises and blue falls by
+/// color, and opacity rises by 0.4 opacity.
 BenchScene WithVariation(const BenchScene& scene, double color, double opacity)
 {
   double range[2];
@@ -103,12 +105,12 @@ Comparison CompareOpacityVariation(const BenchScene& ball)
 
 Comparison CompareTable(const BenchScene& ball)
 {
-  return { "3-D table", { "the integral in closed form", ball, { "Integration=1" }, {} }, {},
+  return { "3-D table", { "the integral in closed form", ball, { "Integration=closed-form" }, {} }, {},
     { "from a table of 128 x 128 x 16", ball,
-      { "Integration=2", "TableScalarSize=128", "TableLengthSize=16" }, {} } };
+      { "Integration=table", "TableScalarSize=128", "TableLengthSize=16" }, {} } };
 }
 
-/// Five surfaces over the range of the scalars, in a property of the view's own.
+/// Sets five isovalues over the range of the scalars. The view's property must be its own.
 void MakeIsosurfaces(BenchView& view)
 {
   double range[2];
@@ -120,7 +122,7 @@ void MakeIsosurfaces(BenchView& view)
   }
 }
 
-/// Lights them, by as much ambient light as is said, and by the camera's for the rest.
+/// Lights the isosurfaces: by ambient light to the given share, by the camera's light for the rest.
 void Shade(BenchView& view, double ambient)
 {
   MakeIsosurfaces(view);
@@ -142,7 +144,7 @@ Comparison CompareShading(const BenchScene& ball)
   };
 }
 
-/// An optical model in place of the full one: mode as BlendMode takes it.
+/// Compares an optical model with the full one. mode: as BlendMode takes it.
 Comparison CompareModel(const BenchScene& ball, const std::string& name, const std::string& mode)
 {
   return { name, { "emission and absorption", WithVariation(ball, 1, 1), {}, {} }, {},
@@ -193,8 +195,8 @@ Comparison CompareCropping(const BenchScene& ball)
     { "on, without the middle one", ball, {}, crop(outerRegions) } };
 }
 
-/// A ball of a third of the scene's radius in the middle of the view, offset along it by so many
-/// radii of the scene.
+/// Adds a ball of a third of the scene's radius. It stands in the middle of the scene, moved along
+/// the view by offset, in radii of the scene.
 void AddGeometry(BenchView& view, double offset)
 {
   const vtkBoundingBox box(view.GetMapper()->GetBounds());
@@ -246,11 +248,11 @@ Comparison CompareCellData(int cells)
 
 Comparison ComparePrecision(const BenchScene& ball)
 {
-  return { "double precision", { "geometry in single precision", ball, { "Precision=1" }, {} }, {},
-    { "in double precision", ball, { "Precision=2" }, {} } };
+  return { "double precision", { "geometry in single precision", ball, { "Precision=single" }, {} }, {},
+    { "in double precision", ball, { "Precision=double" }, {} } };
 }
 
-std::unique_ptr<BenchView> MakeView(const Variant& variant, const RenderOptions& view)
+std::unique_ptr<BenchView> MakeView(const Variant& variant, const SceneOptions& view)
 {
   if (variant.Description.empty())
   {
@@ -268,14 +270,13 @@ std::unique_ptr<BenchView> MakeView(const Variant& variant, const RenderOptions&
   return made;
 }
 
-/// What the mapper says it left out of the last frame, with the reasons.
+/// Returns what the mapper left out of the last frame, with its reasons.
 nlohmann::json GetLeftOut(const BenchView& view)
 {
   return nlohmann::json::parse(view.GetStatistics()).at("left_out");
 }
 
-BenchFeature MeasureFeature(const Comparison& comparison, const RenderOptions& options, int frames,
-  const std::function<void()>& checkInterrupt)
+BenchFeature MeasureFeature(const Comparison& comparison, const SceneOptions& options, int frames)
 {
   const Variant* variants[3] = { &comparison.Plain, &comparison.Forced, &comparison.Used };
   std::unique_ptr<BenchView> views[3];
@@ -285,10 +286,9 @@ BenchFeature MeasureFeature(const Comparison& comparison, const RenderOptions& o
     views[i] = MakeView(*variants[i], options);
     seconds[i] = views[i] ? std::numeric_limits<double>::infinity() : NoNumber;
   }
-  // In turns, so that what else the machine does falls on all of them.
+  // In turns, so that other load on the machine hits all of them.
   for (int frame = 0; frame < frames; ++frame)
   {
-    checkInterrupt();
     for (int i = 0; i < 3; ++i)
     {
       if (views[i])
@@ -316,8 +316,7 @@ BenchFeature MeasureFeature(const Comparison& comparison, const RenderOptions& o
 
 } // namespace
 
-std::vector<BenchFeature> MeasureFeatures(
-  const RenderOptions& view, int frames, bool quick, const std::function<void()>& checkInterrupt)
+std::vector<BenchFeature> MeasureFeatures(const SceneOptions& view, int frames, bool quick)
 {
   const int cells = quick ? 8 : 40;
   const BenchScene ball = MakeBallScene(cells, false);
@@ -330,7 +329,7 @@ std::vector<BenchFeature> MeasureFeatures(
          CompareModel(ball, "maximum intensity", "maximum-intensity"),
          CompareModel(ball, "five flat isosurfaces", "isosurface") })
   {
-    features.push_back(MeasureFeature(comparison, view, frames, checkInterrupt));
+    features.push_back(MeasureFeature(comparison, view, frames));
   }
   return features;
 }

@@ -2,35 +2,31 @@
 #ifndef BenchFeatures_h
 #define BenchFeatures_h
 
-#include <functional>
 #include <string>
 #include <vector>
 
-struct RenderOptions;
+struct SceneOptions;
 
-/// What a feature costs: times of frames, best of those measured in turns, seconds.
+/// What a feature costs: best times of frames, in seconds, measured in turns.
 struct BenchFeature
 {
   std::string Name;
-  std::string Plain; ///< the scene that does not use it
-  std::string
-    Forced;         ///< how it is made to be computed though it changes nothing; empty: it can't be
-  std::string Used; ///< the scene that uses it
+  std::string Plain;  ///< the scene that does not use it
+  std::string Forced; ///< how it is computed although it changes nothing; empty: not possible
+  std::string Used;   ///< the scene that uses it
 
   std::string LeftOut; ///< what the mapper left out of the plain frame only, and why
 
   double PlainSeconds;
-  double ForcedSeconds; ///< not a number where it can't be
+  double ForcedSeconds; ///< not a number if not possible
   double UsedSeconds;
 
-  /// Largest difference of the forced picture to the plain one: what is forced changes nothing.
+  /// Largest difference between the forced picture and the plain one, 0..1.
   double ForcedDifference;
 };
 
-/// Measures each feature: without it, with it though the scene does not need it, where that can be
-/// had, and used. view: size and threads; frames: of each; quick: with small meshes;
-/// checkInterrupt is called between frames.
-std::vector<BenchFeature> MeasureFeatures(
-  const RenderOptions& view, int frames, bool quick, const std::function<void()>& checkInterrupt);
+/// Measures each feature in three cases: the scene does not use it, the feature is forced, the
+/// scene uses it. view: size and threads. frames: number for each case. quick: with small meshes.
+std::vector<BenchFeature> MeasureFeatures(const SceneOptions& view, int frames, bool quick);
 
 #endif

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-/// What the results depend on, as pairs of a label and a value: the class of the processor, cores,
-/// what renders OpenGL, versions. Nothing that tells one machine of its class from another.
+/// Returns what the results depend on, as pairs of a label and a value: the class of the processor,
+/// cores, OpenGL's renderer, versions. Nothing in it tells which machine of its class this is.
 std::vector<std::pair<std::string, std::string>> DescribeMachine(
   const std::string& openGLRenderer, int numberOfThreads);
 

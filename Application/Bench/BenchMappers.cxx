@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchMappers.h"
 
-#include "Bench/BenchSettings.h"
+#include "Bench/BenchSetting.h"
 #include "Setup/Methods.h"
 #include "vtkTetrahedraRayIntegrator.h"
 #include "vtkTetrahedraVolumeMapper.h"
@@ -17,7 +17,7 @@ namespace
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeOurMapper(
   const BenchSetting& setting, int numberOfThreads)
 {
-  // Threads are set where there are any to set.
+  // Only ray-cast has threads to set.
   const int threads = setting.Method == "ray-cast" ? numberOfThreads : 0;
   return MakeMapper(setting.Method, threads, setting.Assignments);
 }

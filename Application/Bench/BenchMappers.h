@@ -7,12 +7,12 @@
 struct BenchSetting;
 class vtkUnstructuredGridVolumeMapper;
 
-/// A fresh mapper as a setting describes it, without input. One ray for each pixel where the setting
-/// does not say otherwise; numberOfThreads: of our own methods, 0 as many as there are cores.
+/// Makes the mapper of a setting, without input. It casts one ray a pixel unless the setting says
+/// otherwise. numberOfThreads: of ray-cast; 0: one for each core.
 vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeBenchMapper(
   const BenchSetting& setting, int numberOfThreads);
 
-/// Throws UsageError where an assignment is none that the mapper takes.
+/// Throws UsageError if the mapper does not take an assignment.
 void CheckSetting(const BenchSetting& setting);
 
 #endif

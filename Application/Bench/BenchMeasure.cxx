@@ -4,10 +4,11 @@
 #include "Bench/BenchMappers.h"
 #include "Bench/BenchPictures.h"
 #include "Bench/BenchScenes.h"
+#include "Bench/BenchSettings.h"
 #include "CommandLine/CommandErrors.h"
-#include "Commands/Render.h"
-#include "Files/AtomicFolder.h"
+#include "Files/AtomicOutput.h"
 #include "Files/WriteData.h"
+#include "Setup/SceneOptions.h"
 
 #include "vtkImageData.h"
 #include "vtkUnstructuredGridVolumeMapper.h"
@@ -24,10 +25,10 @@ constexpr int ReferenceSize = 256;
 constexpr int PeerSize = 128;
 constexpr int DifferenceSize = 64;
 
-/// Whether a member of the statistics is a size of a table.
+/// Returns whether a member of the statistics is the size of a table.
 bool IsBytes(const std::string& name) { return name == "bytes" || name == "table_bytes"; }
 
-/// The sum of the sizes of all tables, however deep; not a number where there is none.
+/// Returns the sum of the sizes of all tables, at any depth; not a number if there are none.
 double SumBytes(const nlohmann::json& statistics)
 {
   double sum = NoNumber;
@@ -59,7 +60,6 @@ void TimeFrames(const BenchRun& run, BenchView& view, BenchRow& row)
   while (static_cast<int>(seconds.size()) < run.Frames &&
     (seconds.empty() || total < LongestMeasurement))
   {
-    run.Folder.CheckInterrupt();
     seconds.push_back(view.Render());
     total += seconds.back();
   }
@@ -107,8 +107,8 @@ void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasuremen
 
   const vtkSmartPointer<vtkImageData> image = MakeImage(picture);
   row.PictureFile = stem + ".png";
-  WritePng(image, run.Folder.GetPath(row.PictureFile), row.PictureFile);
-  const bool isReference = row.Setting.Name == GetReferenceSetting().Name;
+  WritePng(image, run.Folder.AddFile(row.PictureFile), row.PictureFile);
+  const bool isReference = row.Setting.Name == ReferenceSettingName;
   if (isReference || IsPeer(row.Setting))
   {
     row.PictureUri = MakePngUri(ShrinkToMean(image, isReference ? ReferenceSize : PeerSize));
@@ -118,24 +118,7 @@ void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasuremen
     const vtkSmartPointer<vtkImageData> difference =
       MakeDifferenceImage(picture, reference, row.Amplification);
     row.DifferenceFile = stem + "-difference.png";
-    WritePng(difference, run.Folder.GetPath(row.DifferenceFile), row.DifferenceFile);
+    WritePng(difference, run.Folder.AddFile(row.DifferenceFile), row.DifferenceFile);
     row.DifferenceUri = MakePngUri(ShrinkToMaximum(difference, DifferenceSize));
-  }
-}
-
-void MarkFront(BenchSceneResult& result)
-{
-  const auto isRanked = [](const BenchRow& row)
-  { return row.Failure.empty() && row.Setting.Group != GetReferenceSetting().Group; };
-  for (BenchRow& row : result.Rows)
-  {
-    row.OnFront = isRanked(row) &&
-      std::none_of(result.Rows.begin(), result.Rows.end(),
-        [&](const BenchRow& other)
-        {
-          return isRanked(other) && other.Errors.Maximum <= row.Errors.Maximum &&
-            other.BestSeconds <= row.BestSeconds &&
-            (other.Errors.Maximum < row.Errors.Maximum || other.BestSeconds < row.BestSeconds);
-        });
   }
 }

@@ -5,38 +5,34 @@
 #include "Bench/BenchResults.h"
 #include "Bench/BenchView.h"
 
-class AtomicFolder;
+class AtomicOutput;
 struct BenchScene;
-struct RenderOptions;
+struct SceneOptions;
 
 /// A scene, and how it is measured.
 struct BenchRun
 {
   const BenchScene& Scene;
-  const RenderOptions& View; ///< size, camera, threads
-  int Frames;                ///< at most
-  AtomicFolder& Folder;      ///< for pictures
+  const SceneOptions& View; ///< size, camera, threads
+  int Frames;               ///< at most
+  AtomicOutput& Folder;     ///< for pictures
   vtkHeadlessRenderWindow* Window;
 };
 
-/// A setting's row and, where it did not fail, its picture.
+/// A setting's row and its picture, which is empty if it failed.
 struct BenchMeasurement
 {
   BenchRow Row;
   BenchPicture Picture;
 };
 
-/// Frames are measured until there are enough, or until they took so long, in seconds.
+/// A measurement ends with the frame that brings it to this many seconds.
 constexpr double LongestMeasurement = 15;
 
 /// Renders and times one setting.
 BenchMeasurement Measure(const BenchRun& run, const BenchSetting& setting);
 
-/// Compares a setting's picture with the reference, and writes it and the difference.
+/// Compares a setting's picture with the reference. Writes the picture and the difference.
 void Compare(const BenchRun& run, const BenchPicture& reference, BenchMeasurement& measurement);
-
-/// Marks the rows that no other row is better than in both error and time; the reference and what
-/// failed are not among them.
-void MarkFront(BenchSceneResult& result);
 
 #endif

@@ -14,7 +14,7 @@
 namespace
 {
 
-/// Grey levels of a small difference picture: as many as the eye tells apart, in few bytes.
+/// Grey levels of a small difference picture: few enough to take few bytes.
 constexpr int SmallLevels = 16;
 
 unsigned char ToByte(double value)
@@ -30,7 +30,7 @@ vtkSmartPointer<vtkImageData> MakeImage(const BenchPicture& picture, int compone
   return image;
 }
 
-/// shrinker: chooses what becomes of the pixels that one stands for.
+/// shrinker: takes the mean or the maximum.
 vtkSmartPointer<vtkImageData> Shrink(vtkImageShrink3D* shrinker, vtkImageData* image, int size)
 {
   const int* dimensions = image->GetDimensions();

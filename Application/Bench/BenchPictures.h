@@ -11,25 +11,26 @@
 
 class vtkImageData;
 
-/// Errors of a picture over the pixels that it or the reference covers.
+/// Measures the errors of a picture, over the pixels that it or the reference covers.
 tetralux::ImageErrors MeasureErrors(const BenchPicture& picture, const BenchPicture& reference);
 
-/// A picture over black, 8 bit.
+/// Makes an image of a picture over black, 8 bit.
 vtkSmartPointer<vtkImageData> MakeImage(const BenchPicture& picture);
 
-/// Largest error of each pixel's channels times amplification, as grey; white from 1.
+/// Makes an image of the largest error of each pixel's channels, times amplification: black is 0,
+/// white is 1 or more.
 vtkSmartPointer<vtkImageData> MakeDifferenceImage(
   const BenchPicture& picture, const BenchPicture& reference, double amplification);
 
-/// The largest power of ten, 1 at least, that leaves 99.9 % of the pixels below white.
+/// Returns the largest power of ten, at least 1, that leaves 99.9 % of the pixels below white.
 double ChooseAmplification(const tetralux::ImageErrors& errors);
 
-/// An image of at most size pixels along each edge: each pixel is the mean, or of a difference the
-/// maximum, so that nothing is lost, of the pixels that it stands for.
+/// Shrinks an image to at most size pixels along each edge. Each pixel is the mean or the maximum
+/// of the pixels that it stands for; the maximum loses no error of a difference image.
 vtkSmartPointer<vtkImageData> ShrinkToMean(vtkImageData* image, int size);
 vtkSmartPointer<vtkImageData> ShrinkToMaximum(vtkImageData* image, int size);
 
-/// "data:image/png;base64,..."
+/// Returns an image as "data:image/png;base64,...".
 std::string MakePngUri(vtkImageData* image);
 
 #endif

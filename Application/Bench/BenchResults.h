@@ -2,41 +2,39 @@
 #ifndef BenchResults_h
 #define BenchResults_h
 
-#include "Bench/BenchSettings.h"
+#include "Bench/BenchSetting.h"
 #include "ImageComparison.h"
 
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
-/// Stands for a number that there is not.
+/// Stands for a missing number.
 constexpr double NoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// What one setting did in one scene.
 struct BenchRow
 {
   BenchSetting Setting;
-  std::string Failure; ///< one line; empty where it worked, else nothing of the rest is set
+  std::string Failure; ///< one line; if it is not empty, nothing below is set
 
   tetralux::ImageErrors Errors;    ///< over the pixels that either picture covers
   bool EightBit = false;           ///< the picture came from the frame buffer
-  double ErrorEstimate = NoNumber; ///< what the mapper says its largest error is
+  double ErrorEstimate = NoNumber; ///< the mapper's own estimate of its largest error
 
   double BestSeconds = NoNumber; ///< of the frames after the first
   double MedianSeconds = NoNumber;
   int Frames = 0;
   double PrepareSeconds = NoNumber; ///< the first frame, less the median of the others
-  double Bytes = NoNumber;          ///< of the mapper's tables, where it tells
+  double Bytes = NoNumber;          ///< of the mapper's tables, if it tells
 
-  /// No other setting has both a smaller error and a shorter time.
-  bool OnFront = false;
+  bool OnFront = false; ///< see MarkFront
 
   double Amplification = 1;   ///< of the difference picture, a power of ten
   std::string PictureFile;    ///< in the output folder
-  std::string DifferenceFile; ///< in the output folder
-  std::string PictureUri;     ///< a small one, for the page; empty where it has none
-  std::string DifferenceUri;
+  std::string DifferenceFile; ///< in the output folder; empty for the reference
+  std::string PictureUri;     ///< a small picture for the page; empty if the page does not show it
+  std::string DifferenceUri;  ///< likewise
 };
 
 /// What all settings did in one scene, the reference first.
@@ -47,21 +45,6 @@ struct BenchSceneResult
   int Width = 0;
   int Height = 0;
   std::vector<BenchRow> Rows;
-  std::string ChartFile; ///< in the output folder
-  std::string ChartUri;
 };
-
-/// The row of a setting, nullptr where there is none or where it failed.
-inline const BenchRow* FindRow(const BenchSceneResult& result, const std::string& setting)
-{
-  for (const BenchRow& row : result.Rows)
-  {
-    if (row.Setting.Name == setting && row.Failure.empty())
-    {
-      return &row;
-    }
-  }
-  return nullptr;
-}
 
 #endif

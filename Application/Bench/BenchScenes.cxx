@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchScenes.h"
 
-#include "Bench/Bench.h"
+#include "Bench/BenchOptions.h"
 #include "Bench/BenchTransferFunctions.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/OptionValues.h"
@@ -31,7 +31,7 @@ namespace
 
 constexpr const char* ScalarName = "Scalar";
 
-/// Tetrahedra of a quick run's balls: 2.5 times the cube.
+/// Cells along an edge of a quick run's balls.
 constexpr int QuickCells = 8;
 
 double GetDiagonal(vtkUnstructuredGrid* mesh)
@@ -39,7 +39,7 @@ double GetDiagonal(vtkUnstructuredGrid* mesh)
   return vtkBoundingBox(mesh->GetBounds()).GetDiagonalLength();
 }
 
-/// Range of the scene's scalars.
+/// Returns the range of the scene's scalars.
 std::array<double, 2> GetRange(const BenchScene& scene)
 {
   std::array<double, 2> range;
@@ -50,8 +50,8 @@ std::array<double, 2> GetRange(const BenchScene& scene)
   return range;
 }
 
-/// The tetrahedra of any data, with nothing but the chosen scalars, which become one component: not
-/// every method could choose by itself.
+/// Sets the tetrahedra of any data as the mesh. It keeps only the chosen scalars, as an array of
+/// one component, since not every method can choose an array or a component.
 void SetMesh(
   BenchScene& scene, vtkDataObject* data, const std::string& array, const std::string& component)
 {
@@ -106,7 +106,7 @@ void SetTransferFunction(BenchScene& scene, const std::string& name)
     GetRange(scene).data(), DefaultUnitDistanceFraction * GetDiagonal(scene.Mesh));
 }
 
-/// Each cell gets the mean of its points.
+/// Replaces the scalars of points by scalars of cells: each cell gets the mean of its points.
 void MakeCellData(BenchScene& scene)
 {
   vtkDataArray* values = scene.Mesh->GetPointData()->GetScalars();
@@ -183,7 +183,7 @@ BenchSceneMaker MakeFileMaker(const std::string& name, const std::string& title,
     } };
 }
 
-BenchSceneMaker MakeUserMaker(const RenderOptions& options)
+BenchSceneMaker MakeUserMaker(const SceneOptions& options)
 {
   const std::string name = std::filesystem::path(options.Input).stem().string();
   return { name,

@@ -13,7 +13,7 @@ struct BenchOptions;
 class vtkUnstructuredGrid;
 class vtkVolumeProperty;
 
-/// What is rendered: the same tetrahedra, with the same scalars, by every method.
+/// What is rendered. Every method gets the same tetrahedra with the same scalars.
 struct BenchScene
 {
   std::string Name;        ///< of files and of --scene, as "blunt-fin-needle"
@@ -25,23 +25,23 @@ struct BenchScene
   vtkSmartPointer<vtkVolumeProperty> Property;
 };
 
-/// A scene that is made when it is its turn: meshes and their tables are large.
+/// Makes a scene in its turn: meshes and their tables are too large to be kept all at once.
 struct BenchSceneMaker
 {
   std::string Name;
   std::function<BenchScene()> Make;
 };
 
-/// The scenes of a run: that of the user's file; else those of the real data, where its folder is
-/// known, and the generated ones; small ones for a quick run. Throws UsageError for a name that is
-/// none of theirs.
+/// Lists the scenes of a run: that of the user's file, if there is one; small ones for a quick run;
+/// else those of the real data, if its folder is known, and the generated ones. Throws UsageError
+/// if an option names another scene.
 std::vector<BenchSceneMaker> ListScenes(const BenchOptions& options);
 
-/// A ball, or with cellData one of which each cell has a scalar, of 2.5 cells^3 tetrahedra, for
-/// comparisons that need a mesh of no particular kind. It is convex but for its facets.
+/// Makes a ball of 2.5 cells^3 tetrahedra, for comparisons that need no particular mesh. Its
+/// scalars are those of the cells if cellData is set, else those of the points.
 BenchScene MakeBallScene(int cells, bool cellData);
 
-/// A generated mesh by its name and parameters.
+/// Makes a scene of a generated mesh, by its name and parameters.
 BenchScene MakeGeneratedScene(
   const std::string& generator, const std::map<std::string, double>& parameters);
 

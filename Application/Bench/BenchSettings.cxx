@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchSettings.h"
 
-#include "Bench/Bench.h"
 #include "Bench/BenchMappers.h"
+#include "Bench/BenchOptions.h"
 #include "CommandLine/CommandErrors.h"
 
 #include <algorithm>
@@ -41,9 +41,10 @@ Assignments MakeTable(int scalars, int lengths, const Assignments& others)
 
 void AddErrorDial(std::vector<BenchSetting>& settings)
 {
+  const std::string group = "error asked for";
   for (const char* error : { "1e-2", "1e-3", "1e-4", "1e-5", "1e-6" })
   {
-    settings.push_back({ std::string("error-") + error, ErrorDialGroup,
+    settings.push_back({ std::string("error-") + error, group,
       std::string("MaximumError ") + error + ", all else automatic", "ray-cast",
       { std::string("MaximumError=") + error } });
   }
@@ -235,7 +236,7 @@ BenchSetting ReadSetting(const std::string& text)
 
 BenchSetting GetReferenceSetting()
 {
-  return { "reference", "reference", "closed form, double precision, rays to their ends",
+  return { ReferenceSettingName, "reference", "closed form, double precision, rays to their ends",
     "ray-cast", { ClosedForm, DoublePrecision, ToTheEnd } };
 }
 
@@ -260,13 +261,4 @@ std::vector<BenchSetting> ListSettings(const BenchOptions& options)
   }
   AddPeers(settings);
   return settings;
-}
-
-bool IsPeer(const BenchSetting& setting) { return setting.Method.rfind("vtk-", 0) == 0; }
-
-bool HasFloatPicture(const BenchSetting& setting)
-{
-  const bool coarse = std::any_of(setting.Assignments.begin(), setting.Assignments.end(),
-    [](const std::string& text) { return text.rfind("ImageSampleDistance=", 0) == 0; });
-  return !IsPeer(setting) && !coarse;
 }

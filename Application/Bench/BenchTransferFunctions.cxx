@@ -22,10 +22,10 @@ struct Node
 /// Half of the needle's width, as a part of the range: a quarter of a texel of 256 scalars.
 constexpr double NeedleHalfWidth = 0.25 / 256;
 
-/// Width of a step, as a part of the range: VTK's integrators know no steps but steep ramps.
+/// Width of a step, as a part of the range. VTK's integrators have no steps, only steep ramps.
 constexpr double StepWidth = 1e-6;
 
-/// How much shorter the unit distance is where surfaces are to be opaque.
+/// How much shorter the unit distance is if surfaces are to be opaque.
 constexpr double OpaqueDensity = 200;
 
 vtkSmartPointer<vtkVolumeProperty> MakeProperty(

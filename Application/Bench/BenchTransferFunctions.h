@@ -9,7 +9,7 @@
 
 class vtkVolumeProperty;
 
-/// A kind of transfer function, over whatever range of scalars.
+/// A kind of transfer function, which can be made for any range of scalars.
 struct BenchTransferFunction
 {
   std::string Name;
@@ -19,10 +19,11 @@ struct BenchTransferFunction
   vtkSmartPointer<vtkVolumeProperty> (*Make)(const double range[2], double unitDistance);
 };
 
-/// Smooth; a needle peak, narrower than a texel of a table of 256 scalars; steps; opaque surfaces.
+/// Returns all kinds: smooth, needle (a peak narrower than a texel of a table of 256 scalars),
+/// steps, opaque (surfaces).
 const std::vector<BenchTransferFunction>& GetBenchTransferFunctions();
 
-/// One of them by its name, which must exist.
+/// Returns the kind of a name, which must exist.
 const BenchTransferFunction& GetBenchTransferFunction(const std::string& name);
 
 #endif

@@ -4,8 +4,8 @@
 #include "Bench/BenchScenes.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/MessageCapture.h"
-#include "Commands/Render.h"
 #include "Setup/SceneCamera.h"
+#include "Setup/SceneOptions.h"
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraVolumeMapper.h"
 
@@ -42,7 +42,7 @@ BenchPicture MakePicture(vtkImageData* image, double scale)
 
 } // namespace
 
-vtkSmartPointer<vtkHeadlessRenderWindow> MakeBenchWindow(const RenderOptions& view)
+vtkSmartPointer<vtkHeadlessRenderWindow> MakeBenchWindow(const SceneOptions& view)
 {
   auto window = vtkSmartPointer<vtkHeadlessRenderWindow>::New();
   window->SetSize(view.Width, view.Height);
@@ -67,7 +67,7 @@ std::string GetOpenGLRenderer(vtkHeadlessRenderWindow* window)
 }
 
 BenchView::BenchView(vtkHeadlessRenderWindow* window, const BenchScene& scene,
-  vtkSmartPointer<vtkUnstructuredGridVolumeMapper> mapper, const RenderOptions& view)
+  vtkSmartPointer<vtkUnstructuredGridVolumeMapper> mapper, const SceneOptions& view)
   : Mapper(std::move(mapper))
   , Window(window)
 {

@@ -10,13 +10,13 @@
 #include <vector>
 
 struct BenchScene;
-struct RenderOptions;
+struct SceneOptions;
 class vtkHeadlessRenderWindow;
 class vtkRenderer;
 class vtkVolume;
 
-/// A picture as floating point numbers: four channels for each pixel, premultiplied, over nothing,
-/// lower row first.
+/// A picture as floating point numbers: red, green, blue and opacity of each pixel, premultiplied,
+/// without background, lowest row first.
 struct BenchPicture
 {
   int Width = 0;
@@ -24,37 +24,37 @@ struct BenchPicture
   std::vector<float> Rgba;
 };
 
-/// A window as every method gets it: without multisampling, since there is no geometry to smooth and
-/// it costs all of them. view: its size.
-vtkSmartPointer<vtkHeadlessRenderWindow> MakeBenchWindow(const RenderOptions& view);
+/// Makes the window that every method renders to. It has no multisampling, which would smooth
+/// nothing and cost every method time. view: the size.
+vtkSmartPointer<vtkHeadlessRenderWindow> MakeBenchWindow(const SceneOptions& view);
 
-/// OpenGL's name of what renders in a window.
+/// Returns OpenGL's name of what renders in a window.
 std::string GetOpenGLRenderer(vtkHeadlessRenderWindow* window);
 
-/// Shows one scene through one mapper, alone in its window as long as it lives, and tells how long
-/// frames take.
+/// Shows one scene through one mapper and measures how long frames take. While it lives, nothing
+/// else may be shown in its window.
 class BenchView
 {
 public:
-  /// view: the camera. The window is ready, with a frame that shows nothing behind it.
+  /// view: the camera. Renders an empty frame, so that the window is ready.
   BenchView(vtkHeadlessRenderWindow* window, const BenchScene& scene,
-    vtkSmartPointer<vtkUnstructuredGridVolumeMapper> mapper, const RenderOptions& view);
+    vtkSmartPointer<vtkUnstructuredGridVolumeMapper> mapper, const SceneOptions& view);
   ~BenchView();
   BenchView(const BenchView&) = delete;
   BenchView& operator=(const BenchView&) = delete;
 
-  /// Seconds that a frame takes, until the last pixel of it is there. The camera counts as moved, so
-  /// that nothing is shown again that was computed for the frame before. Throws WorkError with what
-  /// VTK has to say where the frame fails.
+  /// Renders a frame and returns the seconds until its last pixel is there. The camera counts as
+  /// moved, so that nothing of the frame before is used again. Throws WorkError with VTK's error if
+  /// the frame fails.
   double Render();
 
-  /// What the window shows, in 8 bit over black.
+  /// Returns what the window shows, in 8 bit over black.
   BenchPicture CaptureWindow() const;
 
-  /// What the mapper cast; it must be ours, with one ray for each pixel.
+  /// Returns the mapper's own picture. It must be a mapper of this project, with one ray a pixel.
   BenchPicture GetFloatPicture() const;
 
-  /// As JSON, of ours; "{}" of others.
+  /// Returns the statistics of a mapper of this project as JSON, "{}" of others.
   std::string GetStatistics() const;
 
   vtkRenderer* GetRenderer() const { return this->Renderer; }

@@ -76,7 +76,7 @@ MessageCapture::MessageCapture()
   : Previous(vtkOutputWindow::GetInstance())
   , Current(Window::New())
 {
-  // VTK's logger prints every message as well, past the output window.
+  // VTK's logger prints every message too, without the output window.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   this->Previous->Register(nullptr);
   vtkOutputWindow::SetInstance(this->Current);

@@ -6,8 +6,8 @@
 
 #include <string>
 
-/// Keeps what VTK would print while it lives, so that the tool can say it in lines of its own.
-/// Captures do not nest.
+/// Keeps VTK's messages from being printed while it lives, so that the tool can print them as lines
+/// of its own. Captures do not nest.
 class MessageCapture
 {
 public:
@@ -16,7 +16,8 @@ public:
   MessageCapture(const MessageCapture&) = delete;
   MessageCapture& operator=(const MessageCapture&) = delete;
 
-  /// The first error since the construction, as one line without VTK's decoration; empty: none.
+  /// Returns the first error since the construction, as one line without VTK's decoration; empty:
+  /// no error.
   std::string GetError() const;
 
   /// Prints each different warning since the construction as one line on standard error.

@@ -13,7 +13,7 @@
 namespace
 {
 
-/// Reads all of a text as a number, whatever the locale.
+/// Reads all of a text as a number, in any locale the same.
 template <class NumberT>
 bool ReadNumber(const std::string& text, NumberT& value)
 {

@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
-/// Reading of option values. Each function throws UsageError, which names the option, repeats the
-/// text and says what would be right. The whole text must be read; numbers must be finite.
+/// Each function reads the value of an option. It throws UsageError if the text has anything else
+/// in it, or a number that is not finite. The error names the option, repeats the text and says
+/// what would be right.
 ///@{
 double ParseNumber(const std::string& option, const std::string& text);
 
@@ -28,13 +29,13 @@ std::pair<std::string, std::string> ParseAssignment(
   const std::string& option, const std::string& text);
 ///@}
 
-/// Extension of a file name in small letters with its dot, as ".vtu"; empty where it has none.
+/// Returns the extension of a file name in small letters with its dot, as ".vtu"; empty: none.
 std::string GetExtension(const std::string& fileName);
 
-/// A number in as few digits as tell it apart, at most six.
+/// Formats a number with at most six digits, without zeros at its end.
 std::string FormatNumber(double value);
 
-/// "a, b and c"
+/// Returns "a, b and c".
 std::string JoinNames(const std::vector<std::string>& names);
 
 #endif

@@ -12,7 +12,7 @@
 namespace
 {
 
-/// Work that is done sooner shows no fraction.
+/// Work that takes less time shows no fraction.
 constexpr std::chrono::milliseconds Patience(500);
 
 } // namespace

@@ -9,8 +9,8 @@
 
 class vtkObject;
 
-/// One line on standard error that says what is being done and how far it is, for work that takes
-/// long; nothing where standard error is not a terminal. The line is gone when the object is.
+/// One line on standard error that tells what the tool does and how far it is, for work that takes
+/// long. It is shown only if standard error is a terminal, and erased with the object.
 class ProgressLine
 {
 public:
@@ -22,11 +22,11 @@ public:
   /// fraction: 0..1. Work that is done within half a second shows no line.
   void Show(double fraction);
 
-  /// For work that can't say how far it is: shows the label at once.
+  /// Shows the label at once, for work that can't tell how far it is.
   void ShowLabel();
 
-  /// Shows the fraction that an object hands to its observers of an event, as ProgressEvent, while
-  /// this object lives. The object must outlive this one.
+  /// Shows the fraction that comes with an event of an object, such as ProgressEvent. The object
+  /// must outlive this one.
   void Observe(vtkObject* object, unsigned long event);
 
 private:

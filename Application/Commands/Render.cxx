@@ -5,10 +5,10 @@
 #include "CommandLine/MessageCapture.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
-#include "Files/AtomicFile.h"
+#include "Commands/PictureFile.h"
+#include "Files/AtomicOutput.h"
 #include "Files/ReadMesh.h"
 #include "Files/TransferFunctionFile.h"
-#include "Files/WriteData.h"
 #include "Setup/Arrays.h"
 #include "Setup/MapperProperties.h"
 #include "Setup/Methods.h"
@@ -16,6 +16,7 @@
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraVolumeMapper.h"
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
 #include "vtkContourValues.h"
@@ -28,20 +29,18 @@
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
-#include "vtkWindowToImageFilter.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iostream>
-#include <memory>
+#include <optional>
 
 namespace
 {
 
-/// Everything of the command line that can be wrong by itself.
+/// Throws UsageError for what is wrong whatever the input is.
 void CheckOptions(const RenderOptions& options)
 {
   const std::string extension = GetExtension(options.Output);
@@ -53,14 +52,14 @@ void CheckOptions(const RenderOptions& options)
   {
     throw UsageError("--stats: '" + options.StatisticsFile + "' must end in .json");
   }
-  CheckCamera(options);
+  CheckCamera(options.Scene);
 }
 
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
   const std::string& method, const RenderOptions& options)
 {
   vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper =
-    MakeMapper(method, options.NumberOfThreads, options.Settings);
+    MakeMapper(method, options.Scene.NumberOfThreads, options.Settings);
   if (options.MaximumError)
   {
     mapper->SetMaximumError(*options.MaximumError);
@@ -83,10 +82,10 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
 
 MethodChoice ChooseMethodFor(const RenderOptions& options, vtkRenderWindow* window)
 {
-  // The window may fail to make its context.
+  // The window may fail to make an OpenGL context.
   const MessageCapture messages;
-  const MethodChoice choice =
-    ChooseMethod(options.Method, window, options.NumberOfThreads, options.Settings);
+  MethodChoice choice =
+    ChooseMethod(options.Method, window, options.Scene.NumberOfThreads, options.Settings);
   if (!messages.GetError().empty())
   {
     throw WorkError(messages.GetError());
@@ -94,14 +93,76 @@ MethodChoice ChooseMethodFor(const RenderOptions& options, vtkRenderWindow* wind
   return choice;
 }
 
-void SelectScalars(const ArrayChoice& choice, vtkTetrahedraVolumeMapper* mapper)
+/// What is rendered: the data, the scalars that are shown, their colour and opacity.
+struct RenderInput
 {
-  mapper->SetScalarMode(choice.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
-                                              : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
-  mapper->SelectScalarArray(choice.Array.Name.c_str());
-  mapper->SetVectorMode(choice.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE_MODE
-                                         : vtkTetrahedraVolumeMapper::COMPONENT_MODE);
-  mapper->SetVectorComponent(choice.Component);
+  vtkSmartPointer<vtkDataObject> Data;
+  ArrayChoice Scalars;
+  ColorAndOpacity Functions;
+};
+
+RenderInput ReadInput(const SceneOptions& options)
+{
+  RenderInput input;
+  if (!options.TransferFile.empty())
+  {
+    ReadTransferFunction(options.TransferFile, input.Functions);
+  }
+  input.Data = ReadMesh(options.Input, options.Plot3dSolution);
+  input.Scalars = ChooseArray(input.Data, options.Array, options.Component);
+  if (options.TransferFile.empty())
+  {
+    MakeDefaultTransferFunction(input.Scalars.Range.data(), input.Functions);
+  }
+  return input;
+}
+
+void SetInput(const RenderInput& input, vtkTetrahedraVolumeMapper* mapper)
+{
+  const ArrayChoice& scalars = input.Scalars;
+  mapper->SetScalarMode(scalars.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
+                                               : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
+  mapper->SelectScalarArray(scalars.Array.Name.c_str());
+  mapper->SetVectorMode(scalars.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE_MODE
+                                          : vtkTetrahedraVolumeMapper::COMPONENT_MODE);
+  mapper->SetVectorComponent(scalars.Component);
+  mapper->SetInputData(input.Data.GetPointer());
+}
+
+vtkSmartPointer<vtkVolumeProperty> MakeProperty(
+  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6])
+{
+  auto property = vtkSmartPointer<vtkVolumeProperty>::New();
+  property->SetColor(functions.Color);
+  property->SetScalarOpacity(functions.Opacity);
+  property->SetScalarOpacityUnitDistance(options.Scene.OpacityUnitDistance.value_or(
+    DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
+  for (std::size_t i = 0; i < options.Isovalues.size(); ++i)
+  {
+    property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
+  }
+  // Without light, surfaces show no shape.
+  property->SetShade(options.Shade || !options.Isovalues.empty());
+  return property;
+}
+
+/// Shows a volume in a window, from the camera of the options.
+void ShowVolume(const RenderOptions& options, const RenderInput& input, vtkVolume* volume,
+  vtkRenderWindow* window)
+{
+  double bounds[6];
+  volume->GetMapper()->GetBounds(bounds);
+  if (!vtkBoundingBox(bounds).IsValid())
+  {
+    throw WorkError("'" + options.Scene.Input + "': it has no points");
+  }
+  volume->SetProperty(MakeProperty(options, input.Functions, bounds));
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(options.Background.data());
+  renderer->AddVolume(volume);
+  renderer->GetCullers()->RemoveAllItems(); // a volume out of sight gives an empty picture
+  window->AddRenderer(renderer);
+  PlaceCamera(options.Scene, bounds, renderer);
 }
 
 bool IsEmpty(vtkImageData* image)
@@ -115,7 +176,7 @@ bool IsEmpty(vtkImageData* image)
   return std::all_of(pixels.begin(), pixels.end(), [](double depth) { return depth == -1; });
 }
 
-/// A picture of nothing, because there is nothing that can be rendered, is a failure.
+/// Throws WorkError if the input has no cell that can be rendered.
 void CheckRendered(const std::string& input, const nlohmann::ordered_json& statistics)
 {
   if (statistics.at("tables").at("tetrahedra") == 0)
@@ -144,7 +205,7 @@ void PrintStatistics(const nlohmann::ordered_json& value, const std::string& ind
   }
 }
 
-void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicFile& file)
+void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutput& file)
 {
   std::ofstream stream(file.GetTemporaryName());
   stream << statistics.dump(2) << "\n";
@@ -155,72 +216,8 @@ void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicFile&
   }
 }
 
-/// The picture over the background, rounded to 8 bit once. The frame buffer of a window has 8 bit
-/// already before its background is added.
-vtkSmartPointer<vtkImageData> PutOverBackground(
-  vtkImageData* image, const RenderOptions::Vector& background)
-{
-  auto result = vtkSmartPointer<vtkImageData>::New();
-  result->SetDimensions(image->GetDimensions());
-  result->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const auto colors = vtk::DataArrayTupleRange<4>(image->GetPointData()->GetArray("RGBA"));
-  auto pixels = vtk::DataArrayTupleRange<3>(result->GetPointData()->GetScalars());
-  for (vtkIdType i = 0; i < colors.size(); ++i)
-  {
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      const double value = colors[i][channel] + (1 - colors[i][3]) * background[channel];
-      pixels[i][channel] = std::lround(255 * std::clamp(value, 0.0, 1.0));
-    }
-  }
-  return result;
-}
-
-/// The picture as the window shows it.
-vtkSmartPointer<vtkImageData> CaptureWindow(vtkRenderWindow* window)
-{
-  vtkNew<vtkWindowToImageFilter> reader;
-  reader->SetInput(window);
-  reader->ShouldRerenderOff();
-  reader->ReadFrontBufferOff();
-  reader->SetInputBufferTypeToRGB();
-  reader->Update();
-  return reader->GetOutput();
-}
-
-void WritePicture(const RenderOptions& options, vtkRenderWindow* window, vtkImageData* image,
-  const AtomicFile& output)
-{
-  if (GetExtension(output.GetName()) == ".vti")
-  {
-    WriteXml(image, output.GetTemporaryName(), output.GetName());
-    return;
-  }
-  const int* dimensions = image->GetDimensions();
-  const bool oneRayPerPixel = dimensions[0] == options.Width && dimensions[1] == options.Height;
-  WritePng(oneRayPerPixel ? PutOverBackground(image, options.Background) : CaptureWindow(window),
-    output.GetTemporaryName(), output.GetName());
-}
-
-vtkSmartPointer<vtkVolumeProperty> MakeProperty(
-  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6])
-{
-  auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  property->SetColor(functions.Color);
-  property->SetScalarOpacity(functions.Opacity);
-  property->SetScalarOpacityUnitDistance(options.OpacityUnitDistance.value_or(
-    DefaultUnitDistanceFraction * vtkBoundingBox(bounds).GetDiagonalLength()));
-  for (std::size_t i = 0; i < options.Isovalues.size(); ++i)
-  {
-    property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
-  }
-  // Flat surfaces have no shape.
-  property->SetShade(options.Shade || !options.Isovalues.empty());
-  return property;
-}
-
-/// Renders the volume of an input once. Returns VTK's first error, empty where there was none; warnings
-/// are printed then.
+/// Renders the volume of an input once. Returns VTK's first error. Without an error, returns an
+/// empty text and prints the warnings.
 std::string Draw(
   const std::string& input, vtkTetrahedraVolumeMapper* mapper, vtkRenderWindow* window)
 {
@@ -237,7 +234,7 @@ std::string Draw(
   return messages.GetError();
 }
 
-/// The statistics, with why this method was chosen where none was asked for.
+/// Returns the statistics, with the reason for the method if --method did not name it.
 nlohmann::ordered_json ReadStatistics(vtkTetrahedraVolumeMapper* mapper, const MethodChoice& method)
 {
   const auto ofMapper = nlohmann::ordered_json::parse(mapper->GetStatistics());
@@ -259,62 +256,36 @@ void RenderPicture(const RenderOptions& options)
 {
   CheckOptions(options);
   vtkNew<vtkHeadlessRenderWindow> window;
-  window->SetSize(options.Width, options.Height);
+  window->SetSize(options.Scene.Width, options.Scene.Height);
   window->SetMultiSamples(0);
   MethodChoice method = ChooseMethodFor(options, window);
   vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeConfiguredMapper(method.Method, options);
 
-  AtomicFile output(options.Output);
-  std::unique_ptr<AtomicFile> statisticsOutput;
+  AtomicOutput output(options.Output);
+  std::optional<AtomicOutput> statisticsOutput;
   if (!options.StatisticsFile.empty())
   {
-    statisticsOutput = std::make_unique<AtomicFile>(options.StatisticsFile);
+    statisticsOutput.emplace(options.StatisticsFile);
   }
-  ColorAndOpacity functions;
-  if (!options.TransferFile.empty())
-  {
-    ReadTransferFunction(options.TransferFile, functions);
-  }
-
-  const vtkSmartPointer<vtkDataObject> data = ReadMesh(options.Input, options.Plot3dSolution);
-  const ArrayChoice choice = ChooseArray(data, options.Array, options.Component);
-  if (options.TransferFile.empty())
-  {
-    MakeDefaultTransferFunction(choice.Range.data(), functions);
-  }
-  SelectScalars(choice, mapper);
-  mapper->SetInputData(data.GetPointer());
-  double bounds[6];
-  mapper->GetBounds(bounds);
-  if (!vtkBoundingBox(bounds).IsValid())
-  {
-    throw WorkError("'" + options.Input + "': it has no points");
-  }
-
+  const RenderInput input = ReadInput(options.Scene);
+  SetInput(input, mapper);
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);
-  volume->SetProperty(MakeProperty(options, functions, bounds));
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(options.Background.data());
-  renderer->AddVolume(volume);
-  renderer->GetCullers()->RemoveAllItems(); // what is out of sight gives a picture, too
-  window->AddRenderer(renderer);
-  PlaceCamera(options, bounds, renderer);
+  ShowVolume(options, input, volume, window);
 
-  std::string error = Draw(options.Input, mapper, window);
+  std::string error = Draw(options.Scene.Input, mapper, window);
   if (!error.empty() && options.Method == "auto" && method.Method != "ray-cast")
   {
-    // No room for the mesh, say: a processor has it.
+    // The graphics card may lack room for the mesh; the processor has it.
     method = { "ray-cast", method.Method + " failed: " + error };
     mapper = MakeConfiguredMapper(method.Method, options);
-    SelectScalars(choice, mapper);
-    mapper->SetInputData(data.GetPointer());
+    SetInput(input, mapper);
     volume->SetMapper(mapper);
-    error = Draw(options.Input, mapper, window);
+    error = Draw(options.Scene.Input, mapper, window);
   }
   if (!error.empty())
   {
-    throw WorkError("'" + options.Input + "': " + error);
+    throw WorkError("'" + options.Scene.Input + "': " + error);
   }
   const nlohmann::ordered_json statistics = ReadStatistics(mapper, method);
   vtkImageData* image = mapper->GetOutputImage();
@@ -324,7 +295,7 @@ void RenderPicture(const RenderOptions& options)
                  "transparent\n";
   }
 
-  WritePicture(options, window, image, output);
+  WritePicture(output, image, window, options.Background);
   if (statisticsOutput)
   {
     WriteStatistics(statistics, *statisticsOutput);

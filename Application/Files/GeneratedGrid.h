@@ -10,7 +10,7 @@ namespace tetralux
 struct GeneratedMesh;
 }
 
-/// A generated mesh as a grid, with its scalars as the active point array "Field".
+/// Makes a grid of a generated mesh. Its scalars are the active point array "Field".
 vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(const tetralux::GeneratedMesh& generated);
 
 #endif

@@ -51,8 +51,8 @@ Reader MakeLegacyReader(const std::string& fileName)
 
 Reader MakeExodusReader(const std::string& fileName)
 {
-  // Exodus files are NetCDF, in its classic form or over HDF5. The library prints many lines of its
-  // own about any other file.
+  // Exodus files are NetCDF, in its classic form or over HDF5. For any other file, the library
+  // prints many lines of its own.
   char magic[4] = {};
   std::ifstream(fileName, std::ios::binary).read(magic, sizeof(magic));
   const std::string begin(magic, sizeof(magic));
@@ -122,7 +122,7 @@ Reader MakePlot3dReader(const std::string& coordinates, const std::string& solut
   {
     CheckReadable(solution);
     reader->SetQFileName(solution.c_str());
-    // Beyond density, stagnation energy and momentum, which are in the file: pressure,
+    // Density, stagnation energy and momentum are in the file. These are computed: pressure,
     // temperature, velocity.
     for (int function : { 110, 120, 200 })
     {

@@ -7,16 +7,15 @@
 
 #include <string>
 
-/// Reads a file that VTK has a reader for, by its extension: see GetInputHelp.
+/// Reads a file. Its extension chooses the reader; see GetInputHelp. Reads all arrays, and of a
+/// time series the first step. Throws WorkError with the file's name.
 ///
-/// A PLOT3D grid is one file with the coordinates and one with the solution. Both may be given as
-/// fileName with a comma between, or the second as plot3dSolution, which else is empty.
-///
-/// All arrays are read; of a time series, the first step. Throws WorkError with the file's name.
+/// A PLOT3D grid is one file with the coordinates and one with the solution. fileName may be both
+/// with a comma between, or plot3dSolution is the second; it is empty for all other files.
 vtkSmartPointer<vtkDataObject> ReadMesh(
   const std::string& fileName, const std::string& plot3dSolution);
 
-/// What can be read, for the help texts.
+/// Lists the extensions and formats that can be read, for the help texts.
 std::string GetInputHelp();
 
 #endif

@@ -18,7 +18,7 @@ namespace
 
 using Json = nlohmann::json;
 
-/// Numbers of a member, four for each node; empty where there is no such member.
+/// Returns the numbers of a member, four for each node; empty if there is no such member.
 std::vector<double> GetNodes(
   const Json& preset, const char* member, const std::string& shape, const std::string& where)
 {
@@ -36,7 +36,7 @@ std::vector<double> GetNodes(
     if (good)
     {
       values.push_back(value.get<double>());
-      // Everything but the scalar is a fraction.
+      // All numbers but the scalar are fractions.
       good = i % 4 == 0 || (values.back() >= 0 && values.back() <= 1);
     }
   }

@@ -15,16 +15,15 @@ struct ColorAndOpacity
   vtkNew<vtkPiecewiseFunction> Opacity;
 };
 
-/// Reads a preset as ParaView writes it: an object with RGBPoints (x, r, g, b, ...), Points
-/// (x, opacity, midpoint, sharpness, ...), ColorSpace, or a list of such objects, of which the first
-/// counts. Nodes are used at their own scalar values. Without Points, opacity rises from 0 to 1 over
-/// the range of RGBPoints; without RGBPoints, the colours are those of MakeDefaultTransferFunction
-/// over the range of Points.
-/// Throws WorkError with the file's name.
+/// Reads a preset of ParaView: an object with RGBPoints (x, r, g, b, ...), Points (x, opacity,
+/// midpoint, sharpness, ...) and ColorSpace. Of a list of such objects, it reads the first. Nodes
+/// keep their scalar values. Without Points, opacity rises from 0 to 1 over the range of RGBPoints.
+/// Without RGBPoints, the colours are those of MakeDefaultTransferFunction over the range of
+/// Points. Throws WorkError with the file's name.
 void ReadTransferFunction(const std::string& fileName, ColorAndOpacity& functions);
 
-/// ParaView's cool to warm over a range of scalars, with an opacity that rises from 0 to 1. A range of
-/// one scalar is widened, so that the scalar gets the middle.
+/// Makes ParaView's cool to warm over a range of scalars, with an opacity that rises from 0 to 1. A
+/// range of one scalar is widened, so that the scalar lies in its middle.
 void MakeDefaultTransferFunction(const double range[2], ColorAndOpacity& functions);
 
 #endif

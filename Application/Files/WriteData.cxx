@@ -45,6 +45,6 @@ void WriteXml(vtkDataSet* data, const std::string& path, const std::string& name
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToLZ4(); // as small as need be, at the speed of the disk
+  writer->SetCompressorTypeToLZ4(); // keeps up with the disk
   Write(writer.Get(), path, name);
 }

@@ -7,13 +7,13 @@
 class vtkDataSet;
 class vtkImageData;
 
-/// Each writes all of a file and throws WorkError where that fails; name is what the error calls the
-/// file.
+/// Each function writes a file, or throws WorkError. path: where to write. name: what the error
+/// calls the file.
 ///@{
-/// An image of 8-bit scalars as PNG.
+/// Writes an image of 8-bit scalars as PNG.
 void WritePng(vtkImageData* image, const std::string& path, const std::string& name);
 
-/// Any data set in VTK's XML format of its kind (.vti, .vtu), appended and binary.
+/// Writes a data set in VTK's XML format of its kind (.vti, .vtu), appended and binary.
 void WriteXml(vtkDataSet* data, const std::string& path, const std::string& name);
 ///@}
 

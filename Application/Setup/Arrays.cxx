@@ -129,20 +129,6 @@ std::vector<ArraySummary> ListArrays(vtkDataObject* data)
   return summaries;
 }
 
-std::string ArrayChoice::Describe() const
-{
-  std::string text = this->Array.Name + (this->Array.CellData ? " (cell" : " (point");
-  if (this->Magnitude)
-  {
-    text += ", magnitude";
-  }
-  else if (this->Array.Components > 1)
-  {
-    text += ", component " + std::to_string(this->Component);
-  }
-  return text + ")";
-}
-
 ArrayChoice ChooseArray(vtkDataObject* data, const std::string& name, const std::string& component)
 {
   const std::vector<ArraySummary> arrays = ListArrays(data);

@@ -10,7 +10,7 @@
 
 class vtkDataObject;
 
-/// A point or cell array of a data set, or of all blocks of a composite that have it.
+/// A point or cell array of a data set, or of all blocks of a composite data set that have it.
 struct ArraySummary
 {
   std::string Name;
@@ -20,33 +20,30 @@ struct ArraySummary
   bool Active = false; ///< the active scalars
   vtkIdType Values = 0;
 
-  /// Range of the finite values of each component; minimum above maximum where there is none.
+  /// Range of the finite values of each component; minimum above maximum: no finite value.
   std::vector<std::array<double, 2>> Ranges;
   std::array<double, 2> MagnitudeRange = { 1, -1 };
 
   vtkIdType NonFiniteValues = 0;
 };
 
-/// The numeric arrays of all blocks, point arrays first, in the order in which they are met. Arrays
-/// without a name and marks of ghosts are not among them.
+/// Lists the numeric arrays of all blocks, point arrays first. Skips arrays without a name and
+/// marks of ghosts.
 std::vector<ArraySummary> ListArrays(vtkDataObject* data);
 
-/// What is coloured by.
+/// The scalars that colours are for.
 struct ArrayChoice
 {
   ArraySummary Array;
   bool Magnitude = false;
   int Component = 0;
   std::array<double, 2> Range; ///< of the finite values chosen
-
-  /// "Temp (point)", "V (point, magnitude)"
-  std::string Describe() const;
 };
 
-/// Chooses by the options --array and --component. Where name is empty: the active scalars, else the
-/// first array of floating point numbers, else the first one; point arrays before cell arrays. Where
-/// component is empty: the only one, else the magnitude. A name that is both is the point array's.
-/// Throws WorkError, which names the arrays there are.
+/// Chooses by the options --array and --component. If name is empty, it takes the active scalars,
+/// else the first array of floating point numbers, else the first array; point arrays come before
+/// cell arrays. If component is empty, it takes the only one, else the magnitude. Throws WorkError
+/// that lists the arrays.
 ArrayChoice ChooseArray(vtkDataObject* data, const std::string& name, const std::string& component);
 
 #endif

@@ -10,27 +10,27 @@
 class vtkRenderWindow;
 class vtkTetrahedraVolumeMapper;
 
-/// Names that --method takes, "auto" first.
+/// Returns the names that --method takes, "auto" first.
 std::vector<std::string> GetMethodNames();
 
 /// What --set can set: for each property of each method its values, default and meaning.
 std::string DescribeProperties();
 
-/// The mapper of a method other than "auto", for still pictures: one ray a pixel unless something
-/// else is set. numberOfThreads: 0 for as many as there are. settings: as SetProperty takes them.
-/// Throws UsageError where there is no such method, where it has no threads to be set, and what
-/// SetProperty throws.
+/// Makes the mapper of a method other than "auto", for still pictures: it casts one ray a pixel
+/// unless settings say otherwise. numberOfThreads: 0 for one on each core. settings: as SetProperty
+/// takes them. Throws UsageError if there is no such method, if its threads can't be set, or if a
+/// setting is wrong.
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
   const std::string& method, int numberOfThreads, const std::vector<std::string>& settings = {});
 
 struct MethodChoice
 {
   std::string Method; ///< other than "auto"
-  std::string Reason; ///< one line; empty where it was asked for
+  std::string Reason; ///< one line; empty if --method named the method
 };
 
-/// The best method for what a window draws with, for "auto": gpu-ray-cast on a graphics card, else
-/// ray-cast, and ray-cast where a property is set that only it has.
+/// Chooses a method if --method is "auto": gpu-ray-cast if the window draws on a graphics card,
+/// else ray-cast. A setting that only ray-cast has also chooses ray-cast.
 MethodChoice ChooseMethod(const std::string& method, vtkRenderWindow* window, int numberOfThreads,
   const std::vector<std::string>& settings);
 

@@ -2,7 +2,7 @@
 #include "Setup/SceneCamera.h"
 
 #include "CommandLine/CommandErrors.h"
-#include "Commands/Render.h"
+#include "Setup/SceneOptions.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
@@ -18,13 +18,13 @@ namespace
 constexpr double DefaultAzimuth = 30;   // degrees
 constexpr double DefaultElevation = 20; // degrees
 
-/// Sine of the angle between view and up below which up does not tell the picture's vertical.
+/// Sine of the angle between view and up below which they count as parallel.
 constexpr double SmallestUpSine = 1e-6;
 
-/// Distance of the near plane, as a fraction of the bounds' radius, from a camera inside.
+/// Distance of the near plane from a camera inside the bounds, as a fraction of their radius.
 constexpr double NearFraction = 1e-6;
 
-/// Part of the bounds' radius that the clipping range leaves free, against rounding.
+/// Margin of the clipping range against rounding, as a fraction of the bounds' radius.
 constexpr double RangeMargin = 0.01;
 
 bool IsAlong(const double direction[3], const double up[3])
@@ -34,13 +34,12 @@ bool IsAlong(const double direction[3], const double up[3])
   return vtkMath::Norm(cross) <= SmallestUpSine * vtkMath::Norm(direction) * vtkMath::Norm(up);
 }
 
-/// Part of the picture that a default view leaves free on either side.
+/// Fraction of the picture that a default view leaves free on either side.
 constexpr double PictureMargin = 0.05;
 
-/// How far behind its focal point the camera must be, in the direction that it has, to see all
-/// corners of a box.
-double GetFittingDistance(
-  vtkCamera* camera, const vtkBoundingBox& box, const RenderOptions& options)
+/// Returns the distance from the focal point at which the camera sees all corners of a box. Its
+/// direction is kept.
+double GetFittingDistance(vtkCamera* camera, const vtkBoundingBox& box, const SceneOptions& options)
 {
   const double halfAngle = vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle());
   const double tangentY = (1 - PictureMargin) * std::tan(halfAngle);
@@ -67,7 +66,7 @@ double GetFittingDistance(
 
 } // namespace
 
-void CheckCamera(const RenderOptions& options)
+void CheckCamera(const SceneOptions& options)
 {
   if (options.CameraViewAngle && options.CameraParallelScale)
   {
@@ -84,7 +83,7 @@ void CheckCamera(const RenderOptions& options)
   }
 }
 
-void PlaceCamera(const RenderOptions& options, const double bounds[6], vtkRenderer* renderer)
+void PlaceCamera(const SceneOptions& options, const double bounds[6], vtkRenderer* renderer)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   const vtkBoundingBox box(bounds);
@@ -92,8 +91,8 @@ void PlaceCamera(const RenderOptions& options, const double bounds[6], vtkRender
   box.GetCenter(center);
   const double radius = 0.5 * box.GetDiagonalLength();
 
-  const RenderOptions::Vector focalPoint =
-    options.CameraFocalPoint.value_or(RenderOptions::Vector{ center[0], center[1], center[2] });
+  const SceneOptions::Vector focalPoint =
+    options.CameraFocalPoint.value_or(SceneOptions::Vector{ center[0], center[1], center[2] });
   camera->SetFocalPoint(focalPoint.data());
   if (options.CameraViewAngle)
   {

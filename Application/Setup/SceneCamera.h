@@ -2,16 +2,17 @@
 #ifndef SceneCamera_h
 #define SceneCamera_h
 
-struct RenderOptions;
+struct SceneOptions;
 class vtkRenderer;
 
-/// Throws UsageError where the camera that the options describe by themselves can't be.
-void CheckCamera(const RenderOptions& options);
+/// Throws UsageError if the options contradict each other, whatever the data.
+void CheckCamera(const SceneOptions& options);
 
-/// Places a renderer's camera as the options say. What they leave open: the focal point is the
-/// middle of the bounds, up is y (z where the view is along y), and the position is so far away that
-/// all of the bounds is seen, turned by 30 degrees about up and raised by 20. Everything between the
-/// camera and the far end of the bounds is inside the clipping range.
-void PlaceCamera(const RenderOptions& options, const double bounds[6], vtkRenderer* renderer);
+/// Places a renderer's camera as the options say. By default, the focal point is the middle of the
+/// bounds, and up is y, or z for a view along y. The default position is turned by 30 degrees about
+/// up and raised by 20, at the distance at which all of the bounds is seen. The clipping range
+/// reaches from the camera to the far end of the bounds. Throws WorkError if the data leave the
+/// camera without a direction.
+void PlaceCamera(const SceneOptions& options, const double bounds[6], vtkRenderer* renderer);
 
 #endif

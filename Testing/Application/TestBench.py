@@ -7,9 +7,10 @@ import csv
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
-import xml.etree.ElementTree
+import unittest
 
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -20,27 +21,54 @@ from tool import ToolTest
 PEERS = [
     "vtk-projected-tetrahedra", "vtk-bunyk", "vtk-bunyk-preintegration", "vtk-bunyk-closed-form",
 ]
-NUMBERS = [
-    "largest_error", "rms_error", "error_99.9", "share_above_1/255", "best_ms", "median_ms", "frames",
-    "prepare_ms",
+COLUMNS = [
+    "method", "setting", "properties", "largest_error", "rms_error", "error_99.9",
+    "share_above_1/255", "error_estimate", "best_ms", "median_ms", "frames", "prepare_ms", "bytes",
+    "bits", "pareto", "failure",
 ]
+BROWSER = shutil.which("chromium")  # runs the script of the page, where there is one
+RESULTS = re.compile(r'(<script id="results" type="application/json">)(.*?)(</script>)', re.DOTALL)
 
 
 class Bench(ToolTest):
-    def read_results(self, folder):
-        with open(os.path.join(self.path(folder), "results.csv"), newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+    def read(self, *parts):
+        with open(os.path.join(self.folder, *parts), newline="", encoding="utf-8") as file:
+            return file.read()
+
+    def read_rows(self, folder):
+        """The settings of all scenes, each with its scene's name."""
+        results = json.loads(self.read(folder, "results.json"))
+        rows = [
+            {"scene": scene["name"], **row}
+            for scene in results["scenes"]
+            for row in scene["settings"]
+        ]
         for row in rows:
-            self.assertNotIn(None, row, "more fields than names")
-            self.assertNotIn(None, row.values(), "fewer fields than names")
-            self.assertEqual(row["failure"], "")
-            for name in NUMBERS:
-                row[name] = float(row[name])
+            self.assertNotIn("failure", row)
+        self.check_table(folder, rows)
         return rows
 
+    def check_table(self, folder, rows):
+        """The CSV has the numbers of the JSON, to six digits."""
+        table = list(csv.DictReader(self.read(folder, "results.csv").splitlines()))
+        self.assertEqual(list(table[0]), ["scene", *COLUMNS])
+        self.assertEqual(len(table), len(rows))
+        for line, row in zip(table, rows):
+            self.assertEqual(line["scene"], row["scene"])
+            for name in COLUMNS:
+                value = row.get(name)
+                if value is None:
+                    self.assertEqual(line[name], "", name)
+                elif isinstance(value, str):
+                    self.assertEqual(line[name], value)
+                else:
+                    self.assertAlmostEqual(float(line[name]), value, delta=1e-5 * abs(value))
+
     def read_page(self, folder):
-        with open(os.path.join(self.path(folder), "index.html"), encoding="utf-8") as file:
-            return file.read()
+        """The page without its results, and the results."""
+        page = self.read(folder, "index.html")
+        match = RESULTS.search(page)
+        return page[: match.start(2)] + page[match.end(2):], json.loads(match[2])
 
     def read_png(self, *parts):
         reader = vtkPNGReader()
@@ -58,62 +86,103 @@ class Bench(ToolTest):
         }
 
     def check_page(self, folder, rows):
-        """Every picture and chart is named, every row is in it, nothing outside of it is needed."""
-        page = self.read_page(folder)
+        """The page has the results and the small pictures, names every picture, and needs nothing
+        else."""
         files = self.list_files(folder)
-        self.assertLessEqual({"index.html", "results.csv"}, files)
         pictures = {name for name in files if name.endswith(".png")}
-        self.assertEqual(len(files), len(pictures) + 2)
-        for name in pictures:
-            self.assertTrue(name in page, name)
+        self.assertEqual(files - pictures, {"index.html", "results.csv", "results.json"})
+        kinds = ("picture", "difference")
+        self.assertEqual(pictures, {row[kind] for row in rows for kind in kinds if kind in row})
         for row in rows:
             stem = f"pictures/{row['scene']}-{row['setting']}"
-            self.assertIn(stem + ".png", pictures)
-            self.assertEqual(row["setting"] != "reference", stem + "-difference.png" in pictures)
-            self.assertIn(f"charts/{row['scene']}.png", pictures)
-        for source in re.findall(r'(?:src|href)="([^"]*)"', page):
-            self.assertRegex(source, r"^(data:image/png;base64,|#)")
-            if source.startswith("data:"):
-                image = base64.b64decode(source.split(",")[1], validate=True)
-                self.assertTrue(image.startswith(b"\x89PNG\r\n") and image.rstrip().endswith(b"\x82"))
-        words = re.sub(r'"data:[^"]*"', '""', page)
-        for word in ("http", self.folder, os.path.expanduser("~")):
-            self.assertNotIn(word, words)
-        self.assertNotRegex(words, rf"\b{re.escape(os.uname().nodename)}\b")
-        # It is balanced: an XML parser takes it but for what HTML leaves open.
-        text = re.sub(r"<!DOCTYPE html>|<meta [^>]*>|<br>", "", words)
-        text = re.sub(r"(<img [^>]*)>", r"\1/>", text)
-        text = re.sub(r"&(ndash|times);", "", text)
-        xml.etree.ElementTree.fromstring(text)
+            self.assertEqual(row["picture"], stem + ".png")
+            if row["setting"] == "reference":
+                self.assertNotIn("difference", row)
+            else:
+                self.assertEqual(row["difference"], stem + "-difference.png")
+
+        template, shown = self.read_page(folder)
+        images = shown.pop("images")
+        self.assertEqual(shown, json.loads(self.read(folder, "results.json")))
+        self.assertEqual(
+            set(images),
+            {row["difference"] for row in rows if "difference" in row}
+            | {row["picture"] for row in rows if row["setting"] in ("reference", *PEERS)},
+        )
+        for image in images.values():
+            start = "data:image/png;base64,"
+            self.assertTrue(image.startswith(start))
+            data = base64.b64decode(image[len(start):], validate=True)
+            self.assertTrue(data.startswith(b"\x89PNG\r\n") and data.rstrip().endswith(b"\x82"))
+        for word in (self.folder, os.path.expanduser("~")):
+            self.assertNotIn(word, template + json.dumps(shown))
+        self.assertNotRegex(json.dumps(shown), rf"\b{re.escape(os.uname().nodename)}\b")
+        self.assertEqual(
+            set(re.findall(r"https?://[^\"]*", template)), {"http://www.w3.org/2000/svg"}
+        )
+        self.assertEqual(re.findall(r"<(?:link|script)[^>]*(?:src|href)=", template), [])
+
+    def show_page(self, folder):
+        """What a browser makes of the page: its document after the script ran, without the script
+        and the results."""
+        result = subprocess.run(
+            [
+                BROWSER, "--headless", "--no-sandbox", "--disable-gpu",
+                "--disable-background-networking", "--user-data-dir=" + self.path("browser"),
+                "--dump-dom", "file://" + os.path.join(self.path(folder), "index.html"),
+            ],
+            capture_output=True, text=True, timeout=120, check=True,
+        )
+        return re.sub(r"<(script|template|style)\b.*?</\1>", "", result.stdout, flags=re.DOTALL)
+
+    def check_shown_page(self, folder, rows):
+        """A browser shows every setting, picture and mark of the chart of one scene."""
+        shown = self.show_page(folder)
+        scene = rows[0]["scene"]
+        self.assertIn("<h1>Error against run time</h1>", shown)
+        self.assertIn(f'<h2 id="{scene}">', shown)
+        for row in rows:
+            self.assertIn(f"<b>{row['setting']}</b>", shown)
+        self.assertEqual(shown.count("<tr class=\"front\">"), sum(row["pareto"] for row in rows))
+        self.assertEqual(shown.count('<img src="data:image/png'), len(rows) - 1 + 1 + len(PEERS))
+        # The chart: every setting but the reference, and each group once more in the legend.
+        groups = {row["group"] for row in rows if row["setting"] != "reference"}
+        self.assertEqual(shown.count("<svg"), 1)
+        self.assertEqual(shown.count('class="mark"'), len(rows) - 1 + len(groups))
+        self.assertNotRegex(re.sub('"data:[^"]*"', "", shown), "NaN|undefined|null|Infinity")
 
     def test_a_quick_run(self):
         self.succeed("bench", "--quick", "--scene", "ball-smooth", "--output", "out")
-        rows = self.read_results("out")
+        rows = self.read_rows("out")
         self.assertEqual({row["scene"] for row in rows}, {"ball-smooth"})
         settings = {row["setting"]: row for row in rows}
         self.assertEqual(len(settings), len(rows), "no setting comes twice")
         self.assertEqual(rows[0]["setting"], "reference")
         self.assertEqual([row["setting"] for row in rows[-len(PEERS):]], PEERS)
-        for name in ("default", "error-1e-2", "error-1e-6", "single", "double", "sample-distance-2"):
-            self.assertIn(name, settings)
+        self.assertLessEqual(
+            {"default", "error-1e-2", "error-1e-6", "single", "double", "sample-distance-2"},
+            set(settings),
+        )
         self.check_page("out", rows)
+        if BROWSER:
+            self.check_shown_page("out", rows)
 
         reference = settings["reference"]
         self.assertEqual(reference["largest_error"], 0)
-        self.assertEqual(reference["pareto"], "0")
+        self.assertFalse(reference["pareto"])
         for row in rows:
             where = row["setting"]
             self.assertLessEqual(row["rms_error"], row["largest_error"], where)
             self.assertLessEqual(row["error_99.9"], row["largest_error"], where)
             self.assertEqual(row["share_above_1/255"] > 0, row["largest_error"] > 1 / 255, where)
-            self.assertLessEqual(row["best_ms"], row["median_ms"], where)
             self.assertGreater(row["best_ms"], 0, where)
             self.assertEqual(row["frames"], 2, where)
             asked = re.search(r"MaximumError=(\S+)", row["properties"])
-            if row["method"] == "ray-cast" and row["bits"] == "32" and where.startswith("error-"):
+            if where.startswith("error-"):
+                self.assertEqual((row["method"], row["bits"]), ("ray-cast", 32))
                 # The single precision of the picture is the limit below 1e-6.
                 self.assertLessEqual(row["largest_error"], float(asked[1]), where)
-                self.assertLess(float(row["error_estimate"]), 3 * float(asked[1]), where)
+                self.assertLess(row["error_estimate"], 3 * float(asked[1]), where)
         self.assertLessEqual(settings["default"]["largest_error"], 1e-4)
         for worse, better in (
             ("kraus-8-bit", "kraus"), ("kraus-linear", "kraus"), ("weiler", "weiler-float"),
@@ -122,24 +191,22 @@ class Bench(ToolTest):
             self.assertGreater(
                 settings[worse]["rms_error"], 1.2 * settings[better]["rms_error"], (worse, better)
             )
-        self.assertGreater(
-            int(settings["table-128x32"]["bytes"]), int(settings["table-32x16"]["bytes"])
-        )
+        self.assertGreater(settings["table-128x32"]["bytes"], settings["table-32x16"]["bytes"])
         for peer in PEERS:
-            self.assertEqual(settings[peer]["bits"], "8")
-            self.assertEqual(settings[peer]["bytes"], "")
+            self.assertEqual(settings[peer]["bits"], 8)
+            self.assertIsNone(settings[peer]["bytes"])
             self.assertGreater(settings[peer]["largest_error"], 1 / 255)
-        self.assertGreater(int(settings["default"]["bytes"]), 1000)
+        self.assertGreater(settings["default"]["bytes"], 1000)
 
-        # No row of the front is worse than another in both, and every other row is.
+        # Of the front, a slower row has a smaller error. No row lies below its ends.
+        front = sorted((row for row in rows if row["pareto"]), key=lambda row: row["best_ms"])
+        for faster, slower in zip(front, front[1:]):
+            self.assertGreater(faster["largest_error"], slower["largest_error"])
         ranked = [row for row in rows if row is not reference]
-        for row in ranked:
-            worse = any(
-                other["largest_error"] <= row["largest_error"] and other["best_ms"] < row["best_ms"]
-                or other["largest_error"] < row["largest_error"] and other["best_ms"] <= row["best_ms"]
-                for other in ranked
-            )
-            self.assertEqual(row["pareto"], "0" if worse else "1", row["setting"])
+        self.assertEqual(front[0]["best_ms"], min(row["best_ms"] for row in ranked))
+        self.assertEqual(
+            front[-1]["largest_error"], min(row["largest_error"] for row in ranked)
+        )
 
         # The numbers are those of the pictures: as far as 8 bit tell.
         expected = self.read_png("out", "pictures", "ball-smooth-reference.png")
@@ -155,17 +222,20 @@ class Bench(ToolTest):
                 self.assertLess((error - difference[:, :, 0]).max(), 1.01 / 255, name)
 
     def test_a_file_and_settings_of_the_user(self):
-        self.succeed("generate", "gear", "--teeth", 4, "--across", 2, "--along", 2, "--output", "m.vtu")
+        self.succeed(
+            "generate", "gear", "--teeth", 4, "--across", 2, "--along", 2, "--output", "m.vtu"
+        )
         self.write("steps.json", json.dumps({
             "RGBPoints": [-1, 1, 0, 0, 1, 1, 0.5, 0], "Points": [-1, 0.2, 0.5, 0, 1, 0.8, 0.5, 0],
         }))
         arguments = [
             "bench", "m.vtu", "--array", "Field", "--transfer", "steps.json", "--camera-position",
-            "0,0,4", "--camera-parallel-scale", 1.2, "--size", "30,20", "--frames", 1, "--threads", 1,
-            "--setting", "Precision=Single MaximumError=1e-2", "--setting", "Precision=double", "--output", "out",
+            "0,0,4", "--camera-parallel-scale", 1.2, "--size", "30,20", "--frames", 1,
+            "--threads", 1, "--setting", "Precision=Single MaximumError=1e-2",
+            "--setting", "Precision=double", "--output", "out",
         ]
         self.succeed(*arguments)
-        rows = self.read_results("out")
+        rows = self.read_rows("out")
         self.assertEqual(
             [row["setting"] for row in rows],
             ["reference", "default", "Precision-Single-MaximumError-1e-2", "Precision-double", *PEERS],
@@ -185,25 +255,54 @@ class Bench(ToolTest):
         self.succeed(*arguments)
         self.assertNotIn("old.txt", os.listdir(self.path("out")))
         self.assertEqual([row["setting"] for row in rows],
-                         [row["setting"] for row in self.read_results("out")])
+                         [row["setting"] for row in self.read_rows("out")])
 
     def test_features(self):
         self.succeed("bench", "--quick", "--features", "--scene", "ball-cells", "--setting",
                      "Precision=2", "--output", "out")
-        page = self.read_page("out")
-        table = page[page.index('id="features"'):]
-        for feature in (
-            "colour variation", "opacity variation", "3-D table", "shading", "clipping", "cropping",
-            "opaque geometry", "non-convexity", "cell data", "maximum intensity",
-        ):
-            self.assertIn(f"<td>{feature}</td>", table)
-        # What is forced changes nothing that the eye could see.
-        for row in re.findall(r"<tr><td>.*?</tr>", table):
-            cells = re.findall(r"<td[^>]*>(.*?)</td>", row)
-            self.assertGreater(float(cells[8]), 0, cells)
-            if cells[3] != "cannot be had":
-                self.assertLess(float(cells[6]), 1e-4, cells)
-                self.assertGreater(float(cells[4]), 0, cells)
+        features = {
+            feature["feature"]: feature for feature in self.read_page("out")[1]["features"]
+        }
+        self.assertLessEqual(
+            {
+                "colour variation", "opacity variation", "3-D table", "shading", "clipping",
+                "cropping", "opaque geometry", "non-convexity", "cell data", "maximum intensity",
+            },
+            set(features),
+        )
+        self.assertIsNone(features["cell data"]["forced"])
+        self.assertIsNotNone(features["clipping"]["forced"])
+        for name, feature in features.items():
+            for case in ("plain", "forced", "used"):
+                if feature[case]:
+                    self.assertGreater(feature[case]["best_ms"], 0, (name, case))
+            # What is forced changes nothing that the eye could see.
+            if feature["forced"]:
+                self.assertLess(feature["forced"]["difference"], 1e-4, name)
+        if BROWSER:
+            shown = self.show_page("out")
+            for name in features:
+                self.assertIn(f"<td>{name}</td>", shown)
+            self.assertIn("not possible", shown)
+
+    @unittest.skipUnless(BROWSER, "there is no Chromium")
+    def test_what_a_browser_shows_of_hard_results(self):
+        self.succeed("bench", "--quick", "--scene", "ball-smooth", "--setting", "Precision=2",
+                     "--output", "out")
+        page = self.read("out", "index.html")
+        results = self.read_page("out")[1]
+        scene = results["scenes"][0]
+        failed = next(row for row in scene["settings"] if row["setting"] == "Precision-2")
+        failed["failure"] = "</script><b>no & memory</b>"
+        default = next(row for row in scene["settings"] if row["setting"] == "default")
+        default["largest_error"] = 0
+        text = json.dumps(results).replace("<", "\\u003c")
+        with open(os.path.join(self.path("out"), "index.html"), "w", encoding="utf-8") as file:
+            file.write(RESULTS.sub(lambda match: match[1] + text + match[3], page))
+        shown = self.show_page("out")
+        self.assertIn("failed: &lt;/script&gt;&lt;b&gt;no &amp; memory&lt;/b&gt;", shown)
+        self.assertIn("exact", shown)
+        self.assertNotRegex(re.sub('"data:[^"]*"', "", shown), "NaN|undefined|null|Infinity")
 
     def test_wrong_usage(self):
         self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
@@ -242,17 +341,13 @@ class Bench(ToolTest):
         )
 
     def test_an_interrupt_leaves_nothing(self):
-        before = self.files()
-        with subprocess.Popen(
-            [tool.TOOL, "bench", "--quick", "--frames", "2", "--output", "out"],
-            cwd=self.folder, stdout=subprocess.PIPE,
-        ) as process:
-            process.stdout.readline()  # the first scene is being measured
-            self.assertNotEqual(self.files(), before)
-            process.send_signal(signal.SIGTERM)
-            process.stdout.read()
-            self.assertEqual(process.wait(60), 128 + signal.SIGTERM)
-        self.assertEqual(self.files(), before)
+        def has_pictures(process):
+            process.stdout.readline()
+            return any("difference" in name for name in self.list_files("."))
+
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number):
+                self.interrupt(number, "bench", "--quick", "--output", "out", until=has_pictures)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 TOOL = os.path.abspath(sys.argv[1])
@@ -60,6 +61,24 @@ class ToolTest(unittest.TestCase):
             self.assertIn(word, lines[0])
         self.assertEqual(result.stdout, "", where)
         self.assertEqual(self.files(), before, where)
+
+    def interrupt(self, number, *arguments, until):
+        """Starts the tool, sends it a signal when until(process) is true, and expects it to end as
+        shells report it, with every file as it was."""
+        before = self.files()
+        with subprocess.Popen(
+            [TOOL, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE, text=True
+        ) as process:
+            deadline = time.monotonic() + 60
+            while not until(process) and process.poll() is None and time.monotonic() < deadline:
+                time.sleep(0.01)
+            time.sleep(0.2)  # into the work, past the making of the outputs
+            self.assertIsNone(process.poll(), "the tool ended before the signal")
+            self.assertNotEqual(self.files(), before, "no temporary file came")
+            process.send_signal(number)
+            process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 128 + number)
+        self.assertEqual(self.files(), before)
 
 
 def main():

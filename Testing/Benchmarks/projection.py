@@ -5,16 +5,17 @@
     TETRALUX_DATA=FOLDER PYTHONPATH=build/lib/python3.11/dist-packages \
         python3 Testing/Benchmarks/projection.py [--tetralux build/bin/tetralux] [--output FOLDER]
 
-Tables 1 and 2 of Kraus, Qiao and Ebert, Projecting Tetrahedra without Rendering Artifacts (2004), side
-by side with what is measured here, and vtkProjectedTetrahedraMapper in the same run: whole frames, the
-best of several, taken by turns so that what else the machine does hits all alike. Their figures 7 to 10
-remade: pictures with one correction off, their difference from the ray caster's picture in double
-precision, magnified, and the error in numbers. Writes index.html and the pictures to FOLDER. Without
-TETRALUX_DATA the blunt fin is left out.
+Tables 1 and 2 of Kraus, Qiao and Ebert, Projecting Tetrahedra without Rendering Artifacts (2004),
+beside what is measured here, with vtkProjectedTetrahedraMapper in the same run. Times are those of
+whole frames, the best of several, taken in turns so that other load on the machine hits all alike.
+Figures 7 to 10 are made anew: pictures with one correction off, their magnified difference from the
+ray caster's picture in double precision, and the error in numbers.
+
+Writes index.html, from the template of `tetralux bench`, and the pictures to FOLDER. Leaves out the
+blunt fin without TETRALUX_DATA.
 """
 
 import argparse
-import html
 import json
 import os
 import shutil
@@ -40,6 +41,8 @@ from vtkmodules.vtkRenderingVolume import vtkProjectedTetrahedraMapper
 Mapper = tetralux.vtkTetrahedraProjectionMapper
 Sort = tetralux.vtkMeshedPolyhedraVisibilitySort
 
+TEMPLATE = os.path.join(os.path.dirname(__file__), "../../Application/Bench/page.html")
+
 # The paper's lookup table: 256 x 256 x 16 texels.
 TABLE = {
     "Integration": Mapper.TABLE_INTEGRATION,
@@ -61,7 +64,11 @@ BEST_TABLE = {**TABLE, **SIXTEEN_BITS, **LOGARITHMIC}
 # Seconds of the paper's table 1, for 800 x 600 pixels.
 TABLE_1 = (
     ("corrections off (i)", {**TABLE, **EIGHT_BITS, **UNIFORM, **LINEAR, **FRAME_BUFFER}, 0.195),
-    ("and perspective interpolation (ii)", {**TABLE, **EIGHT_BITS, **UNIFORM, **FRAME_BUFFER}, 0.243),
+    (
+        "and perspective interpolation (ii)",
+        {**TABLE, **EIGHT_BITS, **UNIFORM, **FRAME_BUFFER},
+        0.243,
+    ),
     ("and a 16-bit table (iii)", {**TABLE, **SIXTEEN_BITS, **UNIFORM, **FRAME_BUFFER}, 0.274),
     ("and a logarithmic table (iv)", {**BEST_TABLE, **FRAME_BUFFER}, 0.314),
     ("and alpha dithering", {**BEST_TABLE, **DITHERED}, 0.621),
@@ -162,21 +169,20 @@ def make_peak(share, width):
 
 
 class Page:
-    """An HTML page and the pictures beside it."""
+    """The page of the benchmark tool, with sections of our own, and the pictures beside it."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, title, *paragraphs):
         self.folder = folder
-        self.parts = []
+        self.results = {"title": title, "text": paragraphs, "sections": []}
 
-    def add(self, text):
-        self.parts.append(text)
-
-    def add_table(self, header, rows):
-        cells = "".join(f"<th>{html.escape(cell)}</th>" for cell in header)
-        self.add(f"<table>\n<tr>{cells}</tr>")
-        for row in rows:
-            self.add("<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in row) + "</tr>")
-        self.add("</table>")
+    def add_section(self, title, *paragraphs, level=2, figures=(), columns=(), rows=(), notes=()):
+        """figures: file names of pictures, with a caption. rows: texts for a table's columns."""
+        section = {"title": title, "text": paragraphs, "level": level, "notes": notes}
+        if figures:
+            section["figures"] = [{"images": images, "caption": text} for images, text in figures]
+        if columns:
+            section["table"] = {"columns": columns, "rows": rows, "words": True}
+        self.results["sections"].append(section)
 
     def write_picture(self, name, rgb):
         pixels = numpy.ascontiguousarray(numpy.clip(rgb * 255 + 0.5, 0, 255).astype(numpy.uint8))
@@ -190,21 +196,11 @@ class Page:
         writer.Write()
 
     def write(self):
-        style = (
-            "body{font-family:sans-serif;max-width:62em;margin:2em auto;line-height:1.4}"
-            "table{border-collapse:collapse;margin:1em 0}td,th{padding:.2em .8em;text-align:left;"
-            "border-bottom:1px solid #ccc}figure{display:inline-block;margin:.3em}"
-            "figcaption{font-size:80%;max-width:256px}"
-        )
-        with open(os.path.join(self.folder, "index.html"), "w", encoding="utf-8") as page:
-            page.write(
-                '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-                "<title>Projected tetrahedra without artifacts</title>\n"
-                f"<style>{style}</style>\n</head>\n<body>\n"
-                "<!-- Written by Testing/Benchmarks/projection.py -->\n"
-            )
-            page.write("\n".join(self.parts))
-            page.write("\n</body>\n</html>\n")
+        with open(TEMPLATE, encoding="utf-8") as file:
+            template = file.read()
+        text = json.dumps(self.results).replace("<", "\\u003c")  # no end of the script it is in
+        with open(os.path.join(self.folder, "index.html"), "w", encoding="utf-8") as file:
+            file.write(template.replace("@RESULTS@", text))
 
 
 def describe_errors(picture, reference):
@@ -225,33 +221,31 @@ def describe_errors(picture, reference):
 ERROR_HEADER = ("variant", "largest", "RMS", "99.9 %", "largest, mean of 8 x 8 pixels")
 
 
-def add_figure(page, name, title, scene, variants, size=(256, 192)):
+def add_figure(page, name, title, scene, variants, size, paragraphs=()):
     """variants: name, settings, magnification of the difference."""
     reference = render_reference(scene, *size)
-    page.add(f"<h3>{html.escape(title)}</h3>")
     rows = []
+    figures = []
     for index, (variant, settings, magnification) in enumerate(variants):
         picture = render(scene, make_mapper(settings), *size)
         background = numpy.ones(3)
         seen = picture[:, :, :3] + (1 - picture[:, :, 3:]) * background
         difference = numpy.abs(picture - reference)[:, :, :3] * magnification
-        letter = chr(ord("a") + index)
-        page.write_picture(f"{name}-{letter}.png", seen)
-        page.write_picture(f"{name}-{letter}-difference.png", difference)
-        caption = html.escape(f"({letter}) {variant}")
-        page.add(
-            f'<figure><img src="{name}-{letter}.png" alt=""><img src="{name}-{letter}-difference.png" '
-            f'alt=""><figcaption>{caption}; difference x {magnification}</figcaption></figure>'
-        )
-        rows.append((f"({letter}) {variant}", *describe_errors(picture, reference)))
+        label = f"({chr(ord('a') + index)}) {variant}"
+        files = [f"{name}-{label[1]}.png", f"{name}-{label[1]}-difference.png"]
+        page.write_picture(files[0], seen)
+        page.write_picture(files[1], difference)
+        figures.append((files, f"{label}; difference x {magnification}"))
+        rows.append((label, *describe_errors(picture, reference)))
         print(title, rows[-1], flush=True)
-    page.add("<p>Errors in units of 1/255:</p>")
-    page.add_table(ERROR_HEADER, rows)
+    page.add_section(
+        title, *paragraphs, level=3, figures=figures, columns=ERROR_HEADER, rows=rows,
+        notes=("Errors in units of 1/255.",),
+    )
 
 
 def add_costs(page, fin, options):
     width, height = options.size, options.size
-    page.add(f"<h2>What the corrections cost (table 1), {width} x {height} pixels</h2>")
     vtk = vtkProjectedTetrahedraMapper()
     mappers = [make_mapper(settings) for _, settings, _ in TABLE_1]
     entries = [fin.make_window(mapper, width, height) for mapper in [vtk, *mappers]]
@@ -270,24 +264,26 @@ def add_costs(page, fin, options):
             )
         )
         print("%-50s %s s  %s x VTK   processor %s s  %s x VTK   paper %s" % rows[-1], flush=True)
-    page.add(
-        "<p>Whole frames of the blunt fin, order of cells included. Processor seconds are of all "
-        "threads, and hardly depend on what else the machine does.</p>"
-    )
-    page.add_table(
-        ("", "seconds", "of VTK's", "processor seconds", "of VTK's", "paper, 800 x 600, seconds"), rows
-    )
     stages = json.loads(mappers[-1].GetStatistics())["seconds"]
-    page.add(
-        "<p>Of the last: order "
-        f"{stages['order']:.3f} s, projecting points and cells on the processor "
-        f"{stages['points'] + stages['project']:.3f} s, the rest is drawing.</p>"
+    page.add_section(
+        f"What the corrections cost (table 1), {width} x {height} pixels",
+        "Whole frames of the blunt fin, order of cells included. Processor seconds are those of "
+        "all threads, and hardly depend on what else the machine does.",
+        columns=(
+            "variant", "seconds", "of VTK's", "processor seconds", "of VTK's",
+            "paper, 800 x 600, seconds",
+        ),
+        rows=rows,
+        notes=(
+            f"The last one takes {stages['order']:.3f} s for the order and "
+            f"{stages['points'] + stages['project']:.3f} s for projecting points and cells on the "
+            "processor; the rest is drawing.",
+        ),
     )
 
 
 def add_speeds(page, scenes, options):
     width, height = options.size, options.size
-    page.add(f"<h2>Tetrahedra a second (table 2), {width} x {height} pixels</h2>")
     rows = []
     for name, scene in scenes:
         mappers = [
@@ -307,124 +303,153 @@ def add_speeds(page, scenes, options):
             )
         )
         print(rows[-1], flush=True)
-    page.add_table(
-        ("data set", "cells", "VTK's mapper", "table, 8-bit buffer", "closed form, float buffer"), rows
+    page.add_section(
+        f"Tetrahedra a second (table 2), {width} x {height} pixels",
+        columns=("data set", "cells", "VTK's mapper", "table, 8-bit buffer",
+                 "closed form, float buffer"),
+        rows=rows,
     )
-    page.add("<p>The paper's, for 800 x 600 pixels on a Quadro FX 3000:</p>")
-    page.add_table(
-        ("data set", "cells", "tetrahedra a second"),
-        [(name, cells, f"{speed / 1000:.0f} K") for name, cells, speed in TABLE_2_OF_THE_PAPER],
+    page.add_section(
+        "The paper's, for 800 x 600 pixels on a Quadro FX 3000",
+        level=3,
+        columns=("data set", "cells", "tetrahedra a second"),
+        rows=[(name, f"{cells}", f"{speed / 1000:.0f} K")
+              for name, cells, speed in TABLE_2_OF_THE_PAPER],
     )
 
 
-def main():
+def add_figures(page, options, fin, sink):
+    """Figures 7 to 10 of the paper, and what other orders of cells do."""
+    size = (64, 48) if options.quick else (256, 192)
+    page.add_section("The artifacts (figures 7 to 10)")
+    if fin:
+        close = Scene(fin.grid, "Density", (14, 10, 16), fin.focus, fin.nodes, 0.5, 25)
+        add_figure(
+            page,
+            "table-bits",
+            "Figure 7: bits of the table and of the color buffer, blunt fin",
+            close,
+            (
+                ("8-bit table, float buffer", {**TABLE, **EIGHT_BITS, **LOGARITHMIC}, 16),
+                ("16-bit table, 8-bit buffer", {**BEST_TABLE, **FRAME_BUFFER}, 16),
+                ("16-bit table, float buffer", BEST_TABLE, 16),
+                ("closed form, float buffer", FLOAT, 16),
+            ),
+            size,
+        )
+    add_figure(
+        page,
+        "perspective",
+        "Figure 8: a surface of constant scalar, heat sink",
+        make_scene(sink, 1, make_peak(0.45, 0.004), (1.1, 1.0, 1.5), 28),
+        (
+            ("linear interpolation on the screen", LINEAR, 2),
+            ("perspective interpolation", FLOAT, 2),
+        ),
+        size,
+    )
+    ball = generate(options.tetralux, "ball", "--cells", "16" if options.quick else "74")
+    add_figure(
+        page,
+        "dithering",
+        f"Figure 9: color buffers, a ball of {ball.GetNumberOfCells()} thin cells",
+        make_scene(ball, 0.05, SMOOTH),
+        (
+            ("8-bit buffer", FRAME_BUFFER, 16),
+            ("8-bit buffer, alpha dithering", DITHERED, 16),
+            ("half float buffer", HALF, 16),
+            ("float buffer", FLOAT, 16),
+        ),
+        size,
+        (
+            "Alpha dithering keeps what is too thin for 8 bits. As the paper says, it can't help "
+            "that each blending rounds again: where cells are less thin, as in figure 7, it only "
+            "turns steps into noise.",
+        ),
+    )
+    layer = generate(options.tetralux, "boundary-layer")
+    add_figure(
+        page,
+        "logarithmic",
+        "Figure 10: lengths of the table, boundary layer with edges 1 : 1e6",
+        make_scene(layer, 1000, SMOOTH, (2.1, 1.6, 2.6), 30, 0.9),
+        (
+            ("uniform lengths", {**TABLE, **SIXTEEN_BITS, **UNIFORM}, 2),
+            ("logarithmic lengths", BEST_TABLE, 2),
+            ("closed form", FLOAT, 2),
+        ),
+        size,
+    )
+    if fin:
+        add_orders(page, fin, 2 * size[0])
+
+
+def add_orders(page, fin, size):
+    reference = render_reference(fin, size, size)
+    rows = []
+    for name, order in (
+        ("exact, by common faces of the convexified mesh", Sort.EXACT_ORDER),
+        ("by common faces, not convexified", Sort.NON_CONVEX_ORDER),
+        ("by distance of centroids", Sort.CENTROID_ORDER),
+    ):
+        picture = render(fin, make_mapper({"Order": order}), size, size)
+        rows.append((name, *describe_errors(picture, reference)))
+        print("order", rows[-1], flush=True)
+    page.add_section(
+        "The order of cells, blunt fin", level=3, columns=ERROR_HEADER, rows=rows,
+        notes=("Errors in units of 1/255.",),
+    )
+
+
+def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tetralux", default=shutil.which("tetralux"), help="the command-line tool")
+    parser.add_argument(
+        "--tetralux", default=shutil.which("tetralux"), help="the command-line tool"
+    )
     parser.add_argument("--output", default="Documentation/projection", help="folder of the page")
     parser.add_argument("--size", type=int, default=512, help="pixels along an edge (512)")
     parser.add_argument("--rounds", type=int, default=5, help="frames timed of each (5)")
     parser.add_argument("--large", action="store_true", help="a mesh of ten million cells, too")
     parser.add_argument("--no-figures", action="store_true", help="the tables alone")
+    parser.add_argument(
+        "--quick", action="store_true", help="small pictures and meshes, to see that all works"
+    )
     options = parser.parse_args()
     if not options.tetralux:
         sys.exit("projection.py: --tetralux must name the command-line tool")
-    os.makedirs(options.output, exist_ok=True)
+    if options.quick:
+        options.size, options.rounds = 64, 1
+    return options
 
+
+def main():
+    options = parse_arguments()
+    os.makedirs(options.output, exist_ok=True)
     fin = None
     grid = read_blunt_fin()
     if grid:
         mesh = split_by_vtk(grid)
         fin = Scene(mesh, "Density", BLUNT_FIN_POSITION, BLUNT_FIN_FOCUS, BLUNT_FIN_NODES)
     sink = generate(options.tetralux, "heat-sink")
-    layer = generate(options.tetralux, "boundary-layer")
 
-    page = Page(options.output)
-    page.add("<h1>Projected tetrahedra without artifacts</h1>")
-    page.add(
-        "<p>vtkTetrahedraProjectionMapper beside the paper it is after: M. Kraus, W. Qiao and D. S. "
-        "Ebert, Projecting Tetrahedra without Rendering Artifacts, IEEE Visualization 2004. Errors are "
-        "against vtkTetrahedraRayCastMapper in double precision.</p>"
+    page = Page(
+        options.output,
+        "Projected tetrahedra without artifacts",
+        "vtkTetrahedraProjectionMapper beside the paper it is after: M. Kraus, W. Qiao and D. S. "
+        "Ebert, Projecting Tetrahedra without Rendering Artifacts, IEEE Visualization 2004. Errors "
+        "are against vtkTetrahedraRayCastMapper in double precision.",
     )
     if fin:
         add_costs(page, fin, options)
     scenes = [("heat sink", make_scene(sink, 1, SMOOTH))]
     scenes += [("blunt fin", fin)] if fin else []
-    for cells in (16, 34, 74) + ((159,) if options.large else ()):
+    sizes = (8,) if options.quick else (16, 34, 74) + ((159,) if options.large else ())
+    for cells in sizes:
         ball = generate(options.tetralux, "ball", "--cells", str(cells))
         scenes.append((f"ball of {ball.GetNumberOfCells()}", make_scene(ball, 1, SMOOTH)))
     add_speeds(page, scenes, options)
-
     if not options.no_figures:
-        page.add("<h2>The artifacts (figures 7 to 10)</h2>")
-        if fin:
-            close = Scene(fin.grid, "Density", (14, 10, 16), fin.focus, fin.nodes, 0.5, 25)
-            add_figure(
-                page,
-                "table-bits",
-                "Figure 7: bits of the table and of the color buffer, blunt fin",
-                close,
-                (
-                    ("8-bit table, float buffer", {**TABLE, **EIGHT_BITS, **LOGARITHMIC}, 16),
-                    ("16-bit table, 8-bit buffer", {**BEST_TABLE, **FRAME_BUFFER}, 16),
-                    ("16-bit table, float buffer", BEST_TABLE, 16),
-                    ("closed form, float buffer", FLOAT, 16),
-                ),
-            )
-        surface = make_scene(sink, 1, make_peak(0.45, 0.004), (1.1, 1.0, 1.5), 28)
-        add_figure(
-            page,
-            "perspective",
-            "Figure 8: a surface of constant scalar, heat sink",
-            surface,
-            (
-                ("linear interpolation on the screen", LINEAR, 2),
-                ("perspective interpolation", FLOAT, 2),
-            ),
-        )
-        ball = generate(options.tetralux, "ball", "--cells", "74")
-        thin = make_scene(ball, 0.05, SMOOTH)
-        page.add(
-            "<p>Alpha dithering (figure 9) keeps what is too thin for 8 bits. What it can't help, as the "
-            "paper says, is that each blending rounds again: where cells are less thin, as in figure 7, "
-            "it only turns steps into noise.</p>"
-        )
-        add_figure(
-            page,
-            "dithering",
-            "Figure 9: color buffers, a ball of a million thin cells",
-            thin,
-            (
-                ("8-bit buffer", FRAME_BUFFER, 16),
-                ("8-bit buffer, alpha dithering", DITHERED, 16),
-                ("half float buffer", HALF, 16),
-                ("float buffer", FLOAT, 16),
-            ),
-        )
-        dense = make_scene(layer, 1000, SMOOTH, (2.1, 1.6, 2.6), 30, 0.9)
-        add_figure(
-            page,
-            "logarithmic",
-            "Figure 10: lengths of the table, boundary layer with edges 1 : 1e6",
-            dense,
-            (
-                ("uniform lengths", {**TABLE, **SIXTEEN_BITS, **UNIFORM}, 2),
-                ("logarithmic lengths", BEST_TABLE, 2),
-                ("closed form", FLOAT, 2),
-            ),
-        )
-        if fin:
-            page.add("<h3>The order of cells, blunt fin</h3>")
-            reference = render_reference(fin, 512, 512)
-            rows = []
-            for name, order in (
-                ("exact, by common faces of the convexified mesh", Sort.EXACT_ORDER),
-                ("by common faces, not convexified", Sort.NON_CONVEX_ORDER),
-                ("by distance of centroids", Sort.CENTROID_ORDER),
-            ):
-                picture = render(fin, make_mapper({"Order": order}), 512, 512)
-                rows.append((name, *describe_errors(picture, reference)))
-                print("order", rows[-1], flush=True)
-            page.add_table(ERROR_HEADER, rows)
+        add_figures(page, options, fin, sink)
     page.write()
 
 

@@ -1,20 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/Stability.h"
+#include "Commands/StabilityCommand.h"
 
 #include "CommandLine/CommandErrors.h"
+#include "CommandLine/CommandOption.h"
+#include "CommandLine/OptionValues.h"
 #include "Stability/StabilitySuite.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iomanip>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace
 {
+
+struct StabilityOptions
+{
+  std::uint64_t Seed = 1;  ///< of the random cases
+  int RandomCases = 10000; ///< number of random cases, in addition to those that are listed
+};
+
+constexpr int MaximumCases = 100000000;
 
 /// Widths of the table's columns.
 constexpr int GroupWidth = 32;
@@ -36,8 +48,6 @@ void PrintColumns(const std::string& group, const CasesT& cases, const RelativeT
             << std::setw(NumberWidth) << absolute << std::setw(NumberWidth) << promise
             << std::setw(NumberWidth) << bad << "\n";
 }
-
-} // namespace
 
 void RunStability(const StabilityOptions& options)
 {
@@ -86,4 +96,50 @@ void RunStability(const StabilityOptions& options)
     throw WorkError("a form of the ray integral breaks its promise: " + broken +
       ", with the seed " + std::to_string(options.Seed));
   }
+}
+
+/// Throws UsageError if the command has an option that is not one of these.
+void RefuseOtherOptions(const CLI::App* command, const std::vector<std::string>& names)
+{
+  for (const CLI::Option* option : command->get_options())
+  {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && std::find(names.begin(), names.end(), name) == names.end())
+    {
+      throw UsageError(names.front() + ": does not go with " + name);
+    }
+  }
+}
+
+} // namespace
+
+std::function<bool()> AddStabilityOptions(CLI::App* command)
+{
+  const auto options = std::make_shared<StabilityOptions>();
+  CLI::Option* stability = command->add_flag("--stability",
+    "Measure, in place of pictures, the ray integral over one segment where it is hard to get "
+    "right: each form of it against quadrature in extended precision");
+  AddOption(command, "--seed", "With --stability: seed of the random cases; default: 1",
+    [options](const std::string& option, const std::string& text)
+    {
+      options->Seed =
+        static_cast<std::uint64_t>(ParseInteger(option, text, 0, std::numeric_limits<int>::max()));
+    })
+    ->type_name("N")
+    ->needs(stability);
+  AddOption(command, "--cases", "With --stability: number of random cases; default: 10000",
+    [options](const std::string& option, const std::string& text)
+    { options->RandomCases = ParseInteger(option, text, 0, MaximumCases); })
+    ->type_name("N")
+    ->needs(stability);
+  return [command, stability, options]
+  {
+    if (stability->count() == 0)
+    {
+      return false;
+    }
+    RefuseOtherOptions(command, { "--stability", "--seed", "--cases" });
+    RunStability(*options);
+    return true;
+  };
 }

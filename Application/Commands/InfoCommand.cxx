@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/Info.h"
+#include "Commands/InfoCommand.h"
 
 #include "CommandLine/CommandErrors.h"
+#include "CommandLine/CommandOption.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
 #include "Files/ReadMesh.h"
 #include "Intake/TetrahedraIntake.h"
 #include "Mesh/CellVolumes.h"
 #include "Setup/Arrays.h"
+#include "Setup/SceneOptionGroups.h"
 #include "Walk/WalkMesh.h"
 
 #include "vtkDataArray.h"
@@ -32,7 +34,7 @@ void PrintRow(const std::string& label, const ValueT& value)
   std::cout << std::left << std::setw(LabelWidth) << label << " " << value << "\n";
 }
 
-/// Rows of defects and of cells left out appear where there are any.
+/// Prints a row only if the count is above 0: for defects and for cells left out.
 void PrintCount(const std::string& label, std::int64_t count)
 {
   if (count > 0)
@@ -143,7 +145,7 @@ void PrintBounds(const std::vector<double>& points)
   PrintRow("bounds", text);
 }
 
-/// What it takes to make the mesh convex, or why it can't be.
+/// Prints what it takes to make the mesh convex, or why it can't be made convex.
 void PrintConvexification(tetralux::WalkMesh& walk)
 {
   {
@@ -174,7 +176,11 @@ void PrintConvexification(tetralux::WalkMesh& walk)
       std::to_string(convex.GetNumberOfSteinerPoints()) + " Steiner points, " + seconds);
 }
 
-} // namespace
+struct InfoOptions
+{
+  std::string Input;
+  std::string Plot3dSolution;
+};
 
 void PrintInfo(const InfoOptions& options)
 {
@@ -244,4 +250,15 @@ void PrintInfo(const InfoOptions& options)
   }
   PrintRow("time to prepare", time);
   PrintConvexification(*walk);
+}
+
+} // namespace
+
+void AddInfoCommand(CLI::App& app)
+{
+  CLI::App* command =
+    app.add_subcommand("info", "Print what is in a file, its defects, and what it takes to render");
+  const auto options = std::make_shared<InfoOptions>();
+  AddInputOptions(command, options->Input, options->Plot3dSolution)->required();
+  command->final_callback([options] { PrintInfo(*options); });
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/Generate.h"
+#include "Commands/GenerateCommand.h"
 
 #include "CommandLine/CommandErrors.h"
+#include "CommandLine/CommandOption.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
-#include "Files/AtomicFile.h"
+#include "Files/AtomicOutput.h"
 #include "Files/GeneratedGrid.h"
 #include "Files/WriteData.h"
 #include "Generate/GeneratedMeshes.h"
@@ -13,10 +14,21 @@
 
 #include <iostream>
 #include <map>
+#include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace
 {
+
+struct GenerateOptions
+{
+  std::string Name;
+  std::string Output;
+  std::vector<std::string> Parameters; ///< "--name", "value", or "--name=value"
+  bool List = false;
+};
 
 std::map<std::string, double> ReadParameters(const std::vector<std::string>& arguments)
 {
@@ -41,8 +53,6 @@ std::map<std::string, double> ReadParameters(const std::vector<std::string>& arg
   return parameters;
 }
 
-} // namespace
-
 void GenerateFile(const GenerateOptions& options)
 {
   if (GetExtension(options.Output) != ".vtu")
@@ -50,7 +60,7 @@ void GenerateFile(const GenerateOptions& options)
     throw UsageError("--output: '" + options.Output + "' must end in .vtu");
   }
   const std::map<std::string, double> parameters = ReadParameters(options.Parameters);
-  AtomicFile output(options.Output);
+  AtomicOutput output(options.Output);
   ProgressLine progress("generating " + options.Name);
   progress.ShowLabel();
   tetralux::GeneratedMesh generated;
@@ -78,4 +88,42 @@ void ListGenerators()
                 << ") " << parameter.Description << "\n";
     }
   }
+}
+
+void Run(const GenerateOptions& options)
+{
+  if (options.List)
+  {
+    ListGenerators();
+    return;
+  }
+  if (options.Name.empty())
+  {
+    throw UsageError("generate: NAME is required; tetralux generate --list prints the names");
+  }
+  if (options.Output.empty())
+  {
+    throw UsageError("--output is required: the file to write, ending in .vtu");
+  }
+  GenerateFile(options);
+}
+
+} // namespace
+
+void AddGenerateCommand(CLI::App& app)
+{
+  CLI::App* command = app.add_subcommand("generate", "Write a mesh that is made from a formula");
+  const auto options = std::make_shared<GenerateOptions>();
+  command->add_option("NAME", options->Name, "Which one: see --list")->type_name("");
+  command->add_option("--output", options->Output, "File to write")->type_name("FILE.vtu");
+  command->add_flag("--list", options->List, "Print the names, and the parameters of each");
+  command->allow_extras();
+  command->footer("Each parameter that --list shows is an option with a number behind it, as in\n"
+                  "  tetralux generate ball --cells 20 --output ball.vtu");
+  command->final_callback(
+    [command, options]
+    {
+      options->Parameters = command->remaining();
+      Run(*options);
+    });
 }
