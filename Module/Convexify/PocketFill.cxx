@@ -3,7 +3,7 @@
 
 #include "Convexify/CellComplex.h"
 #include "Convexify/SteinerPoint.h"
-#include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 #include <cmath>

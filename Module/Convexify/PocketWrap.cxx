@@ -3,7 +3,7 @@
 
 #include "Convexify/FaceTable.h"
 #include "Geometry/BoxTree.h"
-#include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 #include <deque>

@@ -32,10 +32,6 @@ bool CellCanMeetTriangle(const ExactPoints& points, const std::int32_t* cell,
 bool CoplanarTrianglesOverlap(const ExactPoints& points, const std::int32_t* triangle0,
   const std::int32_t* triangle1, int axis);
 
-/// The points of a cell's faces, turned such that the cell is on the negative side of each, as
-/// GetOrientation(face, point) sees it.
-constexpr int OutwardFaces[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-
 } // namespace tetralux
 
 #endif

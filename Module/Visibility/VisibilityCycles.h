@@ -6,7 +6,7 @@
 #include "Base/Span.h"
 #include "Visibility/VisibilityGaps.h"
 #include "Visibility/VisibilityGeometry.h"
-#include "Visibility/VisibilityOrder.h"
+#include "Visibility/VisibilityReport.h"
 #include "Visibility/VisibilityView.h"
 
 #include <cstdint>

@@ -4,6 +4,7 @@
 
 #include "Base/Span.h"
 #include "TetraluxCoreModule.h"
+#include "Visibility/VisibilityReport.h"
 #include "Visibility/VisibilityView.h"
 
 #include <cstdint>
@@ -46,29 +47,6 @@ enum class VisibilityDirection
 {
   FrontToBack,
   BackToFront
-};
-
-/// Sets of cells of which each hides another one of the set, which hides ... the first: no order is
-/// right for them. Faces that some cells have in common were ignored until there was one.
-struct VisibilityCycles
-{
-  /// The cells of all cycles, one cycle after the other, ascending in each. Cycles that have cells in
-  /// common are one. Imaginary cells come behind those of the mesh.
-  std::vector<std::int32_t> Cells;
-  std::vector<std::int64_t> Begins; ///< where each cycle begins in Cells, and the end of the last
-
-  /// Faces (and pairs of boundary faces, MeshedAcrossGaps) through which the order is wrong: rays through
-  /// them meet the two cells in the other order. Those that look smallest are chosen, one by one.
-  std::int64_t IgnoredFaces = 0;
-
-  /// How large the ignored faces look: their solid angle in a perspective view, their projected area
-  /// in a parallel one.
-  double IgnoredArea = 0;
-
-  std::int64_t GetNumberOfCycles() const
-  {
-    return static_cast<std::int64_t>(this->Begins.empty() ? 0 : this->Begins.size() - 1);
-  }
 };
 
 /// In which order cells have to be drawn: of each two of which one hides a part of the other, the one
