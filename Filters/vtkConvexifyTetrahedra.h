@@ -43,7 +43,12 @@
 #include "TetraluxFiltersModule.h"
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <memory> // for std::unique_ptr
+#include <string> // for std::string
+
+namespace tetralux
+{
+struct Convexification;
+}
 
 class TETRALUXFILTERS_EXPORT vtkConvexifyTetrahedra : public vtkUnstructuredGridAlgorithm
 {
@@ -61,26 +66,26 @@ public:
    * the boundary's points; flat pocket faces: those that have nothing behind them though they are on
    * the hull only to rounding, since there is no room for a cell.
    */
-  vtkIdType GetNumberOfBoundaryFaces();
-  vtkIdType GetNumberOfMissingFaces();
-  vtkIdType GetNumberOfFlatPocketFaces();
-  vtkIdType GetNumberOfImaginaryCells();
-  vtkIdType GetNumberOfSteinerPoints();
+  vtkGetMacro(NumberOfBoundaryFaces, vtkIdType);
+  vtkGetMacro(NumberOfMissingFaces, vtkIdType);
+  vtkGetMacro(NumberOfFlatPocketFaces, vtkIdType);
+  vtkGetMacro(NumberOfImaginaryCells, vtkIdType);
+  vtkGetMacro(NumberOfSteinerPoints, vtkIdType);
   ///@}
 
   /**
    * Whether the mesh of the last update was convex already.
    */
-  bool GetInputIsConvex();
+  vtkGetMacro(InputIsConvex, bool);
 
   ///@{
   /**
    * Volumes of the last update, in cubed units of the points, each found by itself: the hull's is
    * that of the mesh and of the imaginary cells. 0 where the mesh was convex already.
    */
-  double GetHullVolume();
-  double GetMeshVolume();
-  double GetImaginaryVolume();
+  vtkGetMacro(HullVolume, double);
+  vtkGetMacro(MeshVolume, double);
+  vtkGetMacro(ImaginaryVolume, double);
   ///@}
 
   ///@{
@@ -88,21 +93,21 @@ public:
    * Seconds that passed in the last update: in the test for convexity and self-intersections, the
    * Delaunay triangulation, the search for what it leaves unfilled, filling that, and verifying.
    */
-  double GetConvexTestSeconds();
-  double GetTriangulationSeconds();
-  double GetPocketSeconds();
-  double GetFillSeconds();
-  double GetVerificationSeconds();
+  vtkGetMacro(ConvexTestSeconds, double);
+  vtkGetMacro(TriangulationSeconds, double);
+  vtkGetMacro(PocketSeconds, double);
+  vtkGetMacro(FillSeconds, double);
+  vtkGetMacro(VerificationSeconds, double);
   ///@}
 
   /**
    * Why the last mesh could not be made convex, and where; empty where it could.
    */
-  const char* GetRefusal();
+  vtkGetCharFromStdStringMacro(Refusal);
 
 protected:
-  vtkConvexifyTetrahedra();
-  ~vtkConvexifyTetrahedra() override;
+  vtkConvexifyTetrahedra() = default;
+  ~vtkConvexifyTetrahedra() override = default;
 
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -111,8 +116,23 @@ private:
   vtkConvexifyTetrahedra(const vtkConvexifyTetrahedra&) = delete;
   void operator=(const vtkConvexifyTetrahedra&) = delete;
 
-  struct Results;
-  std::unique_ptr<Results> LastResults;
+  void SetResults(const tetralux::Convexification& results);
+
+  vtkIdType NumberOfBoundaryFaces = 0;
+  vtkIdType NumberOfMissingFaces = 0;
+  vtkIdType NumberOfFlatPocketFaces = 0;
+  vtkIdType NumberOfImaginaryCells = 0;
+  vtkIdType NumberOfSteinerPoints = 0;
+  bool InputIsConvex = false;
+  double HullVolume = 0;
+  double MeshVolume = 0;
+  double ImaginaryVolume = 0;
+  double ConvexTestSeconds = 0;
+  double TriangulationSeconds = 0;
+  double PocketSeconds = 0;
+  double FillSeconds = 0;
+  double VerificationSeconds = 0;
+  std::string Refusal;
 };
 
 #endif

@@ -33,8 +33,12 @@
 #include "TetraluxFiltersModule.h"
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <memory> // for std::unique_ptr
 #include <string> // for std::string
+
+namespace tetralux
+{
+struct TetrahedraIntakeReport;
+}
 
 class TETRALUXFILTERS_EXPORT vtkTetrahedraFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -59,27 +63,27 @@ public:
    * Ghost, blanked, lower-dimensional and invalid cells are as in the description of the class.
    * All 0 before the first update.
    */
-  vtkIdType GetNumberOfSkippedCells();
-  vtkIdType GetNumberOfGhostCells();
-  vtkIdType GetNumberOfBlankedCells();
-  vtkIdType GetNumberOfLowerDimensionalCells();
-  vtkIdType GetNumberOfInvalidCells();
+  vtkGetMacro(NumberOfSkippedCells, vtkIdType);
+  vtkGetMacro(NumberOfGhostCells, vtkIdType);
+  vtkGetMacro(NumberOfBlankedCells, vtkIdType);
+  vtkGetMacro(NumberOfLowerDimensionalCells, vtkIdType);
+  vtkGetMacro(NumberOfInvalidCells, vtkIdType);
   ///@}
 
   /**
    * The types of the skipped cells with their numbers, as "12 vtkLagrangeHexahedron"; empty where
    * none was skipped.
    */
-  const char* GetSkippedCellTypes();
+  vtkGetCharFromStdStringMacro(SkippedCellTypes);
 
   /**
    * How many points the last update added in the middle of cells.
    */
-  vtkIdType GetNumberOfAddedPoints();
+  vtkGetMacro(NumberOfAddedPoints, vtkIdType);
 
 protected:
-  vtkTetrahedraFilter();
-  ~vtkTetrahedraFilter() override;
+  vtkTetrahedraFilter() = default;
+  ~vtkTetrahedraFilter() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -89,9 +93,16 @@ private:
   vtkTetrahedraFilter(const vtkTetrahedraFilter&) = delete;
   void operator=(const vtkTetrahedraFilter&) = delete;
 
-  struct Counts;
-  std::unique_ptr<Counts> LastCounts;
+  void SetReport(const tetralux::TetrahedraIntakeReport& report);
+
   bool PassOriginalIds = true;
+  vtkIdType NumberOfSkippedCells = 0;
+  vtkIdType NumberOfGhostCells = 0;
+  vtkIdType NumberOfBlankedCells = 0;
+  vtkIdType NumberOfLowerDimensionalCells = 0;
+  vtkIdType NumberOfInvalidCells = 0;
+  std::string SkippedCellTypes;
+  vtkIdType NumberOfAddedPoints = 0;
 };
 
 #endif

@@ -5,8 +5,8 @@
 #include "Intake/CellKind.h"
 #include "Intake/CellSources.h"
 #include "Intake/FacetedCells.h"
-#include "Intake/TetrahedraIntake.h"
 #include "Intake/IntakeChunk.h"
+#include "Intake/TetrahedraIntake.h"
 #include "Mesh/CellSplit.h"
 
 #include "vtkDataSetAttributes.h"

@@ -10,7 +10,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
@@ -21,7 +20,6 @@
 
 #include <algorithm>
 #include <new>
-#include <numeric>
 
 namespace tetralux
 {
@@ -254,28 +252,6 @@ private:
 };
 
 } // namespace
-
-std::int64_t TetrahedraIntakeReport::GetNumberOfSkippedCells() const
-{
-  return std::accumulate(this->SkippedByType.begin(), this->SkippedByType.end(), std::int64_t(0),
-    [](std::int64_t sum, const auto& entry) { return sum + entry.second; });
-}
-
-std::string TetrahedraIntakeReport::DescribeSkippedCells() const
-{
-  std::string text;
-  for (const auto& [type, count] : this->SkippedByType)
-  {
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + GetCellTypeName(type);
-  }
-  return text;
-}
-
-std::string GetCellTypeName(int cellType)
-{
-  const std::string name = vtkCellTypes::GetClassNameFromTypeId(cellType);
-  return name == "UnknownClass" ? "cell type " + std::to_string(cellType) : name;
-}
 
 std::vector<DataSetBlock> CollectDataSets(vtkDataObject* input, std::int64_t* skippedBlocks)
 {
