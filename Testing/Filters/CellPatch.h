@@ -21,6 +21,10 @@ class CellPatch
 public:
   using Position = std::array<double, 3>;
 
+  /// Nodes are rounded to so many parts of a unit: many more than nodes of a cell are apart, and a
+  /// multiple of all numbers up to 16, so that the means of up to 16 nodes of a grid are exact.
+  static constexpr int PartsOfUnit = 720720;
+
   /// Adds a cell whose edges are straight between its corners.
   void AddCell(int type, const std::vector<Position>& corners);
 
