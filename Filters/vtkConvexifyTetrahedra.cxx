@@ -31,8 +31,8 @@ vtkStandardNewMacro(vtkConvexifyTetrahedra);
 namespace
 {
 
-/// Numbers the new ids of an array after the largest old one, in the integers of the array: ids above
-/// 2^53 have no double of their own.
+/// Numbers the new ids of an array after the largest old one, in the integers of the array: ids
+/// above 2^53 have no double of their own.
 struct ContinueIds
 {
   template <class ArrayT>

@@ -3,24 +3,24 @@
  * @class   vtkConvexifyTetrahedra
  * @brief   fill the space between tetrahedra and their convex hull with imaginary cells
  *
- * Takes a vtkUnstructuredGrid of tetrahedra and makes it convex, so that a ray caster that walks from
- * cell to cell leaves it only for good, and an exact visibility order needs no more than the cells'
- * own faces (Weiler et al., Hardware-Based Ray Casting for Tetrahedral Meshes, 2003, section 3.4;
- * Williams, Visibility Ordering Meshed Polyhedra, 1992). Holes through the mesh, closed cavities,
- * and the space between its parts are filled, too. The blocks of a composite are made convex each
- * for itself.
+ * Takes a vtkUnstructuredGrid of tetrahedra and makes it convex, so that a ray caster that walks
+ * from cell to cell leaves it only for good, and an exact visibility order needs no more than the
+ * cells' own faces (Weiler et al., Hardware-Based Ray Casting for Tetrahedral Meshes, 2003, section
+ * 3.4; Williams, Visibility Ordering Meshed Polyhedra, 1992). Holes through the mesh, closed
+ * cavities, and the space between its parts are filled, too. The blocks of a composite are made
+ * convex each for itself.
  *
  * The output has the points and the cells of the input first, unchanged in every id, coordinate and
  * array; then the imaginary cells, tetrahedra of positive volume, and the cell array Imaginary
  * (unsigned char), which is 1 for them and 0 for the others. An array of that name in the input
- * keeps its marks. Mesh and imaginary cells conform: each face of the mesh's boundary that is not on
- * the hull is a face of one imaginary cell, by its point ids, or, where points are at the same place,
- * by the smallest id of these. This is verified with exact signs.
+ * keeps its marks. Mesh and imaginary cells conform: each face of the mesh's boundary that is not
+ * on the hull is a face of one imaginary cell, by its point ids, or, where points are at the same
+ * place, by the smallest id of these. This is verified with exact signs.
  *
  * Where the points do not suffice, points are added, strictly inside the empty space; the points of
- * the output are then in double precision. In the other cell arrays imaginary cells have 0 (an empty
- * string), in the point arrays an added point has what a point of a cell with it has; global ids go
- * on after the largest one. Field data is passed on.
+ * the output are then in double precision. In the other cell arrays imaginary cells have 0 (an
+ * empty string), in the point arrays an added point has what a point of a cell with it has; global
+ * ids go on after the largest one. Field data is passed on.
  *
  * A mesh that is convex passes through, with the array Imaginary.
  *
@@ -30,8 +30,8 @@
  * an earlier cell. Flat and inverted cells are part of the mesh.
  *
  * Fails, with an error that says why and where, on other three-dimensional cells
- * (vtkTetrahedraFilter makes tetrahedra of them), on a mesh whose boundary intersects itself or whose
- * cells overlap, and on more points or cells than 2^31 - 1 or 2^29 - 1. See GetRefusal.
+ * (vtkTetrahedraFilter makes tetrahedra of them), on a mesh whose boundary intersects itself or
+ * whose cells overlap, and on more points or cells than 2^31 - 1 or 2^29 - 1. See GetRefusal.
  *
  * Uses CGAL's three-dimensional triangulations, which are under the GPL.
  *
@@ -62,9 +62,9 @@ public:
    * What the last update found; of a composite, in the block that came last. All 0 before the first
    * update and after one that failed.
    *
-   * Boundary faces: of the mesh; missing faces: those that are none of the Delaunay triangulation of
-   * the boundary's points; flat pocket faces: those that have nothing behind them though they are on
-   * the hull only to rounding, since there is no room for a cell.
+   * Boundary faces: of the mesh; missing faces: those that are none of the Delaunay triangulation
+   * of the boundary's points; flat pocket faces: those that have nothing behind them though they
+   * are on the hull only to rounding, since there is no room for a cell.
    */
   vtkGetMacro(NumberOfBoundaryFaces, vtkIdType);
   vtkGetMacro(NumberOfMissingFaces, vtkIdType);

@@ -14,7 +14,8 @@
 #include <string>
 #include <utility>
 
-/// Calls a function on an event of an object, with the text of the event, until one of the two ends.
+/// Calls a function on an event of an object, with the text of the event, until one of
+/// the two ends.
 class Observer
 {
 public:

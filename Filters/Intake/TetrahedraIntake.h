@@ -49,9 +49,9 @@ struct TetrahedraIntake
 /// - voxels, hexahedra, wedges, pyramids: without new points, diagonals at the smallest point id;
 /// - image data, rectilinear and structured grids: five tetrahedra a cell, alternating;
 /// - pentagonal and hexagonal prisms, polyhedra: faces fanned at their smallest point id, then a
-///   cone from the cell's smallest point id where that makes positive tetrahedra, else from an added
-///   point in the middle. A polyhedron that can't be seen completely from either gives overlapping
-///   tetrahedra, some inverted;
+///   cone from the cell's smallest point id where that makes positive tetrahedra, else from an
+///   added point in the middle. A polyhedron that can't be seen completely from either gives
+///   overlapping tetrahedra, some inverted;
 /// - quadratic cells: all their nodes are kept; faces are cut by a rule that depends on the face
 ///   alone, then a cone from the node in the middle or from an added point there, which has the
 ///   cell's own interpolation weights;

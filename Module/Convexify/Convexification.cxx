@@ -18,9 +18,9 @@ namespace tetralux
 namespace
 {
 
-/// Checks that cells have positive volume and that they and the mesh share all faces but for those of
-/// a convex surface, which is returned. Cells that cover a convex body in total, by boundary, and
-/// turn the same way cover each point of it once.
+/// Checks that cells have positive volume and that they and the mesh share all faces but for those
+/// of a convex surface, which is returned. Cells that cover a convex body in total, by boundary,
+/// and turn the same way cover each point of it once.
 Obstacle VerifyFilled(const BoundarySurface& surface, const std::vector<double>& coordinates,
   const std::vector<Cell>& cells, const Front& flat, std::vector<Triangle>& hull)
 {
@@ -33,8 +33,8 @@ Obstacle VerifyFilled(const BoundarySurface& surface, const std::vector<double>&
     return obstacle;
   };
 
-  // Each face waits for its opposite. The solid side of a boundary triangle is its negative side, as
-  // the cell is of its face.
+  // Each face waits for its opposite. The solid side of a boundary triangle is its negative side,
+  // as the cell is of its face.
   std::vector<Triangle> open;
   std::vector<bool> isMet;
   FaceTable table(surface.Triangles.size() + 2 * cells.size());

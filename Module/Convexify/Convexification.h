@@ -45,9 +45,10 @@ struct Convexification
   bool Aborted = false;
 
   std::int64_t BoundaryFaces = 0; ///< of the mesh
-  /// Boundary faces that are on the hull only to rounding: what lies between them and the hull has no
-  /// more volume than its surface times 16 roundings of the largest coordinate, and no cells, where it
-  /// can't be filled with the points that it has. (Planes turned away from the axes are of that kind.)
+  /// Boundary faces that are on the hull only to rounding: what lies between them and the hull
+  /// has no more volume than its surface times 16 roundings of the largest coordinate, and no
+  /// cells, where it can't be filled with the points that it has. (Planes turned away from the
+  /// axes are of that kind.)
   std::int64_t FlatPocketFaces = 0;
 
   std::int64_t MissingFaces = 0; ///< those of them that are no faces of the Delaunay triangulation
@@ -60,8 +61,8 @@ struct Convexification
   double ImaginaryVolume = 0;
 
   /// Seconds that passed in each phase: the test for convexity and whatever leads to it, the
-  /// triangulation of the boundary's points, finding the pockets that it leaves beside the boundary,
-  /// filling them, verifying the result.
+  /// triangulation of the boundary's points, finding the pockets that it leaves beside the
+  /// boundary, filling them, verifying the result.
   double ConvexTestSeconds = 0;
   double TriangulationSeconds = 0;
   double PocketSeconds = 0;
@@ -83,8 +84,8 @@ struct Convexification
   }
 };
 
-/// Whether the boundary of a mesh is the whole of its convex hull: Convexification::Convex, alone. False
-/// for meshes that Convexify refuses. Exact; takes as long as finding the boundary.
+/// Whether the boundary of a mesh is the whole of its convex hull: Convexification::Convex, alone.
+/// False for meshes that Convexify refuses. Exact; takes as long as finding the boundary.
 TETRALUXCORE_EXPORT bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors);
 
 /// Fills the space between the boundary of a mesh and its convex hull with imaginary cells.
@@ -97,10 +98,10 @@ TETRALUXCORE_EXPORT bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbo
 /// a face of exactly one imaginary cell, every other face of an imaginary cell is one of another
 /// imaginary cell or lies on the hull. This is verified with exact signs before it is returned.
 ///
-/// Refuses, with a line in Refusal: a boundary that meets itself elsewhere than in common points and
-/// edges, distinct points of the boundary at the same place, a boundary face without area, cells
-/// whose neighbours can't be oriented alike, more cells or points than a TetrahedralMesh holds, and
-/// pockets that could not be filled within the limits of the search.
+/// Refuses, with a line in Refusal: a boundary that meets itself elsewhere than in common points
+/// and edges, distinct points of the boundary at the same place, a boundary face without area,
+/// cells whose neighbours can't be oriented alike, more cells or points than a TetrahedralMesh
+/// holds, and pockets that could not be filled within the limits of the search.
 ///
 /// progress, where given, is called from the calling thread with a fraction 0..1 now and then; when
 /// it returns false the work ends with Aborted set.

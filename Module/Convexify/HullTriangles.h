@@ -11,9 +11,9 @@
 namespace tetralux
 {
 
-/// The convex hull of a boundary, triangulated such that no edge of the boundary crosses a triangle:
-/// as the Delaunay triangulation has it, but for planes of more than three points where edges of the
-/// boundary are missing.
+/// The convex hull of a boundary, triangulated such that no edge of the boundary crosses a
+/// triangle: as the Delaunay triangulation has it, but for planes of more than three points where
+/// edges of the boundary are missing.
 struct HullTriangles
 {
   /// Each seen from inside: the hull is on its positive side. None where edges cross.

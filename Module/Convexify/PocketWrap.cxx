@@ -140,7 +140,8 @@ private:
       { return CellFitsTriangle(this->Points, cell, this->Triangles[number]); });
   }
 
-  /// How many triangles of the front, beside its base, a cell would close; 0 where that is not asked.
+  /// How many triangles of the front, beside its base, a cell would close; 0 where that
+  /// is not asked.
   int CountClosed(const Triangle& base, std::int32_t apex) const
   {
     int count = 0;

@@ -11,8 +11,8 @@
 namespace tetralux
 {
 
-/// For each point those that it shares an edge of the Delaunay triangulation with: where the apex of
-/// a new cell is looked for.
+/// For each point those that it shares an edge of the Delaunay triangulation with: where the apex
+/// of a new cell is looked for.
 class PointNeighbors
 {
 public:

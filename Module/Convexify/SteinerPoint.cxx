@@ -14,8 +14,8 @@ namespace
 
 using Vector = std::array<double, 3>;
 
-/// A pocket over points of its own, in coordinates where it is about as long in all directions: what
-/// sees what does not depend on them. The last point is the one that is looked for.
+/// A pocket over points of its own, in coordinates where it is about as long in all directions:
+/// what sees what does not depend on them. The last point is the one that is looked for.
 class LocalPocket
 {
 public:

@@ -82,8 +82,8 @@ void MakeRing(const Values& values, GeneratedMesh& result)
   lattice.IsPeriodic = { false, true, false };
   lattice.Place = [=](int i, int j, int k) -> Point
   {
-    // The square of lattice points of a cross section becomes round, but keeps enough of its corners
-    // for cells of good shape.
+    // The square of lattice points of a cross section becomes round, but keeps enough of its
+    // corners for cells of good shape.
     constexpr double roundness = 0.7;
     const double a = 2.0 * i / across - 1;
     const double b = 2.0 * k / across - 1;

@@ -24,8 +24,9 @@ struct HalfSpace
 /// callers' own half spaces let x go, so that it never decides.
 constexpr double LinearProgramReach = 1e3;
 
-/// How much Normal . x may exceed Limit, and how small a coefficient of a normal counts as 0. Normals
-/// have about unit length and x is up to about 100: some roundings of that size, 1e-14 each.
+/// How much Normal . x may exceed Limit, and how small a coefficient of a normal counts
+/// as 0. Normals have about unit length and x is up to about 100: some roundings of
+/// that size, 1e-14 each.
 constexpr double LinearProgramRounding = 1e-13;
 
 /// Finds the x in all half spaces with the largest objective . x. Returns false if there is none.

@@ -22,8 +22,8 @@ bool CellMeetsTriangleProperly(
 bool TrianglePiercesCell(
   const ExactPoints& points, const std::int32_t* cell, const std::int32_t* triangle);
 
-/// False only where a tetrahedron and a triangle have no point in common. planeSigns: for each of the
-/// tetrahedron's points the side of the triangle's plane.
+/// False only where a tetrahedron and a triangle have no point in common. planeSigns: for each of
+/// the tetrahedron's points the side of the triangle's plane.
 bool CellCanMeetTriangle(const ExactPoints& points, const std::int32_t* cell,
   const std::int32_t* triangle, const int* planeSigns);
 

@@ -15,15 +15,15 @@
 namespace tetralux
 {
 
-/// All cells of a mesh whose arrows go round in cycles, farthest first. Cells of a cycle come one after
-/// the other, in an order for which arrows are ignored until there is no cycle: those into one cell at
-/// a time, the one whose arrows look smallest together. So of two cells that are not both in one cycle
-/// the order is right. The smallest set of arrows would be a minimum feedback arc set, which is not to
-/// be had in reasonable time; this is Eades, Lin and Smyth, A Fast and Effective Heuristic for the
-/// Feedback Arc Set Problem, 1993, with weights.
+/// All cells of a mesh whose arrows go round in cycles, farthest first. Cells of a cycle come one
+/// after the other, in an order for which arrows are ignored until there is no cycle: those into
+/// one cell at a time, the one whose arrows look smallest together. So of two cells that are not
+/// both in one cycle the order is right. The smallest set of arrows would be a minimum feedback arc
+/// set, which is not to be had in reasonable time; this is Eades, Lin and Smyth, A Fast and
+/// Effective Heuristic for the Feedback Arc Set Problem, 1993, with weights.
 ///
-/// gaps: arrows across empty space, or none. roots: cells to begin with, in this order, before those that are left; see VisibilityOrder.
-/// Linear time, and n log n in the size of a cycle.
+/// gaps: arrows across empty space, or none. roots: cells to begin with, in this order, before
+/// those that are left; see VisibilityOrder. Linear time, and n log n in the size of a cycle.
 std::vector<std::int32_t> SortWithCycles(const VisibilityGeometry& geometry,
   const VisibilityView& view, Span<const std::uint8_t> arrows, const VisibilityGaps& gaps,
   Span<const KeyedItem> roots, VisibilityCycles& cycles);

@@ -12,8 +12,8 @@
 namespace tetralux
 {
 
-/// Which cells hide which others across empty space: one for each pair of boundary faces of which a ray
-/// leaves the mesh by one and then enters it by the other.
+/// Which cells hide which others across empty space: one for each pair of boundary faces of which a
+/// ray leaves the mesh by one and then enters it by the other.
 struct VisibilityGaps
 {
   std::vector<std::int32_t>
@@ -22,11 +22,12 @@ struct VisibilityGaps
   std::vector<float> Sizes; ///< how large the common part of the faces looks, see MeasureTriangle
 };
 
-/// Finds them all, which makes the order of any mesh exact, also one that can't be made convex (after
-/// Silva, Mitchell and Williams, An Exact Interactive Time Visibility Ordering Algorithm for Polyhedral
-/// Cell Complexes, 1998, who sweep the picture): what is in the cone behind each face that rays leave by,
-/// by the hierarchy over the boundary, and clipped by the cone. In double precision with tolerances, which
-/// nothing but slivers depends on. Parallel, the same result for any number of threads.
+/// Finds them all, which makes the order of any mesh exact, also one that can't be made convex
+/// (after Silva, Mitchell and Williams, An Exact Interactive Time Visibility Ordering Algorithm for
+/// Polyhedral Cell Complexes, 1998, who sweep the picture): what is in the cone behind each face
+/// that rays leave by, by the hierarchy over the boundary, and clipped by the cone. In double
+/// precision with tolerances, which nothing but slivers depends on. Parallel, the same result for
+/// any number of threads.
 ///
 /// False, and nothing, where there are more than LargestNumberOfGaps for each boundary face.
 bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows,

@@ -13,8 +13,8 @@ namespace tetralux
 /// the faces between these cells.
 struct VisibilityCycles
 {
-  /// The cells of all cycles, one cycle after the other, ascending in each. Cycles that have cells in
-  /// common are one. Imaginary cells come behind those of the mesh.
+  /// The cells of all cycles, one cycle after the other, ascending in each. Cycles that have cells
+  /// in common are one. Imaginary cells come behind those of the mesh.
   std::vector<std::int32_t> Cells;
   std::vector<std::int64_t> Begins; ///< where each cycle begins in Cells, and the end of the last
 
@@ -22,8 +22,8 @@ struct VisibilityCycles
   /// the two cells in the wrong order. The faces that look smallest are chosen, one by one.
   std::int64_t IgnoredFaces = 0;
 
-  /// How large the ignored faces look: their solid angle in a perspective view, their projected area
-  /// in a parallel one.
+  /// How large the ignored faces look: their solid angle in a perspective view, their projected
+  /// area in a parallel one.
   double IgnoredArea = 0;
 
   std::int64_t GetNumberOfCycles() const

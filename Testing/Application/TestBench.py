@@ -21,14 +21,16 @@ PEERS = [
     "vtk-projected-tetrahedra", "vtk-bunyk", "vtk-bunyk-preintegration", "vtk-bunyk-closed-form",
 ]
 NUMBERS = [
-    "largest_error", "rms_error", "error_99.9", "share_above_1/255", "best_ms", "median_ms", "frames",
+    "largest_error", "rms_error", "error_99.9", "share_above_1/255", "best_ms", "median_ms",
+    "frames",
     "prepare_ms",
 ]
 
 
 class Bench(ToolTest):
     def read_results(self, folder):
-        with open(os.path.join(self.path(folder), "results.csv"), newline="", encoding="utf-8") as file:
+        path = os.path.join(self.path(folder), "results.csv")
+        with open(path, newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         for row in rows:
             self.assertNotIn(None, row, "more fields than names")
@@ -75,7 +77,8 @@ class Bench(ToolTest):
             self.assertRegex(source, r"^(data:image/png;base64,|#)")
             if source.startswith("data:"):
                 image = base64.b64decode(source.split(",")[1], validate=True)
-                self.assertTrue(image.startswith(b"\x89PNG\r\n") and image.rstrip().endswith(b"\x82"))
+                self.assertTrue(image.startswith(b"\x89PNG\r\n"))
+                self.assertTrue(image.rstrip().endswith(b"\x82"))
         words = re.sub(r'"data:[^"]*"', '""', page)
         for word in ("http", self.folder, os.path.expanduser("~")):
             self.assertNotIn(word, words)
@@ -94,7 +97,9 @@ class Bench(ToolTest):
         self.assertEqual(len(settings), len(rows), "no setting comes twice")
         self.assertEqual(rows[0]["setting"], "reference")
         self.assertEqual([row["setting"] for row in rows[-len(PEERS):]], PEERS)
-        for name in ("default", "error-1e-2", "error-1e-6", "single", "double", "sample-distance-2"):
+        for name in (
+            "default", "error-1e-2", "error-1e-6", "single", "double", "sample-distance-2"
+        ):
             self.assertIn(name, settings)
         self.check_page("out", rows)
 
@@ -136,7 +141,8 @@ class Bench(ToolTest):
         for row in ranked:
             worse = any(
                 other["largest_error"] <= row["largest_error"] and other["best_ms"] < row["best_ms"]
-                or other["largest_error"] < row["largest_error"] and other["best_ms"] <= row["best_ms"]
+                or other["largest_error"] < row["largest_error"]
+                and other["best_ms"] <= row["best_ms"]
                 for other in ranked
             )
             self.assertEqual(row["pareto"], "0" if worse else "1", row["setting"])
@@ -155,14 +161,18 @@ class Bench(ToolTest):
                 self.assertLess((error - difference[:, :, 0]).max(), 1.01 / 255, name)
 
     def test_a_file_and_settings_of_the_user(self):
-        self.succeed("generate", "gear", "--teeth", 4, "--across", 2, "--along", 2, "--output", "m.vtu")
+        self.succeed(
+            "generate", "gear", "--teeth", 4, "--across", 2, "--along", 2, "--output", "m.vtu"
+        )
         self.write("steps.json", json.dumps({
             "RGBPoints": [-1, 1, 0, 0, 1, 1, 0.5, 0], "Points": [-1, 0.2, 0.5, 0, 1, 0.8, 0.5, 0],
         }))
         arguments = [
             "bench", "m.vtu", "--array", "Field", "--transfer", "steps.json", "--camera-position",
-            "0,0,4", "--camera-parallel-scale", 1.2, "--size", "30,20", "--frames", 1, "--threads", 1,
-            "--setting", "Precision=1 MaximumError=1e-2", "--setting", "Precision=2", "--output", "out",
+            "0,0,4", "--camera-parallel-scale", 1.2, "--size", "30,20", "--frames", 1,
+            "--threads", 1,
+            "--setting", "Precision=1 MaximumError=1e-2", "--setting", "Precision=2",
+            "--output", "out",
         ]
         self.succeed(*arguments)
         rows = self.read_results("out")

@@ -37,13 +37,18 @@ class WrongUsage(ToolTest):
 
     def test_methods(self):
         for method in ("bunyk", "isosurface", "gpu", ""):
-            self.render_fails("--method", method, says=["--method", "auto, ray-cast, gpu-ray-cast and projection"])
+            self.render_fails(
+                "--method", method,
+                says=["--method", "auto, ray-cast, gpu-ray-cast and projection"],
+            )
 
     def test_properties_of_other_methods(self):
         self.render_fails(
             "--method", "projection", "--set", "Precision=2", says=["'Precision'", "ColorBuffer"]
         )
-        self.render_fails("--method", "gpu-ray-cast", "--threads", 2, says=["--threads", "gpu-ray-cast"])
+        self.render_fails(
+            "--method", "gpu-ray-cast", "--threads", 2, says=["--threads", "gpu-ray-cast"]
+        )
 
     def test_numbers(self):
         for option, text, right in [
@@ -115,7 +120,9 @@ class WrongUsage(ToolTest):
             (("7",), "'7'"),
         ]:
             with self.subTest(arguments=arguments):
-                self.expect_failure(2, "generate", "ball", "--output", "x.vtu", *arguments, says=says)
+                self.expect_failure(
+                    2, "generate", "ball", "--output", "x.vtu", *arguments, says=says
+                )
 
 
 class FailedWork(ToolTest):
@@ -158,7 +165,9 @@ class FailedWork(ToolTest):
                     self.expect_failure(1, *command, says=[f"'{name}'", says])
         self.expect_failure(1, "info", "missing.bin,q.bin", says="'missing.bin'")
         self.expect_failure(1, "info", "broken.bin,missing.bin", says="'missing.bin'")
-        self.expect_failure(1, "info", "broken.bin", "--plot3d-q", "missing.bin", says="'missing.bin'")
+        self.expect_failure(
+            1, "info", "broken.bin", "--plot3d-q", "missing.bin", says="'missing.bin'"
+        )
 
     def test_arrays(self):
         self.render_fails("--array", "Temp", says=["'Temp'", "Field"])
@@ -226,9 +235,13 @@ class FailedWork(ToolTest):
             ("ball.vtu/out.png", "Not a directory"),
         ]:
             with self.subTest(output=output):
-                self.expect_failure(1, "render", "ball.vtu", "--output", output, says=[output, says])
+                self.expect_failure(
+                    1, "render", "ball.vtu", "--output", output, says=[output, says]
+                )
         self.render_fails("--stats", "missing/stats.json", says="missing/stats.json")
-        self.expect_failure(1, "generate", "ball", "--output", "missing/x.vtu", says="missing/x.vtu")
+        self.expect_failure(
+            1, "generate", "ball", "--output", "missing/x.vtu", says="missing/x.vtu"
+        )
 
     def test_a_failure_keeps_an_older_output(self):
         self.write("out.png", "older")

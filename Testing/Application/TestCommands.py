@@ -111,7 +111,9 @@ class Commands(ToolTest):
     def test_all_methods_make_the_same_picture(self):
         # A wall, so that rays leave and enter again.
         self.succeed("generate", "ring", "--around", 24, "--across", 3, "--output", "m.vtu")
-        for further in ([], ["--shade"], ["--isovalues", "0.3,0.6"], ["--set", "BlendMode=additive"]):
+        for further in (
+            [], ["--shade"], ["--isovalues", "0.3,0.6"], ["--set", "BlendMode=additive"]
+        ):
             with self.subTest(further=further):
                 pictures = {}
                 for method in ("auto", "ray-cast", "gpu-ray-cast", "projection"):
@@ -166,16 +168,19 @@ class Commands(ToolTest):
     def test_camera_options(self):
         self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")
         view = ["--size", "41,41", "--output", "out.vti"]
-        # A parallel projection of the unit ball with half a picture of 2 units covers pi / 16 of it.
+        # A parallel projection of the unit ball with half a picture of 2 units covers
+        # pi / 16 of it.
         self.succeed(
             "render", "ball.vtu", "--camera-position", "0,0,5", "--camera-parallel-scale", 2, *view
         )
         colors, depth = self.read_vti("out.vti")
         self.assertAlmostEqual((colors[:, :, 3] > 0).mean(), numpy.pi / 16, delta=0.03)
         self.assertAlmostEqual(depth[20, 20], 4, delta=0.1)
-        # Looking away there is nothing, which deserves a warning; status 0, for that is the picture.
+        # Looking away there is nothing, which deserves a warning; status 0, for that is
+        # the picture.
         result = self.run_tool(
-            "render", "ball.vtu", "--camera-position", "0,0,5", "--camera-focal-point", "0,0,9", *view
+            "render", "ball.vtu", "--camera-position", "0,0,5", "--camera-focal-point", "0,0,9",
+            *view,
         )
         self.assertEqual(result.returncode, 0)
         self.assertIn("warning: the picture is empty", result.stderr)

@@ -4,10 +4,11 @@
 // tetrahedra as a benchmark's name says; the largest takes part where --benchmark_filter names its
 // number. Time is that of the wall, CPU that of all threads.
 //
-//   Cast/...         pictures of 512 x 512 pixels; Wall and Cpu: nanoseconds for each cell that a ray
-//                    walks through. Entries: share of the picture's time that goes into finding
+//   Cast/...         pictures of 512 x 512 pixels; Wall and Cpu: nanoseconds for each cell that a
+//                    ray walks through. Entries: share of the picture's time that goes into finding
 //                    where rays enter the mesh, measured by a picture that ends in front of it.
-//   Prepare/...      what is done once for a mesh, by stage; Wall and Cpu: nanoseconds a tetrahedron.
+//   Prepare/...      what is done once for a mesh, by stage; Wall and Cpu: nanoseconds a
+//                    tetrahedron.
 //   Integral/...     SegmentIntegralBenchmark.cxx.
 
 #include "Base/Stopwatch.h"

@@ -5,12 +5,12 @@
     TETRALUX_DATA=FOLDER PYTHONPATH=build/lib/python3.11/dist-packages \
         python3 Testing/Benchmarks/projection.py [--tetralux build/bin/tetralux] [--output FOLDER]
 
-Tables 1 and 2 of Kraus, Qiao and Ebert, Projecting Tetrahedra without Rendering Artifacts (2004), side
-by side with what is measured here, and vtkProjectedTetrahedraMapper in the same run: whole frames, the
-best of several, taken by turns so that what else the machine does hits all alike. Their figures 7 to 10
-remade: pictures with one correction off, their difference from the ray caster's picture in double
-precision, magnified, and the error in numbers. Writes index.html and the pictures to FOLDER. Without
-TETRALUX_DATA the blunt fin is left out.
+Sets tables 1 and 2 of Kraus, Qiao and Ebert, Projecting Tetrahedra without Rendering Artifacts
+(2004), beside what is measured here, with vtkProjectedTetrahedraMapper in the same run: whole
+frames, the best of several, taken in turns so that other load of the machine hits all alike.
+Remakes their figures 7 to 10: pictures with one correction off, their difference from the ray
+caster's picture in double precision, magnified, and the error in numbers. Writes index.html and the
+pictures to FOLDER. Leaves out the blunt fin without TETRALUX_DATA.
 """
 
 import argparse
@@ -60,7 +60,11 @@ BEST_TABLE = {**TABLE, **SIXTEEN_BITS, **LOGARITHMIC}
 # Seconds of the paper's table 1, for 800 x 600 pixels.
 TABLE_1 = (
     ("corrections off (i)", {**TABLE, **EIGHT_BITS, **UNIFORM, **LINEAR, **FRAME_BUFFER}, 0.195),
-    ("and perspective interpolation (ii)", {**TABLE, **EIGHT_BITS, **UNIFORM, **FRAME_BUFFER}, 0.243),
+    (
+        "and perspective interpolation (ii)",
+        {**TABLE, **EIGHT_BITS, **UNIFORM, **FRAME_BUFFER},
+        0.243,
+    ),
     ("and a 16-bit table (iii)", {**TABLE, **SIXTEEN_BITS, **UNIFORM, **FRAME_BUFFER}, 0.274),
     ("and a logarithmic table (iv)", {**BEST_TABLE, **FRAME_BUFFER}, 0.314),
     ("and alpha dithering", {**BEST_TABLE, **DITHERED}, 0.621),
@@ -179,7 +183,8 @@ class Page:
         cells = "".join(f"<th>{html.escape(cell)}</th>" for cell in header)
         self.add(f"<table>\n<tr>{cells}</tr>")
         for row in rows:
-            self.add("<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in row) + "</tr>")
+            cells = "".join(f"<td>{html.escape(str(cell))}</td>" for cell in row)
+            self.add(f"<tr>{cells}</tr>")
         self.add("</table>")
 
     def write_picture(self, name, rgb):
@@ -244,7 +249,8 @@ def add_figure(page, name, title, scene, variants, size=(256, 192)):
         page.write_picture(f"{name}-{letter}-difference.png", difference)
         caption = html.escape(f"({letter}) {variant}")
         page.add(
-            f'<figure><img src="{name}-{letter}.png" alt=""><img src="{name}-{letter}-difference.png" '
+            f'<figure><img src="{name}-{letter}.png" alt="">'
+            f'<img src="{name}-{letter}-difference.png" '
             f'alt=""><figcaption>{caption}; difference x {magnification}</figcaption></figure>'
         )
         rows.append((f"({letter}) {variant}", *describe_errors(picture, reference)))
@@ -279,7 +285,8 @@ def add_costs(page, fin, options):
         "threads, and hardly depend on what else the machine does.</p>"
     )
     page.add_table(
-        ("", "seconds", "of VTK's", "processor seconds", "of VTK's", "paper, 800 x 600, seconds"), rows
+        ("", "seconds", "of VTK's", "processor seconds", "of VTK's", "paper, 800 x 600, seconds"),
+        rows,
     )
     stages = json.loads(mappers[-1].GetStatistics())["seconds"]
     page.add(
@@ -312,7 +319,8 @@ def add_speeds(page, scenes, options):
         )
         print(rows[-1], flush=True)
     page.add_table(
-        ("data set", "cells", "VTK's mapper", "table, 8-bit buffer", "closed form, float buffer"), rows
+        ("data set", "cells", "VTK's mapper", "table, 8-bit buffer", "closed form, float buffer"),
+        rows,
     )
     page.add("<p>The paper's, for 800 x 600 pixels on a Quadro FX 3000:</p>")
     page.add_table(
@@ -323,7 +331,9 @@ def add_speeds(page, scenes, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tetralux", default=shutil.which("tetralux"), help="the command-line tool")
+    parser.add_argument(
+        "--tetralux", default=shutil.which("tetralux"), help="the command-line tool"
+    )
     parser.add_argument("--output", default="Documentation/projection", help="folder of the page")
     parser.add_argument("--size", type=int, default=512, help="pixels along an edge (512)")
     parser.add_argument("--rounds", type=int, default=5, help="frames timed of each (5)")
@@ -345,8 +355,9 @@ def main():
     page = Page(options.output)
     page.add("<h1>Projected tetrahedra without artifacts</h1>")
     page.add(
-        "<p>vtkTetrahedraProjectionMapper beside the paper it is after: M. Kraus, W. Qiao and D. S. "
-        "Ebert, Projecting Tetrahedra without Rendering Artifacts, IEEE Visualization 2004. Errors are "
+        "<p>vtkTetrahedraProjectionMapper beside the paper it is after: M. Kraus, W. Qiao and "
+        "D. S. Ebert, Projecting Tetrahedra without Rendering Artifacts, IEEE Visualization 2004. "
+        "Errors are "
         "against vtkTetrahedraRayCastMapper in double precision.</p>"
     )
     if fin:
@@ -388,8 +399,9 @@ def main():
         ball = generate(options.tetralux, "ball", "--cells", "74")
         thin = make_scene(ball, 0.05, SMOOTH)
         page.add(
-            "<p>Alpha dithering (figure 9) keeps what is too thin for 8 bits. What it can't help, as the "
-            "paper says, is that each blending rounds again: where cells are less thin, as in figure 7, "
+            "<p>Alpha dithering (figure 9) keeps what is too thin for 8 bits. What it can't help, "
+            "as the paper says, is that each blending rounds again: where cells are less thin, as "
+            "in figure 7, "
             "it only turns steps into noise.</p>"
         )
         add_figure(

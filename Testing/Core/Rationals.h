@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-/// Geometry in rational numbers, which knows no rounding: what exact and fast code is compared with.
+/// Geometry in rational numbers, which knows no rounding: what exact and fast code is
+/// compared with.
 namespace rationals
 {
 
@@ -54,7 +55,8 @@ inline int GetOrientation(const double* a, const double* b, const double* c, con
     .sign();
 }
 
-/// 1 if e is strictly inside of the sphere through a, b, c, d, whose volume is positive; 0 if on it.
+/// 1 if e is strictly inside of the sphere through a, b, c, d, whose volume is
+/// positive; 0 if on it.
 inline int GetSphereSide(
   const double* a, const double* b, const double* c, const double* d, const double* e)
 {
@@ -150,8 +152,9 @@ inline std::vector<Point> GetFace(const std::vector<Point>& simplex, unsigned ma
   return face;
 }
 
-/// The corners of the intersection of two simplices, in any order and possibly repeated: the points
-/// in which a face of the one, of any dimension, and a face of the other have nothing else in common.
+/// The corners of the intersection of two simplices, in any order and possibly repeated:
+/// the points in which a face of the one, of any dimension, and a face of the other have
+/// nothing else in common.
 inline std::vector<Point> IntersectSimplices(
   const std::vector<Point>& simplex0, const std::vector<Point>& simplex1)
 {

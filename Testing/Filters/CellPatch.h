@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-/// A block of cells of any type that share their nodes, for tests: cells are added by their corners,
-/// and nodes on edges, faces and in the middle are put where VTK's cell class wants them.
+/// A block of cells of any type that share their nodes, for tests: cells are added by their
+/// corners, and nodes on edges, faces and in the middle are put where VTK's cell class wants them.
 class CellPatch
 {
 public:
@@ -66,8 +66,9 @@ CellPatch::Position MapWarped(const CellPatch::Position& x);
 /// Sum of the signed volumes, and how many of them are not positive.
 double GetVolume(const tetralux::TetrahedralMesh& mesh, std::int64_t* notPositive = nullptr);
 
-/// Empty if every face is shared by two tetrahedra or lies on the boundary, all its points in one of
-/// the planes of the box from 0 to size; else what is wrong. toBox takes mesh points back to the box.
+/// Empty if every face is shared by two tetrahedra or lies on the boundary, all its points
+/// in one of the planes of the box from 0 to size; else what is wrong. toBox takes mesh
+/// points back to the box.
 std::string FindConformityProblem(const tetralux::TetrahedralMesh& mesh,
   const std::function<CellPatch::Position(std::int64_t)>& toBox, const std::array<int, 3>& size);
 

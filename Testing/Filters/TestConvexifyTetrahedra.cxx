@@ -87,8 +87,8 @@ void MakeGrid(const std::string& name, const std::map<std::string, double>& para
   grid->GetFieldData()->AddArray(pressure);
 }
 
-/// The largest relative error of a volume that is a sum over cells of its surface or its inside: each
-/// of up to some thousand terms is rounded by 1e-16 of its size.
+/// The largest relative error of a volume that is a sum over cells of its surface or its inside:
+/// each of up to some thousand terms is rounded by 1e-16 of its size.
 constexpr double VolumeRounding = 1e-12;
 
 double GetVolume(vtkUnstructuredGrid* grid, vtkIdType cell)
@@ -356,7 +356,8 @@ TEST(ConvexifyTetrahedra, SaysWhyNot)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
-/// Random subsets of the cells of random Delaunay meshes: filled and right, or refused with a reason.
+/// Random subsets of the cells of random Delaunay meshes: filled and right, or refused
+/// with a reason.
 TEST(ConvexifyTetrahedra, SubsetsOfDelaunayMeshes)
 {
   int filled = 0;

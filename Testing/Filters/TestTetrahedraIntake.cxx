@@ -31,8 +31,8 @@ using namespace tetralux;
 namespace
 {
 
-/// The largest error of a volume, in cubed units of the meshes. Their volumes, up to 100, are sums of
-/// a few hundred products of coordinates up to 10, each rounded by 1e-16 of its size.
+/// The largest error of a volume, in cubed units of the meshes. Their volumes, up to 100, are sums
+/// of a few hundred products of coordinates up to 10, each rounded by 1e-16 of its size.
 constexpr double VolumeTolerance = 1e-12;
 
 CellPatch::Position KeepPosition(const CellPatch::Position& x) { return x; }

@@ -134,8 +134,8 @@ TEST(BoundarySurface, Obstacles)
 
 TEST(BoundarySurface, OneSidedRingHasNoOrientation)
 {
-  // A ring of seven cells, each of which has three points of the one before it. It closes by the first
-  // three points, in their order or with two of them swapped, which turns the last cell over.
+  // A ring of seven cells, each of which has three points of the one before it. It closes by the
+  // first three points, in their order or with two of them swapped, which turns the last cell over.
   TetrahedralMesh mesh;
   std::mt19937_64 random(1);
   for (int i = 0; i < 3 * 7; ++i)

@@ -36,7 +36,8 @@ TEST(VolumeScene, NoSegmentIsLongerThanTheLongestEdgeInTheWorld)
   // The mesh ten times as large in the world, moved, and sheared.
   const double rows[3][4] = { { 0.1, 0.1, 0, 5 }, { 0, 0.1, 0, 7 }, { 0, 0, 0.1, -3 } };
   std::copy_n(&rows[0][0], 12, &grid.MeshFromWorld[0][0]);
-  // Its longest edge is (-1, 0, 2) in the mesh, (-10, 0, 20) in the world; (0, 1, 0) is (-10, 10, 0).
+  // Its longest edge is (-1, 0, 2) in the mesh, (-10, 0, 20) in the world; (0, 1, 0) is
+  // (-10, 10, 0).
   EXPECT_GE(scene.GetLongestSegment(grid), 10 * edge);
   EXPECT_LE(scene.GetLongestSegment(grid), 10 * edge * 2.001);
 
