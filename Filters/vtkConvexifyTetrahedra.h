@@ -3,24 +3,25 @@
  * @class   vtkConvexifyTetrahedra
  * @brief   fill the space between tetrahedra and their convex hull with imaginary cells
  *
- * Takes a vtkUnstructuredGrid of tetrahedra and makes it convex, so that a ray caster that walks
- * from cell to cell leaves it only for good, and an exact visibility order needs no more than the
- * cells' own faces (Weiler et al., Hardware-Based Ray Casting for Tetrahedral Meshes, 2003, section
- * 3.4; Williams, Visibility Ordering Meshed Polyhedra, 1992). Holes through the mesh, closed
- * cavities, and the space between its parts are filled, too. The blocks of a composite are made
- * convex each for itself.
+ * Takes a vtkUnstructuredGrid of tetrahedra and makes it convex (Weiler et al.,
+ * Hardware-Based Ray Casting for Tetrahedral Meshes, 2003, section 3.4; Williams, Visibility
+ * Ordering Meshed Polyhedra, 1992). A ray caster that walks from cell to cell then leaves the
+ * mesh only once, and an exact visibility order needs only the cells' own faces. Fills holes
+ * through the mesh, closed cavities, and the space between its parts, too. Each block of a
+ * composite is made convex on its own.
  *
  * The output has the points and the cells of the input first, unchanged in every id, coordinate and
- * array; then the imaginary cells, tetrahedra of positive volume, and the cell array Imaginary
- * (unsigned char), which is 1 for them and 0 for the others. An array of that name in the input
- * keeps its marks. Mesh and imaginary cells conform: each face of the mesh's boundary that is not
- * on the hull is a face of one imaginary cell, by its point ids, or, where points are at the same
- * place, by the smallest id of these. This is verified with exact signs.
+ * array. The imaginary cells follow, tetrahedra of positive volume. The cell array Imaginary
+ * (unsigned char) is 1 for them and 0 for the others; an array of that name in the input keeps its
+ * marks. Mesh and imaginary cells conform: each boundary face of the mesh that is not on the hull
+ * is a face of one imaginary cell, by its point ids, or, if points are at the same place, by the
+ * smallest of their ids. This is verified with exact signs.
  *
- * Where the points do not suffice, points are added, strictly inside the empty space; the points of
- * the output are then in double precision. In the other cell arrays imaginary cells have 0 (an
- * empty string), in the point arrays an added point has what a point of a cell with it has; global
- * ids go on after the largest one. Field data is passed on.
+ * If the points do not suffice, points are added, strictly inside the empty space; the points of
+ * the output are then in double precision. In other cell arrays imaginary cells have 0 (an empty
+ * string). In point arrays an added point has the values of a point of a cell with it. Global ids
+ * continue after the largest one; they are left out if their type has no room for the new ones.
+ * Field data is passed on.
  *
  * A mesh that is convex passes through, with the array Imaginary.
  *
@@ -59,12 +60,12 @@ public:
 
   ///@{
   /**
-   * What the last update found; of a composite, in the block that came last. All 0 before the first
-   * update and after one that failed.
+   * What the last update found; of a composite, in the last block. All 0 before the first update
+   * and after one that failed.
    *
-   * Boundary faces: of the mesh; missing faces: those that are none of the Delaunay triangulation
-   * of the boundary's points; flat pocket faces: those that have nothing behind them though they
-   * are on the hull only to rounding, since there is no room for a cell.
+   * Missing faces: boundary faces that the Delaunay triangulation of the boundary's points lacks.
+   * Flat pocket faces: boundary faces that are on the hull only to rounding, with no cell behind
+   * them, since there is no room for one.
    */
   vtkGetMacro(NumberOfBoundaryFaces, vtkIdType);
   vtkGetMacro(NumberOfMissingFaces, vtkIdType);
@@ -80,8 +81,8 @@ public:
 
   ///@{
   /**
-   * Volumes of the last update, in cubed units of the points, each found by itself: the hull's is
-   * that of the mesh and of the imaginary cells. 0 where the mesh was convex already.
+   * Volumes of the last update, in cubed units of the points. Each is measured on its own: the
+   * hull's is the sum of the others. 0 if the mesh was convex already.
    */
   vtkGetMacro(HullVolume, double);
   vtkGetMacro(MeshVolume, double);
@@ -90,8 +91,8 @@ public:
 
   ///@{
   /**
-   * Seconds that passed in the last update: in the test for convexity and self-intersections, the
-   * Delaunay triangulation, the search for what it leaves unfilled, filling that, and verifying.
+   * Seconds of the last update: of the test for convexity and self-intersections, the Delaunay
+   * triangulation, the search for what it leaves unfilled, filling that, and verifying.
    */
   vtkGetMacro(ConvexTestSeconds, double);
   vtkGetMacro(TriangulationSeconds, double);
@@ -101,7 +102,7 @@ public:
   ///@}
 
   /**
-   * Why the last mesh could not be made convex, and where; empty where it could.
+   * Why the last mesh could not be made convex, and where; empty if it could.
    */
   vtkGetCharFromStdStringMacro(Refusal);
 

@@ -14,8 +14,8 @@
  * - NeighborFaces (signed char): which face of that neighbour the face is, 0..3; -1 where there is
  *   no neighbour.
  * Faces are matched by their point ids: coincident points are not merged. A face that three or more
- * cells share is outside for each of them, so that whoever walks from cell to cell is always on a
- * path from one boundary face to another.
+ * cells share is outside for each of them, so that a walk from cell to cell always leads from one
+ * boundary face to another.
  *
  * The second output is the boundary: a vtkPolyData of triangles, seen counter-clockwise from
  * outside, also those of inverted cells; with the points and the point data of the input (all of

@@ -14,7 +14,7 @@ namespace tetralux
 bool TrianglesMeetProperly(
   const ExactPoints& points, const std::int32_t* triangle0, const std::int32_t* triangle1);
 
-/// The same of a tetrahedron of positive volume and a triangle that is none of its faces.
+/// The same for a tetrahedron of positive volume and a triangle that is not one of its faces.
 bool CellMeetsTriangleProperly(
   const ExactPoints& points, const std::int32_t* cell, const std::int32_t* triangle);
 
