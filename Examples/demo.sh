@@ -38,7 +38,8 @@ echo "set-up $setup, build $build, mesh $generate, picture $render from file to 
 awk -v intake="$(statistic intake)" -v mesh="$(statistic mesh)" -v cast="$(statistic cast)" \
   -v tetrahedra="$(statistic tetrahedra)" -v bytes="$(statistic bytes)" \
   -v threads="$(statistic threads)" -v error="$(statistic estimate)" 'BEGIN {
-    printf "  tables of %d tetrahedra: %.2f s once, %.1f MB\n", tetrahedra, intake + mesh, bytes / 1e6
+    printf "  tables of %d tetrahedra: %.2f s once, %.1f MB\n", tetrahedra, intake + mesh,
+      bytes / 1e6
     printf "  rays: %.2f s a frame on %d threads\n", cast, threads
     printf "  estimated error of a colour channel: %.1e\n", error
   }'

@@ -6,10 +6,12 @@
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
 
+#include "vtkArrayDispatch.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -20,21 +22,46 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <vector>
 
 vtkStandardNewMacro(vtkConvexifyTetrahedra);
 
-struct vtkConvexifyTetrahedra::Results : tetralux::Convexification
-{
-  vtkIdType NumberOfCells = 0;
-  vtkIdType NumberOfSteinerPoints = 0;
-};
-
 namespace
 {
 
-/// Global ids go on after the largest one.
+/// Numbers the new ids of an array after the largest old one, in the integers of the array: ids
+/// above 2^53 have no double of their own.
+struct ContinueIds
+{
+  template <class ArrayT>
+  void operator()(ArrayT* ids, vtkIdType firstNew, bool& fits) const
+  {
+    using Id = vtk::GetAPIType<ArrayT>;
+    auto values = vtk::DataArrayValueRange<1>(ids);
+    Id next = 0;
+    bool isFull = false;
+    for (vtkIdType i = 0; i < firstNew; ++i)
+    {
+      const Id id = values[i];
+      if (id >= next)
+      {
+        isFull = id == std::numeric_limits<Id>::max();
+        next = isFull ? id : static_cast<Id>(id + 1);
+      }
+    }
+    for (vtkIdType i = firstNew; i < values.size() && !isFull; ++i)
+    {
+      values[i] = next;
+      isFull = next == std::numeric_limits<Id>::max() && i + 1 < values.size();
+      next = isFull ? next : static_cast<Id>(next + 1);
+    }
+    fits = !isFull;
+  }
+};
+
+/// Continues the global ids, or removes them if their type has no room for the new ones.
 void ContinueGlobalIds(vtkDataSetAttributes* attributes, vtkIdType firstNew)
 {
   vtkDataArray* ids = vtkArrayDownCast<vtkDataArray>(attributes->GetGlobalIds());
@@ -42,14 +69,15 @@ void ContinueGlobalIds(vtkDataSetAttributes* attributes, vtkIdType firstNew)
   {
     return;
   }
-  double next = 0;
-  for (vtkIdType i = 0; i < firstNew; ++i)
+  const ContinueIds worker;
+  bool fits = true;
+  if (!vtkArrayDispatch::Dispatch::Execute(ids, worker, firstNew, fits))
   {
-    next = std::max(next, ids->GetTuple1(i) + 1);
+    worker(ids, firstNew, fits);
   }
-  for (vtkIdType i = firstNew; i < ids->GetNumberOfTuples(); ++i)
+  if (!fits)
   {
-    ids->SetTuple1(i, next++);
+    attributes->SetGlobalIds(nullptr);
   }
 }
 
@@ -166,21 +194,12 @@ void MarkImaginary(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
 } // namespace
 
 //----------------------------------------------------------------------------
-vtkConvexifyTetrahedra::vtkConvexifyTetrahedra()
-  : LastResults(new Results)
-{
-}
-
-//----------------------------------------------------------------------------
-vtkConvexifyTetrahedra::~vtkConvexifyTetrahedra() = default;
-
-//----------------------------------------------------------------------------
 int vtkConvexifyTetrahedra::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  *this->LastResults = Results();
+  this->SetResults({});
   try
   {
     tetralux::TetrahedralMesh mesh;
@@ -191,7 +210,7 @@ int vtkConvexifyTetrahedra::RequestData(
       return 0;
     }
     tetralux::RemoveUnusableCells(mesh);
-    tetralux::Convexification result =
+    const tetralux::Convexification result =
       tetralux::Convexify(mesh, tetralux::FindFaceNeighbors(mesh.Cells, mesh.GetNumberOfPoints()),
         [this](double fraction)
         {
@@ -200,7 +219,7 @@ int vtkConvexifyTetrahedra::RequestData(
         });
     if (!result.Refusal.empty())
     {
-      static_cast<tetralux::Convexification&>(*this->LastResults).Refusal = result.Refusal;
+      this->Refusal = result.Refusal;
       vtkErrorMacro(<< "the mesh can't be made convex: " << result.Refusal);
       return 0;
     }
@@ -218,11 +237,7 @@ int vtkConvexifyTetrahedra::RequestData(
       AddCells(input, result, output);
     }
     MarkImaginary(input, output);
-    this->LastResults->NumberOfCells = result.GetNumberOfCells();
-    this->LastResults->NumberOfSteinerPoints = result.GetNumberOfSteinerPoints();
-    static_cast<tetralux::Convexification&>(*this->LastResults) = std::move(result);
-    this->LastResults->Cells = {};
-    this->LastResults->SteinerPoints = {};
+    this->SetResults(result);
   }
   catch (const std::bad_alloc&)
   {
@@ -234,91 +249,42 @@ int vtkConvexifyTetrahedra::RequestData(
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkConvexifyTetrahedra::GetNumberOfBoundaryFaces()
+void vtkConvexifyTetrahedra::SetResults(const tetralux::Convexification& results)
 {
-  return this->LastResults->BoundaryFaces;
+  this->NumberOfBoundaryFaces = results.BoundaryFaces;
+  this->NumberOfMissingFaces = results.MissingFaces;
+  this->NumberOfFlatPocketFaces = results.FlatPocketFaces;
+  this->NumberOfImaginaryCells = results.GetNumberOfCells();
+  this->NumberOfSteinerPoints = results.GetNumberOfSteinerPoints();
+  this->InputIsConvex = results.Convex;
+  this->HullVolume = results.HullVolume;
+  this->MeshVolume = results.MeshVolume;
+  this->ImaginaryVolume = results.ImaginaryVolume;
+  this->ConvexTestSeconds = results.ConvexTestSeconds;
+  this->TriangulationSeconds = results.TriangulationSeconds;
+  this->PocketSeconds = results.PocketSeconds;
+  this->FillSeconds = results.FillSeconds;
+  this->VerificationSeconds = results.VerificationSeconds;
+  this->Refusal = results.Refusal;
 }
-
-//----------------------------------------------------------------------------
-vtkIdType vtkConvexifyTetrahedra::GetNumberOfMissingFaces()
-{
-  return this->LastResults->MissingFaces;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkConvexifyTetrahedra::GetNumberOfFlatPocketFaces()
-{
-  return this->LastResults->FlatPocketFaces;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkConvexifyTetrahedra::GetNumberOfImaginaryCells()
-{
-  return this->LastResults->NumberOfCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkConvexifyTetrahedra::GetNumberOfSteinerPoints()
-{
-  return this->LastResults->NumberOfSteinerPoints;
-}
-
-//----------------------------------------------------------------------------
-bool vtkConvexifyTetrahedra::GetInputIsConvex() { return this->LastResults->Convex; }
-
-//----------------------------------------------------------------------------
-double vtkConvexifyTetrahedra::GetHullVolume() { return this->LastResults->HullVolume; }
-
-//----------------------------------------------------------------------------
-double vtkConvexifyTetrahedra::GetMeshVolume() { return this->LastResults->MeshVolume; }
-
-//----------------------------------------------------------------------------
-double vtkConvexifyTetrahedra::GetImaginaryVolume() { return this->LastResults->ImaginaryVolume; }
-
-//----------------------------------------------------------------------------
-double vtkConvexifyTetrahedra::GetConvexTestSeconds()
-{
-  return this->LastResults->ConvexTestSeconds;
-}
-
-//----------------------------------------------------------------------------
-double vtkConvexifyTetrahedra::GetTriangulationSeconds()
-{
-  return this->LastResults->TriangulationSeconds;
-}
-
-//----------------------------------------------------------------------------
-double vtkConvexifyTetrahedra::GetPocketSeconds() { return this->LastResults->PocketSeconds; }
-
-//----------------------------------------------------------------------------
-double vtkConvexifyTetrahedra::GetFillSeconds() { return this->LastResults->FillSeconds; }
-
-//----------------------------------------------------------------------------
-double vtkConvexifyTetrahedra::GetVerificationSeconds()
-{
-  return this->LastResults->VerificationSeconds;
-}
-
-//----------------------------------------------------------------------------
-const char* vtkConvexifyTetrahedra::GetRefusal() { return this->LastResults->Refusal.c_str(); }
 
 //----------------------------------------------------------------------------
 void vtkConvexifyTetrahedra::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "InputIsConvex: " << (this->GetInputIsConvex() ? "Yes" : "No") << "\n";
-  os << indent << "Refusal: " << (*this->GetRefusal() ? this->GetRefusal() : "(none)") << "\n";
-  os << indent << "NumberOfBoundaryFaces: " << this->GetNumberOfBoundaryFaces() << "\n";
-  os << indent << "NumberOfMissingFaces: " << this->GetNumberOfMissingFaces() << "\n";
-  os << indent << "NumberOfFlatPocketFaces: " << this->GetNumberOfFlatPocketFaces() << "\n";
-  os << indent << "NumberOfImaginaryCells: " << this->GetNumberOfImaginaryCells() << "\n";
-  os << indent << "NumberOfSteinerPoints: " << this->GetNumberOfSteinerPoints() << "\n";
-  os << indent << "HullVolume: " << this->GetHullVolume() << "\n";
-  os << indent << "MeshVolume: " << this->GetMeshVolume() << "\n";
-  os << indent << "ImaginaryVolume: " << this->GetImaginaryVolume() << "\n";
-  os << indent << "ConvexTestSeconds: " << this->GetConvexTestSeconds() << "\n";
-  os << indent << "TriangulationSeconds: " << this->GetTriangulationSeconds() << "\n";
-  os << indent << "PocketSeconds: " << this->GetPocketSeconds() << "\n";
-  os << indent << "FillSeconds: " << this->GetFillSeconds() << "\n";
-  os << indent << "VerificationSeconds: " << this->GetVerificationSeconds() << "\n";
+  os << indent << "InputIsConvex: " << (this->InputIsConvex ? "Yes" : "No") << "\n";
+  os << indent << "Refusal: " << (this->Refusal.empty() ? "(none)" : this->Refusal) << "\n";
+  os << indent << "NumberOfBoundaryFaces: " << this->NumberOfBoundaryFaces << "\n";
+  os << indent << "NumberOfMissingFaces: " << this->NumberOfMissingFaces << "\n";
+  os << indent << "NumberOfFlatPocketFaces: " << this->NumberOfFlatPocketFaces << "\n";
+  os << indent << "NumberOfImaginaryCells: " << this->NumberOfImaginaryCells << "\n";
+  os << indent << "NumberOfSteinerPoints: " << this->NumberOfSteinerPoints << "\n";
+  os << indent << "HullVolume: " << this->HullVolume << "\n";
+  os << indent << "MeshVolume: " << this->MeshVolume << "\n";
+  os << indent << "ImaginaryVolume: " << this->ImaginaryVolume << "\n";
+  os << indent << "ConvexTestSeconds: " << this->ConvexTestSeconds << "\n";
+  os << indent << "TriangulationSeconds: " << this->TriangulationSeconds << "\n";
+  os << indent << "PocketSeconds: " << this->PocketSeconds << "\n";
+  os << indent << "FillSeconds: " << this->FillSeconds << "\n";
+  os << indent << "VerificationSeconds: " << this->VerificationSeconds << "\n";
 }

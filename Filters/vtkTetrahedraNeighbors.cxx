@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraNeighbors.h"
 
-#include "Intake/TetrahedraIntake.h"
+#include "Geometry/TetrahedronFaces.h"
+#include "Intake/IntakeReport.h"
 #include "Mesh/CellVolumes.h"
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
@@ -290,12 +291,11 @@ private:
   /// A face of a cell of the mesh, seen counter-clockwise from outside.
   std::array<vtkIdType, 3> GetTriangle(std::int32_t cell, int face) const
   {
-    // Of a cell of positive volume.
-    static constexpr int Corners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
     const std::int32_t* points = &this->Mesh.Cells[4 * static_cast<std::size_t>(cell)];
     std::array<vtkIdType, 3> triangle;
-    std::transform(Corners[face], Corners[face] + 3, triangle.begin(),
-      [points](int corner) { return points[corner]; });
+    const int* corners = tetralux::OutwardFaces[face];
+    std::transform(
+      corners, corners + 3, triangle.begin(), [points](int corner) { return points[corner]; });
 
     double edges[3][3];
     for (int i = 0; i < 3; ++i)
@@ -362,14 +362,7 @@ std::vector<Block> MakeBlocks(vtkDataObject* input, vtkDataObject* grids, vtkDat
 } // namespace
 
 //----------------------------------------------------------------------------
-vtkTetrahedraNeighbors::vtkTetrahedraNeighbors()
-  : LastCounts(new Counts)
-{
-  this->SetNumberOfOutputPorts(2);
-}
-
-//----------------------------------------------------------------------------
-vtkTetrahedraNeighbors::~vtkTetrahedraNeighbors() = default;
+vtkTetrahedraNeighbors::vtkTetrahedraNeighbors() { this->SetNumberOfOutputPorts(2); }
 
 //----------------------------------------------------------------------------
 vtkPolyData* vtkTetrahedraNeighbors::GetBoundary()
@@ -422,7 +415,7 @@ vtkTypeBool vtkTetrahedraNeighbors::ProcessRequest(
 int vtkTetrahedraNeighbors::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  *this->LastCounts = Counts();
+  this->SetCounts({});
   vtkDataObject* grids = vtkDataObject::GetData(outputVector, 0);
   vtkDataObject* boundaries = vtkDataObject::GetData(outputVector, 1);
   Counts counts;
@@ -471,92 +464,42 @@ int vtkTetrahedraNeighbors::RequestData(
     }
     return 1;
   }
-  *this->LastCounts = counts;
+  this->SetCounts(counts);
   this->UpdateProgress(1);
   return 1;
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfBoundaryFaces()
+void vtkTetrahedraNeighbors::SetCounts(const Counts& counts)
 {
-  return this->LastCounts->BoundaryFaces;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfComponents() { return this->LastCounts->Components; }
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfNonManifoldFaces()
-{
-  return this->LastCounts->NonManifoldFaces;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfZeroVolumeCells()
-{
-  return this->LastCounts->ZeroVolumeCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfInvertedCells()
-{
-  return this->LastCounts->InvertedCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfGhostCells() { return this->LastCounts->GhostCells; }
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfBlankedCells()
-{
-  return this->LastCounts->BlankedCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfLowerDimensionalCells()
-{
-  return this->LastCounts->LowerDimensionalCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfInvalidCells()
-{
-  return this->LastCounts->InvalidCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfNonFiniteCells()
-{
-  return this->LastCounts->NonFiniteCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfCollapsedCells()
-{
-  return this->LastCounts->CollapsedCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedraNeighbors::GetNumberOfDuplicateCells()
-{
-  return this->LastCounts->DuplicateCells;
+  this->NumberOfBoundaryFaces = counts.BoundaryFaces;
+  this->NumberOfComponents = counts.Components;
+  this->NumberOfNonManifoldFaces = counts.NonManifoldFaces;
+  this->NumberOfZeroVolumeCells = counts.ZeroVolumeCells;
+  this->NumberOfInvertedCells = counts.InvertedCells;
+  this->NumberOfGhostCells = counts.GhostCells;
+  this->NumberOfBlankedCells = counts.BlankedCells;
+  this->NumberOfLowerDimensionalCells = counts.LowerDimensionalCells;
+  this->NumberOfInvalidCells = counts.InvalidCells;
+  this->NumberOfNonFiniteCells = counts.NonFiniteCells;
+  this->NumberOfCollapsedCells = counts.CollapsedCells;
+  this->NumberOfDuplicateCells = counts.DuplicateCells;
 }
 
 //----------------------------------------------------------------------------
 void vtkTetrahedraNeighbors::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "NumberOfBoundaryFaces: " << this->GetNumberOfBoundaryFaces() << "\n";
-  os << indent << "NumberOfComponents: " << this->GetNumberOfComponents() << "\n";
-  os << indent << "NumberOfNonManifoldFaces: " << this->GetNumberOfNonManifoldFaces() << "\n";
-  os << indent << "NumberOfZeroVolumeCells: " << this->GetNumberOfZeroVolumeCells() << "\n";
-  os << indent << "NumberOfInvertedCells: " << this->GetNumberOfInvertedCells() << "\n";
-  os << indent << "NumberOfGhostCells: " << this->GetNumberOfGhostCells() << "\n";
-  os << indent << "NumberOfBlankedCells: " << this->GetNumberOfBlankedCells() << "\n";
-  os << indent << "NumberOfLowerDimensionalCells: " << this->GetNumberOfLowerDimensionalCells()
-     << "\n";
-  os << indent << "NumberOfInvalidCells: " << this->GetNumberOfInvalidCells() << "\n";
-  os << indent << "NumberOfNonFiniteCells: " << this->GetNumberOfNonFiniteCells() << "\n";
-  os << indent << "NumberOfCollapsedCells: " << this->GetNumberOfCollapsedCells() << "\n";
-  os << indent << "NumberOfDuplicateCells: " << this->GetNumberOfDuplicateCells() << "\n";
+  os << indent << "NumberOfBoundaryFaces: " << this->NumberOfBoundaryFaces << "\n";
+  os << indent << "NumberOfComponents: " << this->NumberOfComponents << "\n";
+  os << indent << "NumberOfNonManifoldFaces: " << this->NumberOfNonManifoldFaces << "\n";
+  os << indent << "NumberOfZeroVolumeCells: " << this->NumberOfZeroVolumeCells << "\n";
+  os << indent << "NumberOfInvertedCells: " << this->NumberOfInvertedCells << "\n";
+  os << indent << "NumberOfGhostCells: " << this->NumberOfGhostCells << "\n";
+  os << indent << "NumberOfBlankedCells: " << this->NumberOfBlankedCells << "\n";
+  os << indent << "NumberOfLowerDimensionalCells: " << this->NumberOfLowerDimensionalCells << "\n";
+  os << indent << "NumberOfInvalidCells: " << this->NumberOfInvalidCells << "\n";
+  os << indent << "NumberOfNonFiniteCells: " << this->NumberOfNonFiniteCells << "\n";
+  os << indent << "NumberOfCollapsedCells: " << this->NumberOfCollapsedCells << "\n";
+  os << indent << "NumberOfDuplicateCells: " << this->NumberOfDuplicateCells << "\n";
 }

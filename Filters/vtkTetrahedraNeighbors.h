@@ -14,8 +14,8 @@
  * - NeighborFaces (signed char): which face of that neighbour the face is, 0..3; -1 where there is
  *   no neighbour.
  * Faces are matched by their point ids: coincident points are not merged. A face that three or more
- * cells share is outside for each of them, so that whoever walks from cell to cell is always on a
- * path from one boundary face to another.
+ * cells share is outside for each of them, so that a walk from cell to cell always leads from one
+ * boundary face to another.
  *
  * The second output is the boundary: a vtkPolyData of triangles, seen counter-clockwise from
  * outside, also those of inverted cells; with the points and the point data of the input (all of
@@ -40,8 +40,6 @@
 
 #include "TetraluxFiltersModule.h"
 #include "vtkUnstructuredGridAlgorithm.h"
-
-#include <memory> // for std::unique_ptr
 
 class vtkPolyData;
 
@@ -75,12 +73,12 @@ public:
    * Non-manifold faces: shared by three or more cells. Zero-volume cells: not distinguishable from
    * flat by more than rounding. Inverted cells: of negative volume, in VTK's order of points.
    */
-  vtkIdType GetNumberOfBoundaryFaces();
-  vtkIdType GetNumberOfComponents();
-  vtkIdType GetNumberOfNonManifoldFaces();
-  vtkIdType GetNumberOfZeroVolumeCells();
-  vtkIdType GetNumberOfInvertedCells();
-  vtkIdType GetNumberOfGhostCells();
+  vtkGetMacro(NumberOfBoundaryFaces, vtkIdType);
+  vtkGetMacro(NumberOfComponents, vtkIdType);
+  vtkGetMacro(NumberOfNonManifoldFaces, vtkIdType);
+  vtkGetMacro(NumberOfZeroVolumeCells, vtkIdType);
+  vtkGetMacro(NumberOfInvertedCells, vtkIdType);
+  vtkGetMacro(NumberOfGhostCells, vtkIdType);
   ///@}
 
   ///@{
@@ -88,12 +86,12 @@ public:
    * Cells that the last update left out; each is counted once, under the first reason that applies.
    * Invalid: name a point that does not exist, or have too few. Collapsed: name one twice.
    */
-  vtkIdType GetNumberOfBlankedCells();
-  vtkIdType GetNumberOfLowerDimensionalCells();
-  vtkIdType GetNumberOfInvalidCells();
-  vtkIdType GetNumberOfNonFiniteCells();
-  vtkIdType GetNumberOfCollapsedCells();
-  vtkIdType GetNumberOfDuplicateCells();
+  vtkGetMacro(NumberOfBlankedCells, vtkIdType);
+  vtkGetMacro(NumberOfLowerDimensionalCells, vtkIdType);
+  vtkGetMacro(NumberOfInvalidCells, vtkIdType);
+  vtkGetMacro(NumberOfNonFiniteCells, vtkIdType);
+  vtkGetMacro(NumberOfCollapsedCells, vtkIdType);
+  vtkGetMacro(NumberOfDuplicateCells, vtkIdType);
   ///@}
 
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
@@ -101,7 +99,7 @@ public:
 
 protected:
   vtkTetrahedraNeighbors();
-  ~vtkTetrahedraNeighbors() override;
+  ~vtkTetrahedraNeighbors() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
@@ -113,7 +111,20 @@ private:
   void operator=(const vtkTetrahedraNeighbors&) = delete;
 
   struct Counts;
-  std::unique_ptr<Counts> LastCounts;
+  void SetCounts(const Counts& counts);
+
+  vtkIdType NumberOfBoundaryFaces = 0;
+  vtkIdType NumberOfComponents = 0;
+  vtkIdType NumberOfNonManifoldFaces = 0;
+  vtkIdType NumberOfZeroVolumeCells = 0;
+  vtkIdType NumberOfInvertedCells = 0;
+  vtkIdType NumberOfGhostCells = 0;
+  vtkIdType NumberOfBlankedCells = 0;
+  vtkIdType NumberOfLowerDimensionalCells = 0;
+  vtkIdType NumberOfInvalidCells = 0;
+  vtkIdType NumberOfNonFiniteCells = 0;
+  vtkIdType NumberOfCollapsedCells = 0;
+  vtkIdType NumberOfDuplicateCells = 0;
 };
 
 #endif

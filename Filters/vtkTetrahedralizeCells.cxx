@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedralizeCells.h"
 
+#include "Intake/DataSetBlocks.h"
 #include "Intake/TetrahedraIntake.h"
 
 #include "vtkCellArray.h"
@@ -26,13 +27,6 @@
 #include <numeric>
 
 vtkStandardNewMacro(vtkTetrahedralizeCells);
-
-struct vtkTetrahedralizeCells::Counts
-{
-  tetralux::TetrahedraIntakeReport Report;
-  std::string SkippedCellTypes;
-  vtkIdType AddedPoints = 0;
-};
 
 namespace
 {
@@ -178,15 +172,6 @@ void AddIds(vtkDataSetAttributes* output, const char* name, const std::vector<st
 } // namespace
 
 //----------------------------------------------------------------------------
-vtkTetrahedralizeCells::vtkTetrahedralizeCells()
-  : LastCounts(new Counts)
-{
-}
-
-//----------------------------------------------------------------------------
-vtkTetrahedralizeCells::~vtkTetrahedralizeCells() = default;
-
-//----------------------------------------------------------------------------
 int vtkTetrahedralizeCells::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
@@ -201,7 +186,8 @@ int vtkTetrahedralizeCells::RequestData(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  *this->LastCounts = Counts();
+  this->SetReport({});
+  this->NumberOfAddedPoints = 0;
 
   // Splitting is about half of the work, copying the arrays the other half.
   const double splitShare = 0.5;
@@ -211,8 +197,7 @@ int vtkTetrahedralizeCells::RequestData(
       this->UpdateProgress(splitShare * fraction);
       return !this->GetAbortExecute();
     });
-  this->LastCounts->Report = intake.Report;
-  this->LastCounts->SkippedCellTypes = intake.Report.DescribeSkippedCells();
+  this->SetReport(intake.Report);
   if (!intake.Error.empty())
   {
     vtkErrorMacro(<< intake.Error);
@@ -222,16 +207,16 @@ int vtkTetrahedralizeCells::RequestData(
   {
     return 1;
   }
-  if (!this->LastCounts->SkippedCellTypes.empty())
+  if (!this->SkippedCellTypes.empty())
   {
     vtkWarningMacro(<< "Cells of types that can't be split into tetrahedra are left out: "
-                    << this->LastCounts->SkippedCellTypes);
+                    << this->SkippedCellTypes);
   }
 
   const tetralux::TetrahedralMesh& mesh = intake.Mesh;
   const auto numberOfPoints = static_cast<vtkIdType>(mesh.GetNumberOfPoints());
   const auto numberOfCells = static_cast<vtkIdType>(mesh.GetNumberOfCells());
-  this->LastCounts->AddedPoints = numberOfPoints - intake.Report.NumberOfPoints;
+  this->NumberOfAddedPoints = numberOfPoints - intake.Report.NumberOfPoints;
 
   const Blocks blocks = CollectFilledBlocks(input);
   vtkNew<vtkPoints> points;
@@ -279,56 +264,28 @@ int vtkTetrahedralizeCells::RequestData(
 }
 
 //----------------------------------------------------------------------------
-vtkIdType vtkTetrahedralizeCells::GetNumberOfSkippedCells()
+void vtkTetrahedralizeCells::SetReport(const tetralux::TetrahedraIntakeReport& report)
 {
-  return this->LastCounts->Report.GetNumberOfSkippedCells();
+  this->NumberOfSkippedCells = report.GetNumberOfSkippedCells();
+  this->NumberOfGhostCells = report.GhostCells;
+  this->NumberOfBlankedCells = report.BlankedCells;
+  this->NumberOfLowerDimensionalCells = report.LowerDimensionalCells;
+  this->NumberOfInvalidCells = report.InvalidCells;
+  this->SkippedCellTypes = report.DescribeSkippedCells();
 }
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedralizeCells::GetNumberOfGhostCells()
-{
-  return this->LastCounts->Report.GhostCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedralizeCells::GetNumberOfBlankedCells()
-{
-  return this->LastCounts->Report.BlankedCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedralizeCells::GetNumberOfLowerDimensionalCells()
-{
-  return this->LastCounts->Report.LowerDimensionalCells;
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedralizeCells::GetNumberOfInvalidCells()
-{
-  return this->LastCounts->Report.InvalidCells;
-}
-
-//----------------------------------------------------------------------------
-const char* vtkTetrahedralizeCells::GetSkippedCellTypes()
-{
-  return this->LastCounts->SkippedCellTypes.c_str();
-}
-
-//----------------------------------------------------------------------------
-vtkIdType vtkTetrahedralizeCells::GetNumberOfAddedPoints() { return this->LastCounts->AddedPoints; }
 
 //----------------------------------------------------------------------------
 void vtkTetrahedralizeCells::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "PassOriginalIds: " << (this->PassOriginalIds ? "On" : "Off") << "\n";
-  os << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n";
-  os << indent << "SkippedCellTypes: "
-     << (*this->GetSkippedCellTypes() ? this->GetSkippedCellTypes() : "(none)") << "\n";
-  os << indent << "NumberOfGhostCells: " << this->GetNumberOfGhostCells() << "\n";
-  os << indent << "NumberOfBlankedCells: " << this->GetNumberOfBlankedCells() << "\n";
-  os << indent << "NumberOfLowerDimensionalCells: " << this->GetNumberOfLowerDimensionalCells()
+  os << indent << "NumberOfSkippedCells: " << this->NumberOfSkippedCells << "\n";
+  os << indent
+     << "SkippedCellTypes: " << (this->SkippedCellTypes.empty() ? "(none)" : this->SkippedCellTypes)
      << "\n";
-  os << indent << "NumberOfInvalidCells: " << this->GetNumberOfInvalidCells() << "\n";
-  os << indent << "NumberOfAddedPoints: " << this->GetNumberOfAddedPoints() << "\n";
+  os << indent << "NumberOfGhostCells: " << this->NumberOfGhostCells << "\n";
+  os << indent << "NumberOfBlankedCells: " << this->NumberOfBlankedCells << "\n";
+  os << indent << "NumberOfLowerDimensionalCells: " << this->NumberOfLowerDimensionalCells << "\n";
+  os << indent << "NumberOfInvalidCells: " << this->NumberOfInvalidCells << "\n";
+  os << indent << "NumberOfAddedPoints: " << this->NumberOfAddedPoints << "\n";
 }

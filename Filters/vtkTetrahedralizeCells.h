@@ -34,8 +34,12 @@
 #include "TetraluxFiltersModule.h"
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <memory> // for std::unique_ptr
 #include <string> // for std::string
+
+namespace tetralux
+{
+struct TetrahedraIntakeReport;
+}
 
 class TETRALUXFILTERS_EXPORT vtkTetrahedralizeCells : public vtkUnstructuredGridAlgorithm
 {
@@ -60,27 +64,27 @@ public:
    * three-dimensional cells of types that can't be split. The description of the class has what
    * ghost, blanked, lower-dimensional and invalid cells are.
    */
-  vtkIdType GetNumberOfSkippedCells();
-  vtkIdType GetNumberOfGhostCells();
-  vtkIdType GetNumberOfBlankedCells();
-  vtkIdType GetNumberOfLowerDimensionalCells();
-  vtkIdType GetNumberOfInvalidCells();
+  vtkGetMacro(NumberOfSkippedCells, vtkIdType);
+  vtkGetMacro(NumberOfGhostCells, vtkIdType);
+  vtkGetMacro(NumberOfBlankedCells, vtkIdType);
+  vtkGetMacro(NumberOfLowerDimensionalCells, vtkIdType);
+  vtkGetMacro(NumberOfInvalidCells, vtkIdType);
   ///@}
 
   /**
    * Return the types of the skipped cells with their numbers, as "12 vtkLagrangeHexahedron"; empty
    * if none was skipped.
    */
-  const char* GetSkippedCellTypes();
+  vtkGetCharFromStdStringMacro(SkippedCellTypes);
 
   /**
    * Return how many points the last update added in the middle of cells.
    */
-  vtkIdType GetNumberOfAddedPoints();
+  vtkGetMacro(NumberOfAddedPoints, vtkIdType);
 
 protected:
-  vtkTetrahedralizeCells();
-  ~vtkTetrahedralizeCells() override;
+  vtkTetrahedralizeCells() = default;
+  ~vtkTetrahedralizeCells() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -90,9 +94,16 @@ private:
   vtkTetrahedralizeCells(const vtkTetrahedralizeCells&) = delete;
   void operator=(const vtkTetrahedralizeCells&) = delete;
 
-  struct Counts;
-  std::unique_ptr<Counts> LastCounts;
+  void SetReport(const tetralux::TetrahedraIntakeReport& report);
+
   vtkTypeBool PassOriginalIds = 1;
+  vtkIdType NumberOfSkippedCells = 0;
+  vtkIdType NumberOfGhostCells = 0;
+  vtkIdType NumberOfBlankedCells = 0;
+  vtkIdType NumberOfLowerDimensionalCells = 0;
+  vtkIdType NumberOfInvalidCells = 0;
+  std::string SkippedCellTypes;
+  vtkIdType NumberOfAddedPoints = 0;
 };
 
 #endif

@@ -4,6 +4,7 @@
 #include "Base/Stopwatch.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
+#include "Intake/DataSetBlocks.h"
 #include "Preparation/ScenePreparation.h"
 #include "Preparation/SceneReport.h"
 #include "Properties/PropertyPrinter.h"

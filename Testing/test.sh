@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # All tests, from a fresh machine: installs what is missing, builds, runs every test, the core tests
-# once more under the sanitizers, and the checks of format and of static analysis.
+# once more under the sanitizers, and the checks of format, text and static analysis. Warnings of
+# the compiler are errors.
 # TETRALUX_DATA: a folder with the data sets that some tests need; without it they are skipped.
 # Ends with "N passed, N failed"; the exit status is 0 where none failed.
 set -uo pipefail
@@ -81,19 +82,27 @@ check_format() {
   sources | xargs clang-format --dry-run -Werror
 }
 
-check_core_statically() {
-  find Module -name '*.cxx' | xargs -P 2 -n 1 clang-tidy -p build --quiet
+check_text() {
+  python3 Testing/check_text.py
+}
+
+# All that was compiled but what the build made itself. Testing/.clang-tidy has a shorter list.
+check_statically() {
+  sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' build/compile_commands.json | grep -v "^$PWD/build" |
+    sort -u | xargs -P 2 -n 1 clang-tidy -p build --quiet
 }
 
 require "setup" Examples/setup.sh test
-require "configure" cmake --preset release -DTETRALUX_BUILD_TESTING=ON -DTETRALUX_WRAP_PYTHON=ON
+require "configure" cmake --preset release -DTETRALUX_BUILD_TESTING=ON -DTETRALUX_WRAP_PYTHON=ON \
+  -DTETRALUX_WARNINGS_AS_ERRORS=ON
 require "build" cmake --build --preset release
 run_tests release build
 
-require "configure with sanitizers" cmake --preset sanitize
+require "configure with sanitizers" cmake --preset sanitize -DTETRALUX_WARNINGS_AS_ERRORS=ON
 require "build with sanitizers" cmake --build --preset sanitize
 run_tests sanitize build-sanitize
 
 check "clang-format" check_format
-check "clang-tidy" check_core_statically
+check "text" check_text
+check "clang-tidy" check_statically
 finish

@@ -3,6 +3,7 @@
 
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/OptionValues.h"
+#include "Intake/DataSetBlocks.h"
 #include "Intake/ScalarExtraction.h"
 #include "Intake/TetrahedraIntake.h"
 

@@ -4,8 +4,8 @@
 
 #include "Intake/CellKind.h"
 #include "Intake/CellSources.h"
+#include "Intake/DataSetBlocks.h"
 #include "Intake/FacetedCells.h"
-#include "Intake/TetrahedraIntake.h"
 #include "Intake/IntakeChunk.h"
 #include "Mesh/CellSplit.h"
 

@@ -18,9 +18,9 @@ struct FacetedCellType
   int NumberOfPoints = 0;
 
   /// Planar polygons whose union is the cell's surface, seen counter-clockwise from outside. A
-  /// curved face is several polygons: a quadratic triangle four triangles; a quadratic quadrilateral
-  /// its four corners and what is left of it; a biquadratic face a fan about its centre; a
-  /// quadratic-linear quadrilateral its two halves.
+  /// curved face is several polygons: a quadratic triangle four triangles; a quadratic
+  /// quadrilateral its four corners and what is left of it; a biquadratic face a fan about its
+  /// centre; a quadratic-linear quadrilateral its two halves.
   std::vector<std::vector<int>> Polygons;
 
   /// The point that lies on no face, or -1.

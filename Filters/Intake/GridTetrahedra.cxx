@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Intake/GridTetrahedra.h"
 
-#include "Intake/TetrahedraIntake.h"
+#include "Intake/IntakeReport.h"
 #include "Mesh/MeshLimits.h"
 
 #include "vtkCell.h"

@@ -2,7 +2,8 @@
 #ifndef tetralux_IntakeChunk_h
 #define tetralux_IntakeChunk_h
 
-#include "Intake/TetrahedraIntake.h"
+#include "Intake/IntakeReport.h"
+#include "Mesh/TetrahedralMesh.h"
 
 #include "vtkType.h"
 

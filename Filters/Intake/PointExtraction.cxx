@@ -2,6 +2,7 @@
 #include "Intake/PointExtraction.h"
 
 #include "Intake/CellKind.h"
+#include "Intake/DataSetBlocks.h"
 #include "Intake/FacetedCells.h"
 #include "Intake/PlainCopies.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Intake/ScalarExtraction.h"
 
+#include "Intake/DataSetBlocks.h"
 #include "Intake/TetrahedraIntake.h"
 
 #include "vtkArrayDispatch.h"

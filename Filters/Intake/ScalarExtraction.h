@@ -43,9 +43,9 @@ struct ExtractedScalars
 };
 
 /// The selected array as one number for each point or tetrahedron of a mesh that TakeInTetrahedra
-/// made of the same input, also after cells were removed or points and cells reordered. Added points
-/// have the weighted mean of their sources. Numeric arrays of any type; 64-bit integers are rounded
-/// to double.
+/// made of the same input, also after cells were removed or points and cells reordered. Added
+/// points have the weighted mean of their sources. Numeric arrays of any type; 64-bit integers
+/// are rounded to double.
 ///
 /// In a composite, a block that lacks the array has not-a-number values; if all lack it, that is an
 /// error. Whether it is point or cell data is decided by the first block that has it.

@@ -3,6 +3,7 @@
 
 #include "Intake/CellSources.h"
 #include "Intake/ChunkSplitter.h"
+#include "Intake/DataSetBlocks.h"
 #include "Intake/IntakeChunk.h"
 #include "Intake/PlainCopies.h"
 #include "Intake/StructuredLayout.h"
@@ -10,8 +11,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
 #include "vtkSMPTools.h"
@@ -21,7 +20,6 @@
 
 #include <algorithm>
 #include <new>
-#include <numeric>
 
 namespace tetralux
 {
@@ -254,68 +252,6 @@ private:
 };
 
 } // namespace
-
-std::int64_t TetrahedraIntakeReport::GetNumberOfSkippedCells() const
-{
-  return std::accumulate(this->SkippedByType.begin(), this->SkippedByType.end(), std::int64_t(0),
-    [](std::int64_t sum, const auto& entry) { return sum + entry.second; });
-}
-
-std::string TetrahedraIntakeReport::DescribeSkippedCells() const
-{
-  std::string text;
-  for (const auto& [type, count] : this->SkippedByType)
-  {
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + GetCellTypeName(type);
-  }
-  return text;
-}
-
-std::string GetCellTypeName(int cellType)
-{
-  const std::string name = vtkCellTypes::GetClassNameFromTypeId(cellType);
-  return name == "UnknownClass" ? "cell type " + std::to_string(cellType) : name;
-}
-
-std::vector<DataSetBlock> CollectDataSets(vtkDataObject* input, std::int64_t* skippedBlocks)
-{
-  std::vector<DataSetBlock> blocks;
-  std::int64_t points = 0;
-  std::int64_t cells = 0;
-  std::int64_t skipped = 0;
-  const auto add = [&](vtkDataObject* object)
-  {
-    if (auto dataSet = vtkDataSet::SafeDownCast(object))
-    {
-      blocks.push_back({ dataSet, points, cells });
-      points += dataSet->GetNumberOfPoints();
-      cells += dataSet->GetNumberOfCells();
-    }
-    else
-    {
-      ++skipped;
-    }
-  };
-
-  if (auto composite = vtkCompositeDataSet::SafeDownCast(input))
-  {
-    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    iterator->SkipEmptyNodesOn();
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      add(iterator->GetCurrentDataObject());
-    }
-  }
-  else if (input)
-  {
-    add(input);
-  }
-  if (skippedBlocks)
-  {
-    *skippedBlocks = skipped;
-  }
-  return blocks;
-}
 
 TetrahedraIntake TakeInTetrahedra(vtkDataObject* input, const std::function<bool(double)>& progress)
 {

@@ -2,63 +2,19 @@
 #ifndef tetralux_TetrahedraIntake_h
 #define tetralux_TetrahedraIntake_h
 
+#include "Intake/IntakeReport.h"
 #include "Mesh/TetrahedralMesh.h"
 #include "TetraluxFiltersModule.h"
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 class vtkDataObject;
-class vtkDataSet;
 
 namespace tetralux
 {
-
-/// What the intake found in its input and what it left out. Every cell of the input is in
-/// CellsByType; those that gave no tetrahedra are in exactly one of the other counts.
-struct TetrahedraIntakeReport
-{
-  /// Cells of the input by their type as in vtkCellType.h.
-  std::map<int, std::int64_t> CellsByType;
-
-  /// Three-dimensional cells of types that can't be rendered (Lagrange, Bezier, ...), by type.
-  std::map<int, std::int64_t> SkippedByType;
-
-  std::int64_t NumberOfPoints = 0;        ///< of the input, all blocks together
-  std::int64_t NumberOfCells = 0;         ///< of the input, all blocks together
-  std::int64_t GhostCells = 0;            ///< vtkGhostType says DUPLICATECELL
-  std::int64_t BlankedCells = 0;          ///< HIDDENCELL, REFINEDCELL, or a corner is a HIDDENPOINT
-  std::int64_t LowerDimensionalCells = 0; ///< vertices, lines, faces, empty cells
-  std::int64_t InvalidCells = 0; ///< too few points for the type, or a point id that does not exist
-  std::int64_t Blocks = 0;       ///< data sets that were read
-  std::int64_t SkippedBlocks = 0; ///< leaves of a composite that are no data sets, as tables
-
-  /// The sum over SkippedByType.
-  TETRALUXFILTERS_EXPORT std::int64_t GetNumberOfSkippedCells() const;
-
-  /// "12 vtkLagrangeHexahedron, 3 vtkBezierWedge", empty where nothing was skipped.
-  TETRALUXFILTERS_EXPORT std::string DescribeSkippedCells() const;
-};
-
-/// VTK's class name of a cell type, as "vtkTetra"; "cell type 66" where it has none.
-TETRALUXFILTERS_EXPORT std::string GetCellTypeName(int cellType);
-
-/// One data set of an input and where its ids start in the concatenation of all.
-struct DataSetBlock
-{
-  vtkDataSet* DataSet;
-  std::int64_t FirstPoint;
-  std::int64_t FirstCell;
-};
-
-/// The data sets of an input in the order in which their points and cells are numbered: the input
-/// itself, or the leaves of a composite in traversal order without those that are missing or no
-/// data sets. skippedBlocks, where not null, receives the number of leaves that are no data sets.
-TETRALUXFILTERS_EXPORT std::vector<DataSetBlock> CollectDataSets(
-  vtkDataObject* input, std::int64_t* skippedBlocks = nullptr);
 
 /// The result of TakeInTetrahedra. Where Error is not empty the mesh is empty.
 struct TetrahedraIntake
@@ -78,9 +34,9 @@ struct TetrahedraIntake
 /// - voxels, hexahedra, wedges, pyramids: without new points, diagonals at the smallest point id;
 /// - image data, rectilinear and structured grids: five tetrahedra a cell, alternating;
 /// - pentagonal and hexagonal prisms, polyhedra: faces fanned at their smallest point id, then a
-///   cone from the cell's smallest point id where that makes positive tetrahedra, else from an added
-///   point in the middle. A polyhedron that can't be seen completely from either gives overlapping
-///   tetrahedra, some inverted;
+///   cone from the cell's smallest point id where that makes positive tetrahedra, else from an
+///   added point in the middle. A polyhedron that can't be seen completely from either gives
+///   overlapping tetrahedra, some inverted;
 /// - quadratic cells: all their nodes are kept; faces are cut by a rule that depends on the face
 ///   alone, then a cone from the node in the middle or from an added point there, which has the
 ///   cell's own interpolation weights;

@@ -7,13 +7,22 @@
 namespace tetralux
 {
 
-/// Seconds since it was made.
+/// Measures the seconds since it was made, or since the last lap.
 class Stopwatch
 {
 public:
   double GetSeconds() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+
+  /// Returns the seconds and starts the next lap.
+  double Lap()
+  {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - this->Start).count();
+    this->Start = now;
+    return seconds;
   }
 
 private:

@@ -2,7 +2,7 @@
 #include "Convexify/BoundarySurface.h"
 
 #include "Convexify/FaceTable.h"
-#include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 #include <numeric>

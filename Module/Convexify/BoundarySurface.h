@@ -33,16 +33,16 @@ struct BoundarySurface
   /// For each of them its id in the mesh, the smallest of those at the same place.
   std::vector<std::int32_t> PointIds;
 
-  /// The empty space is on the positive side of each, as GetOrientation(triangle, point) sees it.
-  /// Two boundary faces at the same place are none; nor is a face that has two of its corners at the
-  /// same place.
+  /// The empty space is on the positive side of each, as GetOrientation(triangle, point) sees
+  /// it. Two boundary faces at the same place are none; nor is a face that has two of its
+  /// corners at the same place.
   std::vector<Triangle> Triangles;
 
   /// For each triangle 4 * cell + face of the mesh.
   std::vector<std::int32_t> Faces;
 
-  /// For each point of the mesh the smallest id of the boundary's points at the same place; -1 for one
-  /// that no boundary face has.
+  /// For each point of the mesh the smallest id of the boundary's points at the same place; -1 for
+  /// one that no boundary face has.
   std::vector<std::int32_t> MergedIds;
 
   /// Whether a cell is turned against the others of its part, to rounding: it overlaps with them.

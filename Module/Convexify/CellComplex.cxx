@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Convexify/CellComplex.h"
 
-#include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 

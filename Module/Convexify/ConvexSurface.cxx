@@ -23,8 +23,8 @@ struct DirectedEdge
 /// Whether a surface, convex at all of its edges and connected, covers its shadow only once.
 bool CoversOnce(const ExactPoints& points, const std::vector<Triangle>& triangles)
 {
-  // Below a point of the shadow that is on no edge, one triangle turns the way that the triangle has
-  // which the point was taken from.
+  // Takes a point of a triangle's shadow that is on no edge. Exactly one triangle that turns as
+  // this one does must lie over it.
   constexpr std::size_t attempts = 64;
   for (std::size_t seed = 0; seed < std::min(attempts, triangles.size()); ++seed)
   {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Convexify/Convexification.h"
 
+#include "Base/Stopwatch.h"
 #include "Convexify/BoundarySurface.h"
 #include "Convexify/BoundaryTriangulation.h"
 #include "Convexify/FaceTable.h"
 #include "Convexify/PocketFill.h"
 #include "Convexify/PocketFinder.h"
-#include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
+#include "Mesh/MeshLimits.h"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 #include <sstream>
 
 namespace tetralux
@@ -18,25 +18,9 @@ namespace tetralux
 namespace
 {
 
-/// Seconds since it was last asked.
-class Stopwatch
-{
-public:
-  double Lap()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - this->Start).count();
-    this->Start = now;
-    return seconds;
-  }
-
-private:
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-};
-
-/// Checks that cells have positive volume and that they and the mesh share all faces but for those of
-/// a convex surface, which is returned. Cells that cover a convex body in total, by boundary, and
-/// turn the same way cover each point of it once.
+/// Checks that cells have positive volume and that they and the mesh share all faces but for those
+/// of a convex surface, which is returned. Cells that cover a convex body in total, by boundary,
+/// and turn the same way cover each point of it once.
 Obstacle VerifyFilled(const BoundarySurface& surface, const std::vector<double>& coordinates,
   const std::vector<Cell>& cells, const Front& flat, std::vector<Triangle>& hull)
 {
@@ -49,8 +33,8 @@ Obstacle VerifyFilled(const BoundarySurface& surface, const std::vector<double>&
     return obstacle;
   };
 
-  // Each face waits for its opposite. The solid side of a boundary triangle is its negative side, as
-  // the cell is of its face.
+  // Each face waits for its opposite. The solid side of a boundary triangle is its negative side,
+  // as the cell is of its face.
   std::vector<Triangle> open;
   std::vector<bool> isMet;
   FaceTable table(surface.Triangles.size() + 2 * cells.size());
@@ -241,11 +225,9 @@ private:
       return;
     }
 
-    constexpr std::size_t maximumPoints = std::numeric_limits<std::int32_t>::max();
-    constexpr std::size_t maximumCells = (std::size_t{ 1 } << 29) - 1;
     const std::size_t steinerPoints = (coordinates.size() - surface.Coordinates.size()) / 3;
-    if (this->Mesh.GetNumberOfPoints() + steinerPoints > maximumPoints ||
-      this->Mesh.GetNumberOfCells() + cells.size() > maximumCells)
+    if (this->Mesh.GetNumberOfPoints() + steinerPoints > std::size_t{ MaximumPoints } ||
+      this->Mesh.GetNumberOfCells() + cells.size() > std::size_t{ MaximumCells })
     {
       obstacle.Reason = "with the imaginary cells there are more points or cells than are possible";
       return;

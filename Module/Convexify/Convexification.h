@@ -15,9 +15,9 @@
 namespace tetralux
 {
 
-/// What fills the space between the boundary of a mesh and its convex hull (Weiler et al. 2003,
-/// section 3.4, after Williams 1992), so that whoever walks from cell to cell leaves the whole only
-/// through its hull.
+/// What fills the space between the boundary of a mesh and its convex hull (Weiler et al.
+/// 2003, section 3.4, after Williams 1992): a walk from cell to cell then leaves the whole
+/// only through the hull.
 struct Convexification
 {
   /// Coordinates of the points that had to be added, three each, in the units of the mesh. The k-th
@@ -45,9 +45,10 @@ struct Convexification
   bool Aborted = false;
 
   std::int64_t BoundaryFaces = 0; ///< of the mesh
-  /// Boundary faces that are on the hull only to rounding: what lies between them and the hull has no
-  /// more volume than its surface times 16 roundings of the largest coordinate, and no cells, where it
-  /// can't be filled with the points that it has. (Planes turned away from the axes are of that kind.)
+  /// Boundary faces that are on the hull only to rounding, with no cells between them and the hull.
+  /// There the space could not be filled with the points that it has, and its volume is at most its
+  /// surface times 16 roundings of the largest coordinate. Planes that are turned away from the
+  /// axes give such faces.
   std::int64_t FlatPocketFaces = 0;
 
   std::int64_t MissingFaces = 0; ///< those of them that are no faces of the Delaunay triangulation
@@ -59,9 +60,9 @@ struct Convexification
   double MeshVolume = 0;
   double ImaginaryVolume = 0;
 
-  /// Seconds that passed in each phase: the test for convexity and whatever leads to it, the
-  /// triangulation of the boundary's points, finding the pockets that it leaves beside the boundary,
-  /// filling them, verifying the result.
+  /// Seconds of each phase: the test for convexity and all before it, the triangulation of the
+  /// boundary's points, the search for the pockets beside the boundary, filling them, and verifying
+  /// the result.
   double ConvexTestSeconds = 0;
   double TriangulationSeconds = 0;
   double PocketSeconds = 0;
@@ -83,30 +84,33 @@ struct Convexification
   }
 };
 
-/// Whether the boundary of a mesh is the whole of its convex hull: Convexification::Convex, alone. False
+/// Whether the boundary of a mesh is its whole convex hull: Convexification::Convex alone. False
 /// for meshes that Convexify refuses. Exact; takes as long as finding the boundary.
 TETRALUXCORE_EXPORT bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors);
 
 /// Fills the space between the boundary of a mesh and its convex hull with imaginary cells.
 ///
-/// mesh: as RemoveUnusableCells leaves it; neighbors: what FindFaceNeighbors says of it. Cells may
-/// have zero or negative volume and any order of points: the boundary is what matching of faces
-/// gives, and outside is what the orientation that neighbouring cells share makes of it.
+/// mesh: as RemoveUnusableCells leaves it. neighbors: those of FindFaceNeighbors. Cells may have
+/// zero or negative volume and any order of points: matching faces give the boundary, and the
+/// orientation that neighbouring cells share says where outside is.
 ///
-/// The mesh and the imaginary cells together conform: each boundary face that is not on the hull is
-/// a face of exactly one imaginary cell, every other face of an imaginary cell is one of another
-/// imaginary cell or lies on the hull. This is verified with exact signs before it is returned.
+/// The mesh and the imaginary cells conform: each boundary face that is not on the hull is a face
+/// of exactly one imaginary cell. Every other face of an imaginary cell is one of another imaginary
+/// cell or lies on the hull. This is verified with exact signs.
 ///
-/// Refuses, with a line in Refusal: a boundary that meets itself elsewhere than in common points and
-/// edges, distinct points of the boundary at the same place, a boundary face without area, cells
-/// whose neighbours can't be oriented alike, more cells or points than a TetrahedralMesh holds, and
-/// pockets that could not be filled within the limits of the search.
+/// Refuses, with a line in Refusal:
+/// - a boundary that meets itself elsewhere than in common points and edges;
+/// - three or more cells at one face, also if their points only are at the same places;
+/// - a boundary face without area;
+/// - cells whose neighbours can't be oriented alike;
+/// - more cells or points than a TetrahedralMesh holds;
+/// - pockets that could not be filled within the limits of the search.
 ///
-/// progress, where given, is called from the calling thread with a fraction 0..1 now and then; when
-/// it returns false the work ends with Aborted set.
+/// progress, if given, is called from the calling thread with a fraction 0..1 now and then. When it
+/// returns false the work ends with Aborted set.
 ///
-/// Time grows as n log n in the number of boundary faces where pockets stay small. The same result
-/// for any number of threads. Uses CGAL's Triangulation_3, which is under the GPL.
+/// Time grows as n log n in the number of boundary faces if pockets stay small. The same result for
+/// any number of threads. Uses CGAL's Triangulation_3, which is under the GPL.
 TETRALUXCORE_EXPORT Convexification Convexify(const TetrahedralMesh& mesh,
   const FaceNeighbors& neighbors, const std::function<bool(double)>& progress = {});
 

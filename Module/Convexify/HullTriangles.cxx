@@ -2,7 +2,7 @@
 #include "Convexify/HullTriangles.h"
 
 #include "Base/DisjointSets.h"
-#include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 

@@ -11,9 +11,9 @@
 namespace tetralux
 {
 
-/// The convex hull of a boundary, triangulated such that no edge of the boundary crosses a triangle:
-/// as the Delaunay triangulation has it, but for planes of more than three points where edges of the
-/// boundary are missing.
+/// The convex hull of a boundary, triangulated such that no edge of the boundary crosses a
+/// triangle. The triangles are those of the Delaunay triangulation, except in planes of more than
+/// three points where it lacks edges of the boundary.
 struct HullTriangles
 {
   /// Each seen from inside: the hull is on its positive side. None where edges cross.
@@ -21,7 +21,7 @@ struct HullTriangles
   std::vector<std::int32_t> Cells; ///< for each a finite cell of the triangulation behind its plane
   std::vector<std::uint8_t> IsDelaunay; ///< and whether it is a face of that cell
 
-  /// Finite cells with an edge that lies in the hull and is none of its triangles' edges.
+  /// Finite cells with an edge in the hull that is no edge of its triangles.
   std::vector<std::int32_t> LostCells;
 
   /// Pairs of cells that lie behind the same plane.

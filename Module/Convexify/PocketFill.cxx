@@ -3,7 +3,7 @@
 
 #include "Convexify/CellComplex.h"
 #include "Convexify/SteinerPoint.h"
-#include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@ namespace tetralux
 namespace
 {
 
-/// Fronts up to these many triangles are searched depth first, and how many cells are tried: at once
-/// what is tiny, what gift wrapping leaves behind, and what it could not fill.
+/// Fronts up to these many triangles are searched depth first, and how many cells are tried: at
+/// once what is tiny, what gift wrapping leaves behind, and what it could not fill.
 struct SearchLimit
 {
   std::size_t Triangles;
@@ -73,8 +73,8 @@ bool IsThin(const ExactPoints& points, const Front& front)
     ThinRoundings * std::numeric_limits<double>::epsilon() * largest * area;
 }
 
-/// Thin pockets of more triangles are not wrapped: walls of thousands of triangles that are plane only
-/// to rounding would take minutes, and most can be left empty.
+/// Thin pockets of more triangles are not wrapped: walls of thousands of triangles that are plane
+/// only to rounding would take minutes, and most can be left empty.
 constexpr std::size_t LargestThinWrap = 1000;
 
 /// Fills a pocket with the points that it has. Returns the fronts of what could not be filled; none
@@ -172,7 +172,8 @@ bool FillGrown(const ExactPoints& points, const PointNeighbors& neighbors, const
   return false;
 }
 
-/// Leaves a stuck pocket empty, with all cells between it and the mesh or its hull, if these are thin.
+/// Leaves a stuck pocket empty, with all cells between it and the mesh or its hull, if
+/// these are thin.
 bool LeaveThin(const ExactPoints& points, const Front& front, CellComplex& complex, Front& flat)
 {
   if (!IsThin(points, front))
@@ -197,7 +198,8 @@ bool LeaveThin(const ExactPoints& points, const Front& front, CellComplex& compl
   return true;
 }
 
-/// Gives a stuck pocket a point of its own. What is still not filled then is added to the stuck ones.
+/// Gives a stuck pocket a point of its own. What is still not filled then is added to
+/// the stuck ones.
 bool AddSteinerPoint(const PointNeighbors& neighbors, const Front& front,
   std::vector<double>& coordinates, CellComplex& complex, std::vector<Front>& stuck)
 {

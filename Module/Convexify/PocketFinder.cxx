@@ -5,6 +5,7 @@
 #include "Convexify/FaceTable.h"
 #include "Convexify/HullTriangles.h"
 #include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 

@@ -14,8 +14,8 @@ namespace tetralux
 
 using Cell = std::array<std::int32_t, 4>;
 
-/// The empty space between a boundary and its hull: the cells of the Delaunay triangulation that are
-/// wholly inside it and conform with the boundary, and the pockets that are left around them.
+/// The empty space between a boundary and its hull: the cells of the Delaunay triangulation that
+/// lie in it and conform with the boundary, and the pockets that they leave.
 struct EmptySpace
 {
   std::vector<Cell> Cells;

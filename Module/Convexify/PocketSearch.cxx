@@ -2,6 +2,7 @@
 #include "Convexify/PocketSearch.h"
 
 #include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 
 #include "Convexify/FaceTable.h"
 #include "Geometry/BoxTree.h"
-#include "Geometry/SimplexIntersection.h"
+#include "Geometry/TetrahedronFaces.h"
 
 #include <algorithm>
 #include <deque>
@@ -140,7 +140,8 @@ private:
       { return CellFitsTriangle(this->Points, cell, this->Triangles[number]); });
   }
 
-  /// How many triangles of the front, beside its base, a cell would close; 0 where that is not asked.
+  /// How many triangles of the front, beside its base, a cell would close; 0 where that
+  /// is not asked.
   int CountClosed(const Triangle& base, std::int32_t apex) const
   {
     int count = 0;

@@ -11,8 +11,8 @@
 namespace tetralux
 {
 
-/// For each point those that it shares an edge of the Delaunay triangulation with: where the apex of
-/// a new cell is looked for.
+/// The neighbours of each point along edges of the Delaunay triangulation: the apex of a new cell
+/// is looked for among them.
 class PointNeighbors
 {
 public:

@@ -14,8 +14,8 @@ namespace
 
 using Vector = std::array<double, 3>;
 
-/// A pocket over points of its own, in coordinates where it is about as long in all directions: what
-/// sees what does not depend on them. The last point is the one that is looked for.
+/// A pocket over points of its own, in coordinates where it is about as long in all directions:
+/// what sees what does not depend on them. The last point is the one that is looked for.
 class LocalPocket
 {
 public:
@@ -45,10 +45,10 @@ public:
   bool FindKernelPoint(Vector& position) const
   {
     std::vector<HalfSpace<4>> halfSpaces;
+    // In these coordinates all points of the pocket are within 1 of its middle: a box far outside.
+    constexpr double reach = 100;
     for (int d = 0; d < 3; ++d)
     {
-      // No point of the pocket is farther from its middle.
-      constexpr double reach = 100;
       for (const double side : { 1., -1. })
       {
         HalfSpace<4> box{ {}, reach };
@@ -56,7 +56,7 @@ public:
         halfSpaces.push_back(box);
       }
     }
-    halfSpaces.push_back({ { 0, 0, 0, 1 }, 100 });
+    halfSpaces.push_back({ { 0, 0, 0, 1 }, reach });
     std::vector<Triangle> shuffled = this->Triangles;
     std::mt19937_64 random(1);
     std::shuffle(shuffled.begin(), shuffled.end(), random);

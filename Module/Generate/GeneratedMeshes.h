@@ -2,7 +2,7 @@
 #ifndef tetralux_GeneratedMeshes_h
 #define tetralux_GeneratedMeshes_h
 
-#include "Mesh/TetrahedralMesh.h"
+#include "Generate/GeneratedMesh.h"
 #include "TetraluxCoreModule.h"
 
 #include <map>
@@ -11,23 +11,6 @@
 
 namespace tetralux
 {
-
-/// A mesh made from a formula, for demonstrations, tests and benchmarks.
-struct GeneratedMesh
-{
-  TetrahedralMesh Mesh;
-  std::vector<double> Scalars; ///< one for each point; a smooth field worth looking at
-};
-
-/// One numeric parameter of a generator.
-struct GeneratorParameter
-{
-  std::string Name;
-  double Default;
-  double Minimum;
-  double Maximum;
-  std::string Description; ///< meaning and unit
-};
 
 struct Generator
 {

@@ -2,6 +2,7 @@
 #include "Generate/LatticeMesh.h"
 
 #include "Mesh/CellSplit.h"
+#include "Mesh/MeshLimits.h"
 
 #include <cstdint>
 #include <sstream>
@@ -81,13 +82,12 @@ void ForEachKeptCell(const Lattice& lattice, const Visit& visit)
 //----------------------------------------------------------------------------
 void CheckNumberOfTetrahedra(double count)
 {
-  constexpr double maximum = (1 << 29) - 1;
-  if (count > maximum)
+  if (count > static_cast<double>(MaximumCells))
   {
     std::ostringstream message;
     message.precision(0);
     message << std::fixed << "this asks for up to " << count
-            << " tetrahedra, but a mesh has at most " << maximum << ": take fewer cells";
+            << " tetrahedra, but a mesh has at most " << MaximumCells << ": take fewer cells";
     throw std::invalid_argument(message.str());
   }
 }

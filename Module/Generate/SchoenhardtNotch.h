@@ -12,8 +12,8 @@ namespace tetralux
 /// (Schoenhardt, Ueber die Zerlegung von Dreieckspolyedern in Tetraeder, 1928).
 ///
 /// The polyhedron is a prism, 0 <= z <= 1, over an equilateral triangle of circumradius 0.6 whose
-/// first corner is on the x axis; its top is turned counterclockwise by twist, in radians, more than
-/// 0 and less than pi / 3, and its sides are folded inwards along the longer diagonals.
+/// first corner is on the x axis; its top is turned counterclockwise by twist, in radians, more
+/// than 0 and less than pi / 3, and its sides are folded inwards along the longer diagonals.
 ///
 /// subdivisions: parts of each edge of the coarsest possible mesh, at least 1.
 void AddSchoenhardtNotch(double twist, int subdivisions, TetrahedralMesh& mesh);

@@ -51,13 +51,13 @@ inline int GetOrientation(const double* a, const double* b, const double* c, con
   return GetExactOrientation(a, b, c, d);
 }
 
-/// 1 where a, b, c run counter-clockwise as seen along the direction by a viewer that is far away, -1
-/// where clockwise, 0 where their plane is parallel to it.
+/// 1 where a, b, c run counter-clockwise as seen along the direction by a viewer that is far away,
+/// -1 where clockwise, 0 where their plane is parallel to it.
 inline int GetDirectionTurn(
   const double* a, const double* b, const double* c, const double* direction)
 {
-  // As above, of the rows b - a, c - a and the direction; that one is not rounded, which leaves less
-  // of an error than the bound says.
+  // As above, of the rows b - a, c - a and the direction; that one is not rounded, which leaves
+  // less of an error than the bound says.
   constexpr double epsilon = 1.1102230246251565e-16;
   constexpr double errorBound = (7 + 56 * epsilon) * epsilon;
   const double bax = b[0] - a[0], bay = b[1] - a[1], baz = b[2] - a[2];

@@ -20,16 +20,25 @@ struct HalfSpace
   double Limit;
 };
 
-/// Finds the x that all half spaces have and for which objective . x is the largest; returns false
-/// where there is none. The half spaces must bound x, best by a box that comes first; they are taken
-/// one by one (Seidel, Small-Dimensional Linear Programming and Convex Hulls Made Easy, 1991), in
-/// linear expected time if their order is random. Rounded: what comes out is to be checked.
+/// Half the width of the box in which x is looked for, in the units of x: ten times as far as the
+/// callers' own half spaces let x go, so that it never decides.
+constexpr double LinearProgramReach = 1e3;
+
+/// How much Normal . x may exceed Limit, and how small a coefficient of a normal counts
+/// as 0. Normals have about unit length and x is up to about 100: some roundings of
+/// that size, 1e-14 each.
+constexpr double LinearProgramRounding = 1e-13;
+
+/// Finds the x in all half spaces with the largest objective . x. Returns false if there is none.
+///
+/// Normals must have about unit length, and the half spaces must bound x to about 100 in each
+/// coordinate, best by a box that comes first. They are added one by one (Seidel, Small-Dimensional
+/// Linear Programming and Convex Hulls Made Easy, 1991), in linear expected time if their order is
+/// random. Rounded: callers check the result.
 template <int Dimension>
 bool SolveLinearProgram(const std::vector<HalfSpace<Dimension>>& halfSpaces,
   const std::array<double, Dimension>& objective, std::array<double, Dimension>& x)
 {
-  // Relative to the length of a normal times a bounding box of about unit size.
-  constexpr double tolerance = 1e-13;
   if constexpr (Dimension == 1)
   {
     double low = -std::numeric_limits<double>::max();
@@ -37,9 +46,9 @@ bool SolveLinearProgram(const std::vector<HalfSpace<Dimension>>& halfSpaces,
     for (const auto& halfSpace : halfSpaces)
     {
       const double normal = halfSpace.Normal[0];
-      if (std::abs(normal) < tolerance)
+      if (std::abs(normal) < LinearProgramRounding)
       {
-        if (halfSpace.Limit < -tolerance)
+        if (halfSpace.Limit < -LinearProgramRounding)
         {
           return false;
         }
@@ -49,14 +58,14 @@ bool SolveLinearProgram(const std::vector<HalfSpace<Dimension>>& halfSpaces,
                                              : std::max(low, halfSpace.Limit / normal);
     }
     x[0] = objective[0] > 0 ? high : low;
-    return low <= high + tolerance;
+    return low <= high + LinearProgramRounding;
   }
   else
   {
     // The box decides where it starts.
     for (int d = 0; d < Dimension; ++d)
     {
-      x[d] = objective[d] > 0 ? 1e3 : -1e3;
+      x[d] = objective[d] > 0 ? LinearProgramReach : -LinearProgramReach;
     }
     for (std::size_t i = 0; i < halfSpaces.size(); ++i)
     {
@@ -68,11 +77,11 @@ bool SolveLinearProgram(const std::vector<HalfSpace<Dimension>>& halfSpaces,
         value += normal[d] * x[d];
         pivot = std::abs(normal[d]) > std::abs(normal[pivot]) ? d : pivot;
       }
-      if (value <= tolerance)
+      if (value <= LinearProgramRounding)
       {
         continue;
       }
-      if (std::abs(normal[pivot]) < tolerance)
+      if (std::abs(normal[pivot]) < LinearProgramRounding)
       {
         return false;
       }
@@ -106,9 +115,9 @@ bool SolveLinearProgram(const std::vector<HalfSpace<Dimension>>& halfSpaces,
       {
         std::array<double, Dimension - 1> side{};
         side[e] = 1;
-        others.push_back({ side, 1e3 });
+        others.push_back({ side, LinearProgramReach });
         side[e] = -1;
-        others.push_back({ side, 1e3 });
+        others.push_back({ side, LinearProgramReach });
       }
       std::array<double, Dimension - 1> y;
       if (!SolveLinearProgram<Dimension - 1>(others, drop(objective), y))

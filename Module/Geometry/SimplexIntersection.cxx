@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/SimplexIntersection.h"
 
+#include "Geometry/TetrahedronFaces.h"
+
 #include <algorithm>
 #include <tuple>
 

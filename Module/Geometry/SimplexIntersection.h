@@ -14,7 +14,7 @@ namespace tetralux
 bool TrianglesMeetProperly(
   const ExactPoints& points, const std::int32_t* triangle0, const std::int32_t* triangle1);
 
-/// The same of a tetrahedron of positive volume and a triangle that is none of its faces.
+/// The same for a tetrahedron of positive volume and a triangle that is not one of its faces.
 bool CellMeetsTriangleProperly(
   const ExactPoints& points, const std::int32_t* cell, const std::int32_t* triangle);
 
@@ -22,8 +22,8 @@ bool CellMeetsTriangleProperly(
 bool TrianglePiercesCell(
   const ExactPoints& points, const std::int32_t* cell, const std::int32_t* triangle);
 
-/// False only where a tetrahedron and a triangle have no point in common. planeSigns: for each of the
-/// tetrahedron's points the side of the triangle's plane.
+/// False only where a tetrahedron and a triangle have no point in common. planeSigns: for each of
+/// the tetrahedron's points the side of the triangle's plane.
 bool CellCanMeetTriangle(const ExactPoints& points, const std::int32_t* cell,
   const std::int32_t* triangle, const int* planeSigns);
 
@@ -31,10 +31,6 @@ bool CellCanMeetTriangle(const ExactPoints& points, const std::int32_t* cell,
 /// plane, see ExactPoints::FindProjection.
 bool CoplanarTrianglesOverlap(const ExactPoints& points, const std::int32_t* triangle0,
   const std::int32_t* triangle1, int axis);
-
-/// The points of a cell's faces, turned such that the cell is on the negative side of each, as
-/// GetOrientation(face, point) sees it.
-constexpr int OutwardFaces[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 
 } // namespace tetralux
 

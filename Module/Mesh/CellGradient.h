@@ -5,8 +5,8 @@
 namespace tetralux
 {
 
-/// The gradient of a scalar that is linear in a tetrahedron, times its volume: nothing is divided, so
-/// that flat cells have one, too.
+/// The gradient of a scalar that is linear in a tetrahedron, times its volume: nothing is divided,
+/// so that flat cells have one, too.
 struct CellGradient
 {
   double Weighted[3];   ///< gradient times SixfoldVolume
@@ -15,7 +15,8 @@ struct CellGradient
   /// edges: from the first corner to the other three. rises: of the scalar along them.
   CellGradient(const double (&edges)[3][3], const double (&rises)[3])
   {
-    // The normals of the three faces at the first corner, weighted by the rises of the points across.
+    // The normals of the three faces at the first corner, weighted by the rises of the
+    // points across.
     double normals[3][3];
     for (int i = 0; i < 3; ++i)
     {

@@ -13,8 +13,8 @@ namespace tetralux
 /// share a quadrilateral split it along the same diagonal: the one that starts at the face's
 /// smallest point id (Dompierre et al., How to Subdivide Pyramids, Prisms and Hexahedra into
 /// Tetrahedra, 1999). Points in VTK's order of the cell type. A split of a positively oriented
-/// convex cell has positively oriented tetrahedra; a wedge is positively oriented when the normal of
-/// its first three points points away from the others, as vtkWedge documents it.
+/// convex cell has positively oriented tetrahedra; a wedge is positively oriented when the normal
+/// of its first three points points away from the others, as vtkWedge documents it.
 ///
 /// tets receives four ids for each tetrahedron; returns how many tetrahedra there are.
 ///@{

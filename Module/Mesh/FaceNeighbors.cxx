@@ -2,6 +2,7 @@
 #include "Mesh/FaceNeighbors.h"
 
 #include "Base/CountingSort.h"
+#include "Base/DisjointSets.h"
 
 #include <algorithm>
 #include <limits>
@@ -214,44 +215,11 @@ void NumberBoundaryFaces(FaceNeighbors& result)
     });
 }
 
-/// Union-find whose roots are the smallest cells of their sets.
-class CellSets
-{
-public:
-  explicit CellSets(std::int64_t numberOfCells)
-    : Parents(NewArray<std::int32_t>(numberOfCells))
-  {
-  }
-
-  void MakeSet(std::int32_t cell) { this->Parents[cell] = cell; }
-
-  std::int32_t Find(std::int32_t cell)
-  {
-    while (this->Parents[cell] != cell)
-    {
-      this->Parents[cell] = this->Parents[this->Parents[cell]];
-      cell = this->Parents[cell];
-    }
-    return cell;
-  }
-
-  /// Returns whether the two were in different sets.
-  bool Unite(std::int32_t cell0, std::int32_t cell1)
-  {
-    const auto [smaller, larger] = std::minmax({ this->Find(cell0), this->Find(cell1) });
-    this->Parents[larger] = smaller;
-    return smaller != larger;
-  }
-
-private:
-  std::unique_ptr<std::int32_t[]> Parents;
-};
-
 std::int64_t CountComponents(const FaceNeighbors& result)
 {
   const auto numberOfCells = static_cast<std::int64_t>(result.Neighbors.size() / 4);
   const int numberOfParts = omp_get_max_threads();
-  CellSets sets(numberOfCells);
+  DisjointSets sets(numberOfCells);
   std::int64_t numberOfUnions = 0;
 
   // Unites each cell of the part with the neighbors that come before it, from firstNeighbor on.
@@ -277,7 +245,6 @@ std::int64_t CountComponents(const FaceNeighbors& result)
       std::int64_t count = 0;
       for (std::int64_t cell = begin; cell < end; ++cell)
       {
-        sets.MakeSet(static_cast<std::int32_t>(cell));
         count += unite(cell, begin, cell);
       }
       unions[part] = count;

@@ -8,7 +8,8 @@
 namespace tetralux
 {
 
-/// The most that a TetrahedralMesh holds: see there.
+/// The largest numbers of points and of tetrahedra in a TetrahedralMesh, so that point ids and
+/// 4 * cell + face fit an int32.
 constexpr std::int64_t MaximumPoints = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t MaximumCells = (std::int64_t(1) << 29) - 1;
 

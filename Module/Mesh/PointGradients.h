@@ -18,9 +18,9 @@ struct alignas(16) PointGradient
 };
 
 /// Gradients of a scalar at the points of a mesh, to be interpolated between them where lighting is
-/// to be smooth: at each point the mean of its cells' gradients, weighted by volume. Exact where the
-/// scalar is linear. Cells that touch a scalar which is not finite do not count; a point without any
-/// cell that does has no gradient, 0.
+/// to be smooth: at each point the mean of its cells' gradients, weighted by volume. Exact where
+/// the scalar is linear. Cells that touch a scalar which is not finite do not count; a point
+/// without any cell that does has no gradient, 0.
 ///
 /// length, scalar: units, more than 0; the gradient is that of scalars / scalar over coordinates /
 /// length, so that it can be held in single precision. The same result for any number of threads.

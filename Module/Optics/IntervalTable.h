@@ -15,11 +15,10 @@ namespace tetralux
 /// over scalars mapped to x = (s - Offset) / Scale, where the nodes lie in [-1, 1].
 struct IntervalTable
 {
-  /// Twelve floats, loaded as three rows of four. On [Lo, Hi] the attenuation is
-  /// Attenuation + AttenuationSlope (x - Reference), and the colour likewise; evaluated in single
-  /// precision they stay between the values at both ends. Reference is the end with less attenuation.
-  /// The first interval reaches down to minus infinity, the last one up to infinity; both are
-  /// constant.
+  /// Twelve floats, loaded as three rows of four. On [Lo, Hi] the attenuation is Attenuation +
+  /// AttenuationSlope (x - Reference), and the colour likewise; evaluated in single precision they
+  /// stay between the values at both ends. Reference is the end with less attenuation. The first
+  /// interval reaches down to minus infinity, the last one up to infinity; both are constant.
   struct alignas(16) Interval
   {
     float Lo, Hi, Reference, Attenuation;

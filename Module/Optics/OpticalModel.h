@@ -16,7 +16,8 @@ enum class OpticalModel
   /// 1 - exp(-optical depth).
   EmissionAbsorption,
 
-  /// Light adds up and nothing is in front of anything: radiance is the integral of tau c, opacity 0.
+  /// Light adds up and nothing is in front of anything: radiance is the integral of tau
+  /// c, opacity 0.
   EmissionOnly,
 
   /// Dark smoke: radiance 0, opacity 1 - exp(-optical depth).
@@ -26,8 +27,8 @@ enum class OpticalModel
   /// itself, not per length: TransferFunction::Attenuation is taken for it, 0..1.
   MaximumIntensity,
 
-  /// Surfaces of constant scalar, each with a colour and an opacity, composited front to back; flat,
-  /// or shaded by the gradient of the cell.
+  /// Surfaces of constant scalar, each with a colour and an opacity, composited front to back;
+  /// flat, or shaded by the gradient of the cell.
   Isosurfaces
 };
 
@@ -67,8 +68,8 @@ struct Material
   float SpecularPower = 10.f; ///< of 1 or more
 };
 
-/// How much brighter than what is lit, at 1 or less, lights may make it; at least 1. What is behind a
-/// ray's end counts by that.
+/// How much brighter than what is lit, at 1 or less, lights may make it; at least 1. What is behind
+/// a ray's end counts by that.
 inline double FindLargestBrightness(const std::vector<Light>& lights, const Material& surface)
 {
   double largest = 1;

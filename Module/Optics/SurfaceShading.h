@@ -36,10 +36,10 @@ struct LightFactors
   }
 };
 
-/// Light at a position in the world, which is in the cell, for a viewer who looks along direction, of
-/// length 1. The normal is the gradient of the scalar, of the cell or interpolated between those of its
-/// points, turned to the viewer; what has no gradient faces the viewer. Ambient and diffuse light times the colour, and Blinn's
-/// specular light, as in VTK's mappers of volumes.
+/// Light at a position in the world, which is in the cell, for a viewer who looks along direction,
+/// of length 1. The normal is the gradient of the scalar, of the cell or interpolated between those
+/// of its points, turned to the viewer; what has no gradient faces the viewer. Ambient and diffuse
+/// light times the colour, and Blinn's specular light, as in VTK's mappers of volumes.
 TETRALUXCORE_EXPORT LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell,
   const double position[3], const double direction[3]);
 

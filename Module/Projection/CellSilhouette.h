@@ -15,9 +15,9 @@ struct Place
   double X, Y;
 };
 
-/// The silhouette by the classes of Kraus et al. 2004, figure 1, moved outwards by a margin. front: of
-/// each face, opposite to the point of that number. Returns its number of corners, in the order of a
-/// fan, 0 where it is of no class or has too sharp a corner.
+/// The silhouette by the classes of Kraus et al. 2004, figure 1, moved outwards by a margin. front:
+/// of each face, opposite to the point of that number. Returns its number of corners, in the order
+/// of a fan, 0 where it is of no class or has too sharp a corner.
 int FindSilhouette(
   const ScreenPoint* const points[4], const bool front[4], double margin, Place corners[4]);
 

@@ -11,8 +11,8 @@ namespace tetralux
 namespace
 {
 
-/// Coefficients beyond this belong to a face that is seen exactly from the side. Their products with
-/// pixels stay in the range of single precision.
+/// Coefficients beyond this belong to a face that is seen exactly from the side. Their products
+/// with pixels stay in the range of single precision.
 constexpr double LargestCoefficient = 1e30;
 
 /// f(x, y) = v . (x, y, 1) / divisor as it is stored; false where that leaves the range.

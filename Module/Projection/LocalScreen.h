@@ -2,8 +2,8 @@
 #ifndef tetralux_LocalScreen_h
 #define tetralux_LocalScreen_h
 
-// Cells and faces as they are seen around a reference pixel of their own: near to it, functions of the
-// pixel keep their accuracy in single precision.
+// Cells and faces as they are seen around a reference pixel of their own: near to it, functions of
+// the pixel keep their accuracy in single precision.
 
 #include "Projection/ProjectionSettings.h"
 #include "Projection/ScreenFrame.h"

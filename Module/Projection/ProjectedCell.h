@@ -16,11 +16,11 @@ namespace tetralux
 ///   e_k      Faces[k](dx, dy), the differences of the other faces to it, times Sign
 ///   near     min(0, e_k of the first Entries of the faces)
 ///   far      max(e_k of the others)
-///   z        base + Sign near where the ray goes through the one face, base + Sign far at the other:
-///            enters by the former where Sign is 1, leaves by it where it is -1
-///   scalar   (Scalar(dx, dy) + ScalarSlope near) / z at the former, likewise with far at the latter;
-///            without perspective not divided by z. Rounded otherwise than by the cell on the other
-///            side of the face: where that matters, see FaceScalar
+///   z        base + Sign near at the one face, base + Sign far at the other. The ray enters by the
+///            former if Sign is 1, and leaves by it if Sign is -1.
+///   scalar   (Scalar(dx, dy) + ScalarSlope near) / z at the former, and with far at the latter;
+///            without perspective not divided by z. The cell on the other side of the face rounds
+///            otherwise: where that matters, see FaceScalar.
 ///
 /// The ray misses the cell where near <= far.
 struct ProjectedCell

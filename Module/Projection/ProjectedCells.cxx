@@ -104,7 +104,8 @@ void FindGradients(const CellData& data, Span<const ScreenPoint> points, const s
   }
 }
 
-/// The functions of a cell's four faces, each one's points in ascending order. faces: see CellProjector.
+/// The functions of a cell's four faces, each one's points in ascending order. faces:
+/// see CellProjector.
 void FindFaceScalars(const ScreenFrame& frame, const ProjectionSettings& settings,
   Span<const ScreenPoint> points, const std::int32_t* cell, const std::array<int, 4>& faces,
   FaceScalar result[4])
@@ -140,8 +141,8 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   Span<const ScreenPoint> points, Span<const std::int32_t> cells, Span<const std::int32_t> order,
   const CellData& data, ProjectedCells& result)
 {
-  // Blocks of cells are projected side by side, and pushed together behind that, on one thread: threads
-  // that run out of work wait busily, at the cost of a rasteriser that runs beside them.
+  // Blocks of cells are projected side by side, and pushed together behind that, on one thread:
+  // threads that run out of work wait busily, at the cost of a rasteriser that runs beside them.
   constexpr std::int64_t BlockSize = 512;
   const auto n = static_cast<std::int64_t>(order.size());
   const std::int64_t blocks = (n + BlockSize - 1) / BlockSize;

@@ -2,7 +2,8 @@
 #ifndef tetralux_ProjectedCells_h
 #define tetralux_ProjectedCells_h
 
-// Cells of a mesh, projected all at once, see CellProjection.h, as they are sent to a graphics card.
+// Cells of a mesh, projected all at once, see CellProjection.h, as they are sent to a
+// graphics card.
 
 #include "Base/Span.h"
 #include "Mesh/PointGradients.h"
@@ -25,9 +26,10 @@ namespace tetralux
 TETRALUXCORE_EXPORT double FindShift(const ScreenFrame& frame, const ProjectionSettings& settings,
   Span<const ScreenPoint> points, Span<const std::int32_t> cells);
 
-/// A projected cell in a perspective without perspective interpolation: what is linear on the screen,
-/// by its values at the corners, for the rasteriser to interpolate. That is cheaper than functions for
-/// fragments to evaluate, and less exact where cells are thin, as it was before the paper.
+/// A projected cell in a perspective without perspective interpolation: what is linear on
+/// the screen, by its values at the corners, for the rasteriser to interpolate. That is
+/// cheaper than functions for fragments to evaluate, and less exact where cells are thin, as
+/// it was before the paper.
 struct InterpolatedCell
 {
   struct Corner
@@ -45,8 +47,8 @@ static_assert(sizeof(InterpolatedCell) == 4 * 36, "corners are 36 bytes apart");
 /// Projected cells in the order of drawing, ready to be sent to a graphics card.
 struct ProjectedCells
 {
-  /// One more than are drawn: what the last corner's attributes reach into. In a perspective without
-  /// perspective interpolation InterpolatedCells in their place; the others are empty.
+  /// One more than are drawn: what the last corner's attributes reach into. In a perspective
+  /// without perspective interpolation InterpolatedCells in their place; the others are empty.
   std::vector<ProjectedCell> Cells;
   std::vector<InterpolatedCell> InterpolatedCells;
   std::int64_t GetNumberOfCells() const
@@ -57,8 +59,8 @@ struct ProjectedCells
   /// Those of Cells where they are asked for, else empty.
   std::vector<ProjectedGradient> Gradients;
 
-  /// Four for each cell that is drawn, where they are asked for, else empty: of the base, Face0, Face1
-  /// and Face2.
+  /// Four for each cell that is drawn, where they are asked for, else empty: of the base,
+  /// Face0, Face1 and Face2.
   std::vector<FaceScalar> FaceScalars;
 
   /// Three for each triangle, of corners: corner k of cell i is 4 i + k. The last one is the cell's

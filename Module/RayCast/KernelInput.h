@@ -5,7 +5,8 @@
 // From a scene to what the kernels of the ray caster read.
 
 #include "RayCast/RayCastKernel.h"
-#include "RayCast/RayCaster.h"
+#include "RayCast/RayCastOptions.h"
+#include "Scene/VolumeScene.h"
 
 #include <array>
 #include <vector>

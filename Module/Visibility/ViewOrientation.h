@@ -33,8 +33,8 @@ public:
     }
   }
 
-  /// 1 where a, b, c run counter-clockwise as the viewer sees them, -1 where clockwise, 0 where they
-  /// are seen edge-on or are collinear.
+  /// 1 where a, b, c run counter-clockwise as the viewer sees them, -1 where clockwise, 0 where
+  /// they are seen edge-on or are collinear.
   int GetTurn(const double* a, const double* b, const double* c) const
   {
     return this->Parallel ? GetDirectionTurn(a, b, c, this->Vector)

@@ -29,8 +29,8 @@ constexpr int FirstPoints[4] = { 1, 0, 0, 0 };
 constexpr int SecondPoints[4] = { 2, 2, 1, 1 };
 constexpr int ThirdPoints[4] = { 3, 3, 3, 2 };
 
-/// The side of face i's points in their order on which the cell lies is that of its volume for odd i,
-/// the other one for even i.
+/// The side of face i's points in their order on which the cell lies is that of its volume for odd
+/// i, the other one for even i.
 int GetFaceSide(int face, int volumeSign) { return face % 2 == 1 ? volumeSign : -volumeSign; }
 
 int GetVolumeSign(std::uint8_t side)
@@ -227,8 +227,8 @@ int VisibilityArrows::GetBoundarySide(const WalkEntry& entry) const
 }
 
 //----------------------------------------------------------------------------
-/// The turns of faces towards the viewer in single precision, as far as they are beyond rounding: of
-/// eight cells at a time, in loops over these that compilers turn into vector instructions.
+/// The turns of faces towards the viewer in single precision, as far as they are beyond rounding:
+/// of eight cells at a time, in loops over these that compilers turn into vector instructions.
 class VisibilityArrows::ClearTurns
 {
 public:
@@ -251,10 +251,10 @@ public:
       this->Vector[axis] =
         static_cast<float>(view.Parallel ? -vector[axis] / largest : vector[axis]);
     }
-    // Coordinates are at most 1, and off by their rounding, as all that is computed. Of a face whose
-    // edges have components of at most l, seen along a vector with components of at most m: the edges
-    // are off by 4 roundings, products of them by 28 l + 32 roundings, the sum of their products with
-    // the vector by three times that times m, and by what the vector is off.
+    // Coordinates are at most 1, and off by their rounding, as all that is computed. Of a face
+    // whose edges have components of at most l, seen along a vector with components of at most m:
+    // the edges are off by 4 roundings, products of them by 28 l + 32 roundings, the sum of their
+    // products with the vector by three times that times m, and by what the vector is off.
     constexpr float rounding = 1.f / (1 << 24);
     const float m = static_cast<float>(view.Parallel ? 1 : 1 + largest);
     this->BoundPerEdge = 144 * rounding * m;

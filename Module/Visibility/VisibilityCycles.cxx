@@ -15,9 +15,9 @@ namespace tetralux
 namespace
 {
 
-/// How many arrows of a cycle are followed, in all, to find ignored ones that close no cycle: a tenth of
-/// a second, and all that there are in cycles of some thousand cells. More is only in meshes whose cells
-/// overlap everywhere.
+/// How many arrows of a cycle are followed, in all, to find ignored ones that close no cycle: a
+/// tenth of a second, and all that there are in cycles of some thousand cells. More is only in
+/// meshes whose cells overlap everywhere.
 constexpr std::int64_t LargestNumberOfSteps = 1 << 22;
 
 /// An arrow between two cells of a cycle, by their places in it.

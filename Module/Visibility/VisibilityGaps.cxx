@@ -15,12 +15,13 @@ namespace
 {
 
 /// How far, in radii of the mesh, a face may be in front of another one, everywhere that they have
-/// something in common, and still count as touching it: the rounding of coordinates that come from files
-/// in single precision.
+/// something in common, and still count as touching it: the rounding of coordinates that come from
+/// files in single precision.
 constexpr double ContactTolerance = 1e-7;
 
-/// Part of the smaller of two faces, as they would look from in front, that they must have in common to
-/// count. Rounding gives faces that meet in an edge some 1e-16, and faces that are seen edge-on.
+/// Part of the smaller of two faces, as they would look from in front, that they must have
+/// in common to count. Rounding gives faces that meet in an edge some 1e-16, and faces
+/// that are seen edge-on.
 constexpr double OverlapTolerance = 1e-10;
 
 using Vector = std::array<double, 3>;

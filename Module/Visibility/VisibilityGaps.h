@@ -12,8 +12,8 @@
 namespace tetralux
 {
 
-/// Which cells hide which others across empty space: one for each pair of boundary faces of which a ray
-/// leaves the mesh by one and then enters it by the other.
+/// Which cells occlude others across empty space: one arrow for each pair of boundary faces of
+/// which a ray leaves the mesh by one and then enters it by the other.
 struct VisibilityGaps
 {
   std::vector<std::int32_t>
@@ -22,13 +22,15 @@ struct VisibilityGaps
   std::vector<float> Sizes; ///< how large the common part of the faces looks, see MeasureTriangle
 };
 
-/// Finds them all, which makes the order of any mesh exact, also one that can't be made convex (after
-/// Silva, Mitchell and Williams, An Exact Interactive Time Visibility Ordering Algorithm for Polyhedral
-/// Cell Complexes, 1998, who sweep the picture): what is in the cone behind each face that rays leave by,
-/// by the hierarchy over the boundary, and clipped by the cone. In double precision with tolerances, which
-/// nothing but slivers depends on. Parallel, the same result for any number of threads.
+/// Finds all gaps of a view. With them the order of any mesh is exact, also of one that can't be
+/// made convex (after Silva, Mitchell and Williams, An Exact Interactive Time Visibility Ordering
+/// Algorithm for Polyhedral Cell Complexes, 1998, who sweep the picture).
 ///
-/// False, and nothing, where there are more than LargestNumberOfGaps for each boundary face.
+/// For each face that rays leave by, takes the boundary faces in the cone behind it from the
+/// hierarchy over the boundary, and clips them by the cone. In double precision; only slivers
+/// depend on its tolerances. Parallel, the same result for any number of threads.
+///
+/// Returns false, and no gaps, if there are more than LargestNumberOfGaps for each boundary face.
 bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows,
   const VisibilityView& view, VisibilityGaps& gaps);
 

@@ -11,8 +11,9 @@
 namespace tetralux
 {
 
-/// What a visibility order is made from: the cells of a mesh and the imaginary ones behind them, four
-/// ascending point ids each, the points in double precision, and what lies behind each face.
+/// What a visibility order is made from: the cells of a mesh and the imaginary cells
+/// behind them, with four ascending point ids each; the points in double precision; and
+/// what lies behind each face.
 struct VisibilityGeometry
 {
   Span<const double> Points;

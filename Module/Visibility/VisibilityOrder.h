@@ -4,6 +4,7 @@
 
 #include "Base/Span.h"
 #include "TetraluxCoreModule.h"
+#include "Visibility/VisibilityReport.h"
 #include "Visibility/VisibilityView.h"
 
 #include <cstdint>
@@ -18,27 +19,27 @@ class WalkMesh;
 /// How cells are ordered.
 enum class VisibilityMethod
 {
-  /// By the faces that cells have in common, exactly: meshed polyhedra visibility ordering (MPVO) of
-  /// Williams, Visibility Ordering Meshed Polyhedra, 1992, section 4. Where there is empty space
-  /// between cells, nothing says which of them is in front, unless imaginary cells fill it
-  /// (WalkMesh::MakeConvex): exact for meshes that are convex or were made so.
+  /// By common faces, exactly: meshed polyhedra visibility ordering (MPVO) of Williams, Visibility
+  /// Ordering Meshed Polyhedra, 1992, section 4. Exact for meshes that are convex or were made so.
+  /// Nothing orders cells across empty space, unless imaginary cells fill it
+  /// (WalkMesh::MakeConvex).
   Meshed,
 
-  /// The same for meshes that are not convex (MPVONC, section 6): what is seen first are those cells
-  /// that rays enter, ordered by the distances of their centroids. Exact across common faces; across
-  /// empty space a guess, which is wrong where a cell that is entered has a nearer centroid than what
-  /// is in front of it, or lies behind a part that is entered in several places.
+  /// The same for meshes that are not convex (MPVONC, section 6). Exact across common faces. Across
+  /// empty space a guess: cells that rays enter come first, ordered by the distances of their
+  /// centroids. The guess is wrong if such a cell has a nearer centroid than what is in front of
+  /// it, or if it lies behind a part that rays enter in several places.
   MeshedNonConvex,
 
-  /// Exact for any mesh: by common faces, and by pairs of boundary faces of which rays leave the mesh by
-  /// one and enter it by the other (VisibilityGaps.h). They are found anew for each view, which takes
-  /// several times what everything else takes; a mesh that can be made convex is ordered faster by
-  /// Meshed. As MeshedNonConvex, which GetUsedMethod tells, where there are more than 64 such pairs for
-  /// each boundary face.
+  /// By common faces, and by pairs of boundary faces of which rays leave the mesh by one and enter
+  /// it by the other (VisibilityGaps.h). Exact for any mesh. The pairs are found anew for each
+  /// view, which takes several times as long as the rest; Meshed is faster for a mesh that can be
+  /// made convex. Falls back to MeshedNonConvex, which GetUsedMethod tells, if there are more than
+  /// 64 pairs for each boundary face.
   MeshedAcrossGaps,
 
-  /// By the distances of the cells' centroids: the fastest, and right for no pair of cells but by
-  /// chance; equal distances in the order of the cells.
+  /// By the distances of the cells' centroids; equal distances in the order of the cells. The
+  /// fastest method. Guarantees the order of no pair of cells.
   CentroidDistance
 };
 
@@ -48,65 +49,43 @@ enum class VisibilityDirection
   BackToFront
 };
 
-/// Sets of cells of which each hides another one of the set, which hides ... the first: no order is
-/// right for them. Faces that some cells have in common were ignored until there was one.
-struct VisibilityCycles
-{
-  /// The cells of all cycles, one cycle after the other, ascending in each. Cycles that have cells in
-  /// common are one. Imaginary cells come behind those of the mesh.
-  std::vector<std::int32_t> Cells;
-  std::vector<std::int64_t> Begins; ///< where each cycle begins in Cells, and the end of the last
-
-  /// Faces (and pairs of boundary faces, MeshedAcrossGaps) through which the order is wrong: rays through
-  /// them meet the two cells in the other order. Those that look smallest are chosen, one by one.
-  std::int64_t IgnoredFaces = 0;
-
-  /// How large the ignored faces look: their solid angle in a perspective view, their projected area
-  /// in a parallel one.
-  double IgnoredArea = 0;
-
-  std::int64_t GetNumberOfCycles() const
-  {
-    return static_cast<std::int64_t>(this->Begins.empty() ? 0 : this->Begins.size() - 1);
-  }
-};
-
-/// In which order cells have to be drawn: of each two of which one hides a part of the other, the one
-/// in front comes before the other, or behind it.
+/// Sorts the cells of a mesh into visibility order: of two cells of which one occludes a part of
+/// the other, the one in front comes first (FrontToBack) or last (BackToFront).
 ///
-/// Of two cells with a common face, the one on the viewer's side of the face's plane is in front: exact
-/// signs decide that, from the coordinates in double precision, so an order is never a matter of
-/// tolerances. A viewer in the plane of a face sees nothing through it, and it orders nothing. Cells
-/// of zero volume and slightly inverted ones take part as if they had a little volume; where cells
-/// overlap, the order among them is not defined. With the viewer inside the mesh, the cells around are
-/// ordered as well.
+/// Of two cells with a common face, the one on the viewer's side of the face's plane is in front.
+/// The sign is exact for the coordinates in double precision; there are no tolerances. A viewer in
+/// the plane of a face sees nothing through it, and the face orders nothing. Cells without volume
+/// and slightly inverted cells take part as if they had a little volume. Among cells that overlap
+/// the order is not defined. The viewer may be inside the mesh.
 class TETRALUXCORE_EXPORT VisibilityOrder
 {
 public:
-  /// imaginaryCells: whether to use the convex tables of the mesh, where it has some; it must be made
-  /// convex before, and outlive this. A byte a cell, and a copy of the imaginary cells. Parallel.
+  /// imaginaryCells: whether to use the convex tables of the mesh, if it has some. The mesh must be
+  /// made convex before, and must outlive this. Takes a byte a cell, and a copy of the imaginary
+  /// cells. Parallel.
   explicit VisibilityOrder(const WalkMesh& mesh, bool imaginaryCells = true);
   ~VisibilityOrder();
   VisibilityOrder(VisibilityOrder&&) noexcept;
   VisibilityOrder& operator=(VisibilityOrder&&) noexcept;
 
-  /// The cells in order. drawn: one flag for each cell of the mesh, whether it is wanted in the result;
-  /// empty: all. The others order their neighbours all the same (but not by CentroidDistance).
-  /// Imaginary cells are never in the result. Valid until the next call.
+  /// Returns the cells in order, without imaginary cells. Valid until the next call.
   ///
-  /// Linear time. Nine bytes a cell (CentroidDistance: 20), kept for the next call, and 16 more where
+  /// drawn: one flag for each cell of the mesh, whether the result has it; empty: all. The other
+  /// cells still order their neighbours, except by CentroidDistance.
+  ///
+  /// Linear time. Keeps nine bytes a cell (CentroidDistance: 20) for the next call, and 16 more if
   /// there are cycles. The same result for any number of threads.
   const std::vector<std::int32_t>& Sort(const VisibilityView& view, VisibilityMethod method,
     VisibilityDirection direction, Span<const std::uint8_t> drawn = {});
 
-  /// By which method the last Sort was made.
+  /// The method by which the last Sort was made.
   VisibilityMethod GetUsedMethod() const { return this->UsedMethod; }
 
-  /// What kept the last Sort from being right. None by CentroidDistance, which does not look for them.
+  /// The cycles that the last Sort met. CentroidDistance does not look for them.
   const VisibilityCycles& GetCycles() const { return this->Cycles; }
 
-  /// Whether Meshed is exact: the mesh is convex, or its imaginary cells are used. Nobody knows before
-  /// the mesh was tried to make convex.
+  /// Whether Meshed is exact: the mesh is convex, or its imaginary cells are used. False before
+  /// WalkMesh::MakeConvex was tried.
   bool IsConvex() const;
 
   std::size_t GetSize() const; ///< bytes of all tables and buffers

@@ -23,8 +23,9 @@ double GetSignedVolume(Span<const double> points, const std::int32_t* cell)
   return edges[0][0] * cross(1, 2) + edges[0][1] * cross(2, 0) + edges[0][2] * cross(0, 1);
 }
 
-/// The orientation that the cell behind face i of a cell must have, where it is the cell's own face
-/// `behind`: the points of the face ascend for both, so that the places of the opposite points decide.
+/// The orientation that the cell behind face i of a cell must have, where it is the cell's
+/// own face `behind`: the points of the face ascend for both, so that the places of the
+/// opposite points decide.
 std::uint8_t OrientNeighbor(std::uint8_t positive, int face, int behind)
 {
   return static_cast<std::uint8_t>(positive ^ ((face + behind + 1) & 1));

@@ -66,8 +66,8 @@ public:
   template <class Real>
   void SetPointScalars(Span<const double> scalars, double offset, double scale);
 
-  /// Makes the mesh convex by imaginary cells (Convexify), unless that was tried before. progress as
-  /// there; after an abort it may be tried again.
+  /// Makes the mesh convex by imaginary cells (Convexify), unless that was tried before. progress
+  /// as there; after an abort it may be tried again.
   void MakeConvex(const std::function<bool(double)>& progress = {});
 
   /// Whether a ray that left the mesh never enters it again: tetralux::IsConvex, kept.
@@ -76,8 +76,8 @@ public:
   /// What MakeConvex did; nullptr before it. Ids are those of GetMesh().
   const Convexification* GetConvexification() const { return this->Convex.get(); }
 
-  /// The topology of all cells and the imaginary ones, which come behind; empty where there are none:
-  /// before MakeConvex, where it was refused, and where the mesh is convex.
+  /// The topology of all cells and the imaginary ones, which come behind; empty where there are
+  /// none: before MakeConvex, where it was refused, and where the mesh is convex.
   const WalkTables& GetConvexTables() const { return this->ConvexTables; }
 
   /// Bytes of all tables, without GetMesh().

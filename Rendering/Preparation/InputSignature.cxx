@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Preparation/InputSignature.h"
 
-#include "Intake/TetrahedraIntake.h"
+#include "Intake/DataSetBlocks.h"
 #include "vtkContourValues.h"
 
 #include "vtkAbstractArray.h"

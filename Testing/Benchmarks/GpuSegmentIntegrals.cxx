@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a segment's integral costs in a shader, nanoseconds each: closed form, optical depth, tables.
-// Of each pixel's 64 segments, neighbouring pixels see nearly the same scalars, as in a picture.
-// Wall time of the graphics card's answer and time of all of this process's threads, which is what
-// counts with software OpenGL; the best of some runs. Prints a table, takes no arguments.
+// What a segment's integral costs in a shader, nanoseconds each: closed form, optical depth,
+// tables. Of each pixel's 64 segments, neighbouring pixels see nearly the same scalars, as in a
+// picture. Wall time of the graphics card's answer and time of all of this process's threads, which
+// is what counts with software OpenGL; the best of some runs. Prints a table, takes no arguments.
 
 #include "GpuIntegral/GpuSegmentIntegral.h"
 #include "OpenGL/FloatTarget.h"
@@ -51,7 +51,8 @@ void main()
   for (int segment = 0; segment < 64; ++segment)
   {
     float w = float(segment);
-    float back = sin(w * cellSize * 3.0 + 5.0 * texCoord.x) * cos(w * cellSize * 2.0 + 3.0 * texCoord.y);
+    float back = sin(w * cellSize * 3.0 + 5.0 * texCoord.x) *
+      cos(w * cellSize * 2.0 + 3.0 * texCoord.y);
     vec4 part = IntegrateSegment(front, back, len);
     gathered += (1.0 - gathered.a) * part;
     front = back;

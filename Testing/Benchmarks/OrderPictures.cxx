@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What an order of cells that is not right does to the picture: vtkTetrahedraProjectionMapper, which
-// is exact but for the order, against vtkTetrahedraRayCastMapper in double precision; see
-// Documentation/Benchmarks.md. The blunt fin and the crushed can take part where the environment variable
-// TETRALUX_DATA names their folder.
+// What an order of cells that is not right does to the picture: vtkTetrahedraProjectionMapper,
+// which is exact but for the order, against vtkTetrahedraRayCastMapper in double precision; see
+// Documentation/Benchmarks.md. The blunt fin and the crushed can take part where the environment
+// variable TETRALUX_DATA names their folder.
 
 #include "ComparisonMeshes.h"
 #include "ImageComparison.h"

@@ -4,12 +4,14 @@
 // tetrahedra as a benchmark's name says; the largest takes part where --benchmark_filter names its
 // number. Time is that of the wall, CPU that of all threads.
 //
-//   Cast/...         pictures of 512 x 512 pixels; Wall and Cpu: nanoseconds for each cell that a ray
-//                    walks through. Entries: share of the picture's time that goes into finding
+//   Cast/...         pictures of 512 x 512 pixels; Wall and Cpu: nanoseconds for each cell that a
+//                    ray walks through. Entries: share of the picture's time that goes into finding
 //                    where rays enter the mesh, measured by a picture that ends in front of it.
-//   Prepare/...      what is done once for a mesh, by stage; Wall and Cpu: nanoseconds a tetrahedron.
+//   Prepare/...      what is done once for a mesh, by stage; Wall and Cpu: nanoseconds a
+//                    tetrahedron.
 //   Integral/...     SegmentIntegralBenchmark.cxx.
 
+#include "Base/Stopwatch.h"
 #include "Generate/GeneratedMeshes.h"
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
@@ -20,7 +22,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <ctime>
@@ -38,17 +39,17 @@ constexpr int ImageSize = 512;
 constexpr std::int64_t LargestSize = 10000000;
 
 /// Adds up wall and processor time.
-class Stopwatch
+class TimeSum
 {
 public:
   void Start()
   {
-    this->WallBegin = Clock::now();
+    this->WallWatch = Stopwatch();
     this->CpuBegin = std::clock();
   }
   void Stop()
   {
-    this->Wall += std::chrono::duration<double>(Clock::now() - this->WallBegin).count();
+    this->Wall += this->WallWatch.GetSeconds();
     this->Cpu += static_cast<double>(std::clock() - this->CpuBegin) / CLOCKS_PER_SEC;
   }
   /// Nanoseconds for each of a number of items, over all that was timed.
@@ -60,8 +61,7 @@ public:
   double GetWall() const { return this->Wall; }
 
 private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point WallBegin;
+  Stopwatch WallWatch;
   std::clock_t CpuBegin = 0;
   double Wall = 0;
   double Cpu = 0;
@@ -157,8 +157,8 @@ void CastBall(benchmark::State& state, std::int64_t size, const CastKind& kind)
   { return CastRays(volume, grid, limits, options, colors, depths); };
   RayCastStatistics statistics = cast({}); // fills the tables
 
-  Stopwatch all;
-  Stopwatch entries;
+  TimeSum all;
+  TimeSum entries;
   for (auto _ : state)
   {
     all.Start();
@@ -224,13 +224,13 @@ void Prepare(benchmark::State& state, std::int64_t size, Stage stage)
     }
   }
 
-  Stopwatch stopwatch;
+  TimeSum time;
   for (auto _ : state)
   {
     state.PauseTiming();
     TetrahedralMesh work = start;
     state.ResumeTiming();
-    stopwatch.Start();
+    time.Start();
     switch (stage)
     {
       case Stage::Cleaning:
@@ -253,9 +253,9 @@ void Prepare(benchmark::State& state, std::int64_t size, Stage stage)
         mesh->SetPointScalars<float>(ball.Scalars, 0, 1);
         break;
     }
-    stopwatch.Stop();
+    time.Stop();
   }
-  stopwatch.Report(state,
+  time.Report(state,
     static_cast<double>(ball.Mesh.GetNumberOfCells()) * static_cast<double>(state.iterations()));
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Visibility orders: nanoseconds a cell of each method, beside vtkCellCenterDepthSort, and how many
-// pairs of cells they get wrong; see Documentation/Benchmarks.md. Argument: the largest number of tetrahedra
-// (1,200,000). The blunt fin takes part where the environment variable TETRALUX_DATA names its folder.
+// Visibility orders: nanoseconds a cell of each method, beside vtkCellCenterDepthSort, and how
+// many pairs of cells they get wrong; see Documentation/Benchmarks.md. Argument: the largest
+// number of tetrahedra (1,200,000). The blunt fin takes part where the environment variable
+// TETRALUX_DATA names its folder.
 
 #include "ComparisonMeshes.h"
 #include "ReferenceOcclusion.h"

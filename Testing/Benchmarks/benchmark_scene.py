@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A volume in a window without a display, and what its frames take, for the benchmarks in Python."""
+"""A volume in a window without a display, and how long its frames take, for benchmarks."""
 
 import os
 import time
@@ -66,8 +66,10 @@ class VolumeWindow:
 
 
 def time_frames(volume_windows, rounds):
-    """Best seconds of a frame of each, and best processor seconds of all threads: a frame of each is
-    rendered before any is timed, then they take turns."""
+    """The best seconds of a frame of each window, and the best processor seconds of all threads.
+
+    Each window renders a frame before any is timed. Then they take turns.
+    """
     for entry in volume_windows:
         entry.window.Render()
     best = [float("inf")] * len(volume_windows)

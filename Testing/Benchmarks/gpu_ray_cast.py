@@ -5,17 +5,17 @@
     TETRALUX_DATA=FOLDER PYTHONPATH=build/lib/python3.11/dist-packages \
         python3 Testing/Benchmarks/gpu_ray_cast.py --output FOLDER [--sizes 512,1024,2048] [--large]
 
-Runs on whatever OpenGL the window without a display finds: a graphics card, or else software. Prints
-its name and writes into FOLDER gpu_ray_cast.md, and as .csv
+Runs on the OpenGL that the window without a display finds: a graphics card, or else software.
+Prints its name and writes into FOLDER gpu_ray_cast.md, and as .csv
   frames     best frame of each mesh, size and way of re-entry; cell steps and tetrahedra a second,
              bytes a tetrahedron, time to upload, and the largest difference from the picture of the
              mapper on the processor, of any channel
-  table2     table 2 of Weiler et al. 2003 beside the same meshes, or those most like them, here: means
-             over views of a mesh that turns about two axes, 512 x 512
+  table2     table 2 of Weiler et al. 2003 beside the same meshes, or those most like them, here:
+             means over views of a mesh that turns about two axes, 512 x 512
   figure8    its figure 8: rays that take part in each pass on the heat sink, without the depth test
              that keeps done rays out, with it, and with early ray termination, too
-The blunt fin is there where TETRALUX_DATA names the folder with bluntfinxyz.bin; other meshes are made
-by the command-line tool (--tool). --large: also a mesh of ten million tetrahedra.
+The blunt fin takes part if TETRALUX_DATA names the folder with bluntfinxyz.bin. The command-line
+tool (--tool) makes the other meshes. --large: also a mesh of ten million tetrahedra.
 """
 
 import argparse
@@ -187,7 +187,8 @@ def measure_table_2(meshes, views):
                 "tetrahedra_per_second": own_cells * rate,
             }
         )
-        print("table 2: {mesh} {frames_per_second:.2f} frames a second".format(**rows[-1]), flush=True)
+        text = "table 2: {mesh} {frames_per_second:.2f} frames a second"
+        print(text.format(**rows[-1]), flush=True)
     return rows
 
 
@@ -264,7 +265,8 @@ def write_page(folder, renderer_name, frames, table_2, figure_8):
             names = list(figure_8[0])
             page.write(make_table(names, [[str(row[name]) for name in names] for row in figure_8]))
             sums = [sum(row[name] for row in figure_8) for name in names[1:]]
-            page.write("\nIn all: " + ", ".join(f"{n} {s:,}" for n, s in zip(names[1:], sums)) + "\n")
+            parts = [f"{n} {s:,}" for n, s in zip(names[1:], sums)]
+            page.write("\nIn all: " + ", ".join(parts) + "\n")
 
 
 def main():

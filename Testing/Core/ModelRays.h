@@ -16,9 +16,9 @@ struct RayModel
 };
 
 /// Rays whose scalar wanders over the range (reflected at its ends), by slow, middling and fast
-/// steps from segment to segment, and whose lengths are drawn evenly from 0 to the longest, a quarter
-/// and a sixteenth of it, until the path is as long as asked for or the ray has 400 segments. The
-/// same rays for the same model.
+/// steps from segment to segment, and whose lengths are drawn evenly from 0 to the longest, a
+/// quarter and a sixteenth of it, until the path is as long as asked for or the ray has 400
+/// segments. The same rays for the same model.
 RaySample DrawModelRays(const RayModel& model);
 
 } // namespace tetralux

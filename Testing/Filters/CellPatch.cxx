@@ -34,12 +34,12 @@ CellPatch::Position Mean(
   return mean;
 }
 
-/// Rounded to a grid that is far finer than the nodes, so that means taken in another order agree.
+/// Rounds a node to the grid of PartsOfUnit, so that means that are taken in another order agree.
 CellPatch::Position Snap(CellPatch::Position x)
 {
   for (double& value : x)
   {
-    value = std::round(value * 720720) / 720720;
+    value = std::round(value * CellPatch::PartsOfUnit) / CellPatch::PartsOfUnit;
   }
   return x;
 }
@@ -316,6 +316,8 @@ std::string FindConformityProblem(const tetralux::TetrahedralMesh& mesh,
   }
   for (std::int32_t face : faces.BoundaryFaces)
   {
+    // Half of what nodes of different places are apart; rounding is far below.
+    constexpr double nearPlane = 0.5 / CellPatch::PartsOfUnit;
     bool inPlane[3][2] = { { true, true }, { true, true }, { true, true } };
     for (int corner = 0; corner < 4; ++corner)
     {
@@ -324,8 +326,8 @@ std::string FindConformityProblem(const tetralux::TetrahedralMesh& mesh,
         const CellPatch::Position x = toBox(mesh.Cells[face / 4 * 4 + corner]);
         for (int axis = 0; axis < 3; ++axis)
         {
-          inPlane[axis][0] = inPlane[axis][0] && std::abs(x[axis]) < 1e-9;
-          inPlane[axis][1] = inPlane[axis][1] && std::abs(x[axis] - size[axis]) < 1e-9;
+          inPlane[axis][0] = inPlane[axis][0] && std::abs(x[axis]) < nearPlane;
+          inPlane[axis][1] = inPlane[axis][1] && std::abs(x[axis] - size[axis]) < nearPlane;
         }
       }
     }

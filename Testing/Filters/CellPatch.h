@@ -14,12 +14,16 @@
 #include <string>
 #include <vector>
 
-/// A block of cells of any type that share their nodes, for tests: cells are added by their corners,
-/// and nodes on edges, faces and in the middle are put where VTK's cell class wants them.
+/// A block of cells of any type that share their nodes, for tests: cells are added by their
+/// corners, and nodes on edges, faces and in the middle are put where VTK's cell class wants them.
 class CellPatch
 {
 public:
   using Position = std::array<double, 3>;
+
+  /// Nodes are rounded to so many parts of a unit: many more than nodes of a cell are apart, and a
+  /// multiple of all numbers up to 16, so that the means of up to 16 nodes of a grid are exact.
+  static constexpr int PartsOfUnit = 720720;
 
   /// Adds a cell whose edges are straight between its corners.
   void AddCell(int type, const std::vector<Position>& corners);
@@ -62,8 +66,9 @@ CellPatch::Position MapWarped(const CellPatch::Position& x);
 /// Sum of the signed volumes, and how many of them are not positive.
 double GetVolume(const tetralux::TetrahedralMesh& mesh, std::int64_t* notPositive = nullptr);
 
-/// Empty if every face is shared by two tetrahedra or lies on the boundary, all its points in one of
-/// the planes of the box from 0 to size; else what is wrong. toBox takes mesh points back to the box.
+/// Empty if every face is shared by two tetrahedra or lies on the boundary, all its points
+/// in one of the planes of the box from 0 to size; else what is wrong. toBox takes mesh
+/// points back to the box.
 std::string FindConformityProblem(const tetralux::TetrahedralMesh& mesh,
   const std::function<CellPatch::Position(std::int64_t)>& toBox, const std::array<int, 3>& size);
 

@@ -3,7 +3,7 @@
 
 #include "Generate/GeneratedMeshes.h"
 #include "GhostArray.h"
-#include "MessageObserver.h"
+#include "Observer.h"
 #include "ReferenceConvexity.h"
 
 #include "vtkCallbackCommand.h"
@@ -87,6 +87,10 @@ void MakeGrid(const std::string& name, const std::map<std::string, double>& para
   grid->GetFieldData()->AddArray(pressure);
 }
 
+/// The largest relative error of a volume that is a sum over cells of its surface or its inside:
+/// each of up to some thousand terms is rounded by 1e-16 of its size.
+constexpr double VolumeRounding = 1e-12;
+
 double GetVolume(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   double p[4][3];
@@ -169,9 +173,9 @@ void CheckOutput(vtkUnstructuredGrid* input, vtkConvexifyTetrahedra* filter)
   }
   EXPECT_EQ(globalIds.size(), static_cast<std::size_t>(output->GetNumberOfCells()));
   EXPECT_TRUE(output->GetFieldData()->GetArray("pressure"));
-  EXPECT_NEAR(volume, filter->GetImaginaryVolume(), 1e-9 * volume);
+  EXPECT_NEAR(volume, filter->GetImaginaryVolume(), VolumeRounding * volume);
   EXPECT_NEAR(filter->GetHullVolume(), filter->GetMeshVolume() + filter->GetImaginaryVolume(),
-    1e-9 * filter->GetHullVolume());
+    VolumeRounding * filter->GetHullVolume());
   EXPECT_EQ(filter->GetNumberOfBoundaryFaces(),
     static_cast<vtkIdType>(FindOpenFaces(input, input->GetNumberOfCells()).size()));
 }
@@ -190,8 +194,8 @@ TEST(ConvexifyTetrahedra, KeepsTheInputFirst)
     CheckOutput(grid, filter);
     EXPECT_FALSE(filter->GetInputIsConvex());
     EXPECT_GT(filter->GetNumberOfImaginaryCells(), 0);
-    EXPECT_NEAR(filter->GetHullVolume(), 1, 1e-6);
-    EXPECT_NEAR(filter->GetMeshVolume(), 0.875, 1e-6);
+    EXPECT_NEAR(filter->GetHullVolume(), 1, VolumeRounding);
+    EXPECT_NEAR(filter->GetMeshVolume(), 0.875, VolumeRounding);
     EXPECT_GT(filter->GetConvexTestSeconds() + filter->GetTriangulationSeconds() +
         filter->GetPocketSeconds() + filter->GetFillSeconds() + filter->GetVerificationSeconds(),
       0);
@@ -216,6 +220,59 @@ TEST(ConvexifyTetrahedra, AddsPointsWhereItMust)
   CheckOutput(grid, filter);
   EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(),
     filter->GetNumberOfSteinerPoints() > 0 ? VTK_DOUBLE : VTK_FLOAT);
+}
+
+TEST(ConvexifyTetrahedra, GlobalIdsGoOnAfterTheLargestOne)
+{
+  // Far above 2^53, where a double no longer tells neighbouring integers apart.
+  constexpr vtkIdType largest = (vtkIdType(1) << 60) + 5;
+  vtkNew<vtkUnstructuredGrid> grid;
+  MakeGrid("shared-edge", { { "cells", 1 } }, VTK_DOUBLE, grid);
+  const vtkIdType count = grid->GetNumberOfCells();
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("ids");
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    ids->InsertNextValue(largest - (i + 3) % count); // the largest is not the last
+  }
+  grid->GetCellData()->SetGlobalIds(ids);
+  vtkNew<vtkConvexifyTetrahedra> filter;
+  filter->SetInputData(grid);
+  filter->Update();
+  auto result = vtkIdTypeArray::SafeDownCast(filter->GetOutput()->GetCellData()->GetGlobalIds());
+  ASSERT_TRUE(result);
+  ASSERT_GT(result->GetNumberOfValues(), count);
+  for (vtkIdType i = 0; i < result->GetNumberOfValues(); ++i)
+  {
+    EXPECT_EQ(result->GetValue(i), i < count ? ids->GetValue(i) : largest + 1 + i - count);
+  }
+}
+
+TEST(ConvexifyTetrahedra, GlobalIdsWithoutRoomAreLeftOut)
+{
+  // Bytes, of which the last new one is 255, or would be 256.
+  vtkNew<vtkUnstructuredGrid> grid;
+  MakeGrid("shared-edge", { { "cells", 1 } }, VTK_DOUBLE, grid);
+  for (const bool fits : { true, false })
+  {
+    vtkNew<vtkConvexifyTetrahedra> filter;
+    filter->SetInputData(grid);
+    filter->Update();
+    const vtkIdType added = filter->GetNumberOfImaginaryCells();
+    vtkNew<vtkUnsignedCharArray> ids;
+    ids->SetName("ids");
+    for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+    {
+      ids->InsertNextValue(static_cast<unsigned char>(255 - added - i + (fits ? 0 : 1)));
+    }
+    grid->GetCellData()->SetGlobalIds(ids);
+    filter->Modified();
+    filter->Update();
+    vtkDataArray* result =
+      vtkArrayDownCast<vtkDataArray>(filter->GetOutput()->GetCellData()->GetGlobalIds());
+    ASSERT_EQ(result != nullptr, fits);
+    EXPECT_TRUE(!fits || result->GetTuple1(result->GetNumberOfTuples() - 1) == 255);
+  }
 }
 
 TEST(ConvexifyTetrahedra, ConvexAgain)
@@ -257,8 +314,8 @@ TEST(ConvexifyTetrahedra, OtherCells)
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetCellType(numberOfTetrahedra), VTK_LINE);
   EXPECT_GT(filter->GetNumberOfImaginaryCells(), 0);
-  EXPECT_NEAR(filter->GetMeshVolume(), 2 - std::abs(GetVolume(grid, 0)), 1e-12);
-  EXPECT_NEAR(filter->GetHullVolume(), 3, 1e-12);
+  EXPECT_NEAR(filter->GetMeshVolume(), 2 - std::abs(GetVolume(grid, 0)), VolumeRounding);
+  EXPECT_NEAR(filter->GetHullVolume(), 3, VolumeRounding);
 
   grid->InsertNextCell(VTK_WEDGE, 6, ids);
   MessageObserver filterErrors(filter);
@@ -299,7 +356,8 @@ TEST(ConvexifyTetrahedra, SaysWhyNot)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
-/// Random subsets of the cells of random Delaunay meshes: filled and right, or refused with a reason.
+/// Random subsets of the cells of random Delaunay meshes: filled and right, or refused
+/// with a reason.
 TEST(ConvexifyTetrahedra, SubsetsOfDelaunayMeshes)
 {
   int filled = 0;
@@ -406,7 +464,7 @@ TEST(ConvexifyTetrahedra, BlocksEachForThemselves)
     {
       volume += std::abs(GetVolume(grid, i));
     }
-    EXPECT_NEAR(volume, block == 0 ? 1 : 3, 1e-12);
+    EXPECT_NEAR(volume, block == 0 ? 1 : 3, VolumeRounding);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "CellPatch.h"
 #include "GhostArray.h"
-#include "MessageObserver.h"
+#include "Observer.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"

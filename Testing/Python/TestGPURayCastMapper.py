@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mapper on the graphics card from Python: its picture is that of the mapper on the processor."""
+"""The mapper on the graphics card has the picture of the mapper on the processor."""
 
 import numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData

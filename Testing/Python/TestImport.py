@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every wrapped class is an attribute of the package: TestImport.py [FOLDER OF INSTALLED HEADERS]"""
+"""Every wrapped class is an attribute of the package.
+
+TestImport.py [FOLDER OF INSTALLED HEADERS]
+"""
 
 import pathlib
 import sys

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkMeshedPolyhedraVisibilitySort from Python: by itself, and in VTK's own mapper."""
 
-import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401: what vtkProjectedTetrahedraMapper is made by
+# Makes vtkProjectedTetrahedraMapper.
+import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
 from vtkmodules.vtkRenderingCore import vtkCamera

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The projection mapper from Python: created by name, a cube's opacity as its optical depth says."""
+"""The projection mapper is made by name; a cube has the opacity of its optical depth."""
 
 import math
 

@@ -18,9 +18,8 @@ struct ConvexifiedMesh
   std::vector<std::int32_t> ImaginaryCells; ///< four point ids each
 };
 
-/// The sign of the volume of a, b, c, d in VTK's order of a tetrahedron's points: in double precision
-/// where that is certain, else in whole numbers of any
-/// size.
+/// The sign of the volume of a, b, c, d in VTK's order of a tetrahedron's points: in double
+/// precision where that is certain, else in whole numbers of any size.
 int GetReferenceSign(const double* a, const double* b, const double* c, const double* d);
 
 /// The first thing that is wrong, in words; empty where nothing is. Imaginary cells must have a

@@ -27,16 +27,17 @@ struct OccludedPair
   }
 };
 
-/// Which cells hide which, by brute force: rays go from the viewer through random points of each cell,
-/// and are clipped by every cell on its own, in extended precision. Each pair once, ascending.
+/// Which cells hide which, by brute force: rays go from the viewer through random points
+/// of each cell, and are clipped by every cell on its own, in extended precision. Each
+/// pair once, ascending.
 ///
-/// Parts of a ray inside a cell count from a length of 1e-9 of the mesh on; so do parts that two cells
-/// have in common, for which there is no order.
+/// Parts of a ray inside a cell count from a length of 1e-9 of the mesh on; so do parts that two
+/// cells have in common, for which there is no order.
 std::vector<OccludedPair> FindOccludedPairs(
   const TetrahedralMesh& mesh, const VisibilityView& view, int raysPerCell, std::uint64_t seed);
 
-/// Those pairs that order, front to back, puts the wrong way round; all cells of the pairs must be in
-/// it.
+/// Those pairs that order, front to back, puts the wrong way round; all cells of the
+/// pairs must be in it.
 std::vector<OccludedPair> FindWrongPairs(
   const std::vector<OccludedPair>& pairs, Span<const std::int32_t> order);
 

@@ -56,8 +56,8 @@ TransferFunction MakeFunctionWithSteps();
 TetrahedralMesh MakeBox(int nx, int ny, int nz, const std::array<double, 3>& lower,
   const std::array<double, 3>& upper, double jitter = 0, std::uint64_t seed = 1);
 
-/// Long tetrahedra around the z axis, apart from each other, each with one end above the next one: seen
-/// along z, none is the farthest.
+/// Long tetrahedra around the z axis, apart from each other, each with one end above the next one:
+/// seen along z, none is the farthest.
 TetrahedralMesh MakeCyclicTetrahedra(int count);
 
 } // namespace tetralux

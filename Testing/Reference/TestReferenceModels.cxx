@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests of the oracle's optical models other than emission and absorption, against closed forms. In
-// a box with a linear field the whole picture has one, whatever the mesh inside: surfaces of constant
-// scalar are planes, and the largest scalar is at one end of the ray's way through the box.
+// Tests of the oracle's optical models other than emission and absorption, against closed
+// forms. In a box with a linear field the whole picture has one, whatever the mesh inside:
+// surfaces of constant scalar are planes, and the largest scalar is at one end of the ray's
+// way through the box.
 #include "ReferenceIntegral.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
@@ -297,8 +298,8 @@ struct Way
   bool IsEmpty() const { return !(this->Begin < this->End); }
 };
 
-/// Compares each pixel of a few views with expected(way, rgba, depth), which is asked only where the
-/// ray meets the box and starts from an empty pixel.
+/// Compares each pixel of a few views with expected(way, rgba, depth), which is asked only where
+/// the ray meets the box and starts from an empty pixel.
 template <class Expected>
 void ExpectPictures(const ReferenceOptics& optics, const Expected& expected)
 {
@@ -568,7 +569,8 @@ TEST(ReferenceModels, SurfacesInFacesOfTheMeshAreMetOnce)
 
 TEST(ReferenceModels, SurfacesOfOverlappingCellsAreMetFrontToBack)
 {
-  // Two nested tetrahedra, z up to 1 and 2: at the axis their surfaces of z = 0.5 |scale| alternate.
+  // Two nested tetrahedra, z up to 1 and 2: at the axis their surfaces of z = 0.5
+  // |scale| alternate.
   const std::vector<double> points{ -1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 1, //
     -2, -2, -0.1, 2, -2, -0.1, 0, 2, -0.1, 0, 0, 1.9 };
   const std::vector<std::int32_t> cells{ 0, 1, 2, 3, 4, 5, 6, 7 };

@@ -27,8 +27,8 @@ public:
   using Arguments = std::array<float, 8>;
   using Result = std::array<float, 4>;
 
-  /// declarations: put before main. expression: a vec4 of the arguments a.x, a.y, a.z, a.w, b.x, b.y,
-  /// b.z, b.w. prepare: called with the program in use, before drawing; finish: after it.
+  /// declarations: put before main. expression: a vec4 of the arguments a.x, a.y, a.z, a.w, b.x,
+  /// b.y, b.z, b.w. prepare: called with the program in use, before drawing; finish: after it.
   std::vector<Result> Evaluate(const std::string& declarations, const std::string& expression,
     const std::vector<Arguments>& cases, const std::function<void(vtkShaderProgram*)>& prepare = {},
     const std::function<void()>& finish = {});

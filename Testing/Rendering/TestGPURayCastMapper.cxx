@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the mapper on the graphics card does by itself: passes, uploads, windows, errors; and its
-// pictures beside those of the mapper on the processor, whose right rays and integrals are tested by
-// themselves.
+// pictures beside those of the mapper on the processor, whose right rays and integrals are
+// tested by themselves.
 #include "Observer.h"
 #include "OpenGLSnapshot.h"
 #include "RayCastScene.h"
@@ -378,8 +378,8 @@ TEST(GPURayCastMapper, RaysThroughPoints)
   }
 }
 
-// Thin and thick cells together, the thin ones a millionth as thick; and attenuation so high that rays
-// end in a few of them.
+// Thin and thick cells together, the thin ones a millionth as thick; and attenuation so high that
+// rays end in a few of them.
 TEST(GPURayCastMapper, BoundaryLayers)
 {
   GPUScene scene;
@@ -540,8 +540,8 @@ TEST(GPURayCastMapper, SeveralWindows)
   EXPECT_TRUE(third.Render().Colors == expected.Colors);
 }
 
-// Beside a second volume, and with translucent geometry that VTK peels in layers: as with the mapper
-// on the processor.
+// Beside a second volume, and with translucent geometry that VTK peels in layers: as with the
+// mapper on the processor.
 TEST(GPURayCastMapper, AmongOtherProps)
 {
   const auto grab = [](bool byProcessor)

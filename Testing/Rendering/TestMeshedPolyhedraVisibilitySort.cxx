@@ -267,8 +267,8 @@ TEST(MeshedPolyhedraVisibilitySort, ReportsWhatCanNotBeSorted)
   EXPECT_EQ(errors.Count, 3);
 }
 
-/// The mean error of a channel of the picture of VTK's mapper: of slanted cells that are much wider than
-/// high, each of one colour and nearly opaque, so that hardly anything but the order counts.
+/// The mean error of a channel of the picture of VTK's mapper: of slanted cells that are much wider
+/// than high, each of one colour and nearly opaque, so that hardly anything but the order counts.
 double MeasureError(vtkVisibilitySort* sort)
 {
   constexpr int size = 128;

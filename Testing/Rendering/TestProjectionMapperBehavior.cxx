@@ -223,8 +223,8 @@ TEST(ProjectionMapper, CorrectionsOff)
   EXPECT_EQ(dithered, scene.Render()); // the same in each frame
 }
 
-// In a view that is nearly parallel there is nothing to correct: what the rasteriser interpolates is
-// then as good as what fragments find, with all that a cell may have with it.
+// In a view that is nearly parallel there is nothing to correct: what the rasteriser interpolates
+// is then as good as what fragments find, with all that a cell may have with it.
 TEST(ProjectionMapper, NarrowViewsNeedNoPerspectiveInterpolation)
 {
   ProjectionMapperScene scene;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole pictures of the projection mapper in best quality against the ray caster in double precision,
-// which is right to 1e-6 (Testing/Accuracy): within 1/255 at every pixel, and 99.9 % within a quarter
-// of that; but where cells hide each other in a cycle, which have no right order.
+// Whole pictures of the projection mapper in best quality against the ray caster in double
+// precision, which is right to 1e-6 (Testing/Accuracy): within 1/255 at every pixel, and 99.9 %
+// within a quarter of that; but where cells hide each other in a cycle, which have no right order.
 #include "RayCastScene.h"
 #include "Statistics.h"
 
@@ -255,8 +255,8 @@ TEST(ProjectionMapperScenes, BoundaryLayerThatIsDenseWhereItIsThin)
 
 TEST(ProjectionMapperScenes, CellsThatHideEachOtherInACycle)
 {
-  // Nearly opaque, each of a color of its own, and behind them, all over the picture, cells that hide
-  // nothing of them.
+  // Nearly opaque, each of a color of its own, and behind them, all over the picture, cells that
+  // hide nothing of them.
   tetralux::TetrahedralMesh mesh = tetralux::MakeCyclicTetrahedra(3);
   std::vector<double> scalars;
   for (const double scalar : { 0.3, 0.65, 1. })

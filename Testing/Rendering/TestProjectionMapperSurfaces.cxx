@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Isosurfaces of the projection mapper are watertight: every ray meets each of many surfaces as often
-// as a ray of the ray caster in double precision does, which goes from cell to cell and carries the
-// scalar on from face to face.
+// Isosurfaces of the projection mapper are watertight: every ray meets each of many surfaces as
+// often as a ray of the ray caster in double precision does, which goes from cell to cell and
+// carries the scalar on from face to face.
 #include "RayCastScene.h"
 
 #include "ReferenceScenes.h"
@@ -20,14 +20,15 @@
 namespace
 {
 
-/// Opacity of each surface: what a ray gathers is nearly this times the number of surfaces it meets.
+/// Opacity of each surface: what a ray gathers is nearly this times the number of
+/// surfaces it meets.
 constexpr double Opacity = 1. / 65536;
 
 /// Surfaces are at multiples of this, between -1 and 1.
 constexpr double Spacing = 1. / 64;
 
-/// Scalars within -1..1 come out of the projection with at most this error: some roundings of 2^-24,
-/// and rays that pass beside the centres of pixels.
+/// Scalars within -1..1 come out of the projection with at most this error: some roundings of
+/// 2^-24, and rays that pass beside the centres of pixels.
 constexpr double ScalarError = 2e-6;
 
 /// The share of the rays that may be open within ScalarError, see IsOpen.
@@ -71,7 +72,8 @@ std::vector<double> MakeWaves(const tetralux::TetrahedralMesh& mesh, unsigned se
   return field;
 }
 
-/// What a ray gathers, in numbers of surfaces: all, and weighted by the red and green of their colours.
+/// What a ray gathers, in numbers of surfaces: all, and weighted by the red and green
+/// of their colours.
 struct Gathered
 {
   double Number, Red, Green;
@@ -100,8 +102,8 @@ bool DifferByOneSurface(const Gathered& a, const Gathered& b, int times, double&
 }
 
 /// Whether what a ray was found to gather differs from the scalars at the ends of its parts only in
-/// what the error of scalars leaves open: a surface on which it begins or ends, or one that it touches
-/// at the face between two parts, where the scalar has its largest or least value.
+/// what the error of scalars leaves open: a surface on which it begins or ends, or one that it
+/// touches at the face between two parts, where the scalar has its largest or least value.
 bool IsOpen(const Gathered& found, const Gathered& exact, const std::vector<double>& scalars)
 {
   double value;
@@ -171,9 +173,9 @@ public:
     this->RayCastScene::SetCamera(position, focalPoint, viewUp, Near);
   }
 
-  /// Compares the mappers. Where they differ, either the projection is right by brute force (the ray
-  /// caster leaves out what a ray meets twice in no distance), or the ray only touches a surface, or
-  /// begins or ends on it, within the error of scalars.
+  /// Compares the mappers. Where they differ, either the projection is right by brute force (the
+  /// ray caster leaves out what a ray meets twice in no distance), or the ray only touches a
+  /// surface, or begins or ends on it, within the error of scalars.
   void ExpectSameCrossings()
   {
     const std::vector<Gathered> expected = this->Render(this->Mapper);
@@ -249,8 +251,8 @@ private:
     return result;
   }
 
-  /// Scalars at both ends of all parts of a ray that are in one cell and one region of the cropping,
-  /// in double precision: each cell is cut with the ray by itself.
+  /// Scalars at both ends of all parts of a ray that are in one cell and one region of the
+  /// cropping, in double precision: each cell is cut with the ray by itself.
   std::vector<double> FindScalars(int i, int j) const
   {
     const Ray ray = this->MakeRay(i, j);

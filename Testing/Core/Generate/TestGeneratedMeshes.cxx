@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Generate/GeneratedMeshes.h"
 
+#include "Geometry/TetrahedronFaces.h"
 #include "Mesh/CellVolumes.h"
 #include "Mesh/FaceNeighbors.h"
 
@@ -42,9 +43,8 @@ double GetDeterminant(const Point& a, const Point& b, const Point& c)
 /// Face of a positively oriented tetrahedron, counterclockwise from outside.
 std::array<std::int32_t, 3> GetFace(const TetrahedralMesh& mesh, std::int64_t face)
 {
-  constexpr int points[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
   const std::int32_t* cell = &mesh.Cells[face / 4 * 4];
-  const int(&local)[3] = points[face % 4];
+  const int(&local)[3] = tetralux::OutwardFaces[face % 4];
   return { cell[local[0]], cell[local[1]], cell[local[2]] };
 }
 

@@ -216,7 +216,8 @@ TEST(FaceNeighbors, ShuffledGrid)
 
 TEST(FaceNeighbors, ManyCellsAroundOnePoint)
 {
-  // All faces in one bucket: a fan of tetrahedra around the edge 0 1, and a random crowd at point 0.
+  // All faces in one bucket: a fan of tetrahedra around the edge 0 1, and a random
+  // crowd at point 0.
   constexpr std::int32_t n = 5000;
   std::vector<std::int32_t> cells;
   for (std::int32_t i = 0; i < n; ++i)

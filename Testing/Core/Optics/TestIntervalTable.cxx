@@ -22,8 +22,8 @@ using tetralux::MakeIntervalTable;
 using tetralux::MakeLinearFunction;
 using tetralux::TransferFunction;
 
-/// Values, relative to the largest one, are rounded to single precision three times: at the node, in
-/// the slope, and where the scalar is mapped.
+/// Values, relative to the largest one, are rounded to single precision three times: at the node,
+/// in the slope, and where the scalar is mapped.
 constexpr double ValueError = 4. / (1 << 23);
 
 TransferFunction MakeStepFunction()

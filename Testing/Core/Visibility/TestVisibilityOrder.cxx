@@ -202,9 +202,9 @@ TEST(VisibilityOrder, IsExactAtAnOffset)
   }
 }
 
-/// Two layers of hexahedra of five tetrahedra each, whose diagonals do not agree where they meet: there,
-/// flat tetrahedra join them. Every third of the points between the layers is moved up and down by
-/// motion, so that some of those are thin and some inverted.
+/// Two layers of hexahedra of five tetrahedra each, whose diagonals do not agree where they meet:
+/// there, flat tetrahedra join them. Every third of the points between the layers is moved up and
+/// down by motion, so that some of those are thin and some inverted.
 TetrahedralMesh MakeLayersOnFlatCells(int size, double motion)
 {
   TetrahedralMesh mesh;

@@ -136,8 +136,8 @@ TEST(CellOrientation, PartsByThemselves)
   }
 }
 
-// A ring of cells, each joined to the next by a face, the last one to the first one so that it comes
-// back mirrored.
+// A ring of cells, each joined to the next by a face, the last one to the first one so that it
+// comes back mirrored.
 TEST(CellOrientation, MirroredRingHasNone)
 {
   // Consecutive points make a cell; the last three are the first three in another order.

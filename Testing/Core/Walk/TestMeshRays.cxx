@@ -307,8 +307,8 @@ TEST(TableEstimates, AreAsLargeAsTheErrorsOfPictures)
         EXPECT_LE(estimate, 1);
       }
     });
-  // Nearly all are as large as the errors. Next to steps the largest error is that of one segment, which
-  // a few small pictures may miss: some are more than ten times as large.
+  // Nearly all are as large as the errors. Next to steps the largest error is that of one segment,
+  // which a few small pictures may miss: some are more than ten times as large.
   std::sort(ratios.begin(), ratios.end());
   const auto at = [&](double share)
   { return ratios[static_cast<std::size_t>(share * static_cast<double>(ratios.size()))]; };

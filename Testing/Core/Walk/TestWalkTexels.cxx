@@ -30,8 +30,8 @@ WalkTexels MakeTexels(const WalkMesh& mesh)
     tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces));
 }
 
-// Each boundary face once, with the face's own index, and seen from outside: a ray that comes in has
-// the cell behind the face.
+// Each boundary face once, with the face's own index, and seen from outside: a ray that comes in
+// has the cell behind the face.
 TEST(WalkTexels, Entries)
 {
   const WalkMesh mesh = MakeRing();
@@ -73,8 +73,8 @@ TEST(WalkTexels, Entries)
   }
 }
 
-// By the links from the root every node is found once, and every entry in its leaf; each box contains
-// the points of the leaves below.
+// By the links from the root every node is found once, and every entry in its leaf; each box
+// contains the points of the leaves below.
 TEST(WalkTexels, Links)
 {
   const WalkMesh mesh = MakeRing();

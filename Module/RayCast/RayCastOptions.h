@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RayCastOptions_h
+#define tetralux_RayCastOptions_h
+
+#include "Optics/OpticalModel.h"
+
+#include <functional>
+#include <vector>
+
+namespace tetralux
+{
+
+/// Arithmetic of the geometry along a ray. Integrals are always evaluated in single precision,
+/// whose error there is SegmentWeightError.
+enum class Precision
+{
+  Automatic, ///< single where EstimateGeometryError stays within the error that is asked for
+  Single,    ///< single; double all the same where the mesh's world radius is beyond its range
+  Double
+};
+
+/// How rays that left the mesh find where they enter it again.
+enum class Reentry
+{
+  Automatic, ///< whichever is faster, see CastRays
+  Boundary,  ///< by a hierarchy over the boundary's faces
+  Imaginary  ///< through imaginary cells between the mesh and its hull (Weiler et al. 2003, section
+             ///< 3.4); by the boundary where the mesh can't be made convex
+};
+
+struct RayCastOptions
+{
+  /// Largest error of a colour channel or of the opacity that is aimed at, 0..1. Rays end early
+  /// where what is behind could not change a channel by half of it.
+  double MaximumError = 1e-4;
+
+  Precision Arithmetic = Precision::Automatic;
+
+  /// Whether lights shine on OpticalModel::Isosurfaces, and on what emits and absorbs, where scalars
+  /// are at points: FindLight in SurfaceShading.h. A segment is lit as its middle is; the light of
+  /// surfaces is clamped to 0..1, that of volumes is not. Other models, and scalars at cells, shine by
+  /// themselves.
+  bool Shaded = false;
+  bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
+  std::vector<Light> Lights;
+  Material Surface;
+
+  Reentry ReentryBy = Reentry::Automatic;
+
+  int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
+
+  /// Use the kernels that run on any processor even where there are faster ones; the pictures
+  /// differ by rounding. For tests of those kernels.
+  bool PortableKernels = false;
+
+  /// Called every few milliseconds, by the calling thread only, with the share that is done, 0..1;
+  /// returns false to abort. The last call is with 1, when nothing is left to abort. May be empty.
+  std::function<bool(double)> Progress;
+};
+
+} // namespace tetralux
+
+#endif
