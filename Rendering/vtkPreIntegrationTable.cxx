@@ -154,8 +154,6 @@ vtkPreIntegrationTable::Plan vtkPreIntegrationTable::MakePlan()
   settings.Axis =
     this->ScalarAxis == 2 ? tetralux::ScalarAxis::Nodes : tetralux::ScalarAxis::Uniform;
   settings.Format = static_cast<tetralux::TexelFormat>(this->Format - 1);
-  settings.Method = this->Incremental ? tetralux::PreIntegrationMethod::Incremental
-                                      : tetralux::PreIntegrationMethod::ClosedForm;
   std::copy_n(this->ScalarRange, 2, settings.ScalarRange);
   if (this->ScalarRange[0] > this->ScalarRange[1])
   {
@@ -329,5 +327,4 @@ void vtkPreIntegrationTable::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "StepsPerDoubling: " << this->StepsPerDoubling << '\n';
   os << indent << "ScalarAxis: " << this->ScalarAxis << '\n';
   os << indent << "Format: " << this->Format << '\n';
-  os << indent << "Incremental: " << this->Incremental << '\n';
 }

@@ -144,16 +144,6 @@ public:
   vtkGetMacro(Format, int);
   ///@}
 
-  ///@{
-  /**
-   * Longer segments from shorter ones (Weiler's section 4) instead of the closed form for each:
-   * slower and less accurate, to be compared. Off by default.
-   */
-  vtkSetMacro(Incremental, bool);
-  vtkGetMacro(Incremental, bool);
-  vtkBooleanMacro(Incremental, bool);
-  ///@}
-
   /**
    * Also that of the property and its functions.
    */
@@ -185,7 +175,6 @@ private:
   int StepsPerDoubling = 1;
   int ScalarAxis = 1;
   int Format = 4;
-  bool Incremental = false;
 };
 
 #endif

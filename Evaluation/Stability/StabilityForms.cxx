@@ -255,9 +255,6 @@ std::vector<std::pair<std::string, PreIntegrationSettings>> MakeTableSettings()
   settings.Axis = ScalarAxis::Uniform;
   all.emplace_back("float, linear, uniform", settings);
   settings.Axis = ScalarAxis::Nodes;
-  settings.Method = PreIntegrationMethod::Incremental;
-  all.emplace_back("float, linear, incremental", settings);
-  settings.Method = PreIntegrationMethod::ClosedForm;
   settings.Scale = LengthScale::Logarithmic;
   all.emplace_back("float, logarithmic", settings);
   settings.Format = TexelFormat::Half;

@@ -53,7 +53,7 @@ struct StabilityForm
 ///   length. With a function that is smooth on that scale it is next to nothing.
 /// * "table, ...": a lookup in a pre-integration table (PreIntegrationTable.h) of the segment's scalars
 ///   and those of all nodes, of StabilityTableSize texels along each axis, in each format, over both
-///   scales of the length, with both axes of scalars, and by increments. To its own
+///   scales of the length, and with both axes of scalars. To its own
 ///   PreIntegrationTable::Bound of a segment, plus the same rounding of scalars. Such tables are
 ///   coarse, and bounds of 1 are common: what counts are results that are never right. Functions and
 ///   ranges that a table cannot hold are refused with an error and are not counted.

@@ -12,8 +12,8 @@ namespace tetralux
 /// Fills a table, in all threads of OpenMP; the same to the last bit for any number of them. Memory
 /// of the table is used again where its size stays the same.
 ///
-/// With PreIntegrationMethod::ClosedForm the time goes with the texels (at the speed of memory), and
-/// with their number along a scalar squared times the nodes between two scalars.
+/// The time goes with the texels (at the speed of memory), and with their number along a scalar
+/// squared times the nodes between two scalars.
 ///
 /// Throws std::invalid_argument, with one line that says what is wrong: a transfer function that
 /// MakeIntervalTable does not take, settings out of their ranges, colours outside of 0..1 for a
@@ -30,11 +30,6 @@ TETRALUXCORE_EXPORT void BuildPreIntegrationTable(const TransferFunction& functi
 /// is unchanged then.
 TETRALUXCORE_EXPORT std::int64_t UpdatePreIntegrationTable(
   const TransferFunction& before, const TransferFunction& after, PreIntegrationTable& table);
-
-/// Settings of a table for the time of an interaction: of the same range, lengths, scale and format,
-/// in at most so many bytes; at most the size asked for, and at least 16 x 16 texels of 8 lengths.
-TETRALUXCORE_EXPORT PreIntegrationSettings GetCoarseSettings(
-  const PreIntegrationSettings& settings, std::size_t bytes);
 
 /// The axes of a table; throw as BuildPreIntegrationTable does.
 TETRALUXCORE_EXPORT ScalarAxisMap MakeScalarAxis(

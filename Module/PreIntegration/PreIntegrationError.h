@@ -38,8 +38,6 @@ namespace tetralux
 /// Lengths: opacity and colour bend along the length l by at most min(M^2, 1.083 / l^2), M the
 /// largest attenuation, and a step of h is wrong by h^2 / 8 times that.
 ///
-/// Incremental tables: the bounds of all splits added up, 1 at most.
-///
 /// Cost: of the order of the texels along a scalar squared, times the nodes between them.
 TETRALUXCORE_EXPORT PreIntegrationError BoundPreIntegrationError(
   const TransferFunction& function, const PreIntegrationTable& table);

@@ -35,13 +35,6 @@ struct PreIntegrationKernels
   void (*CombineRows)(const float* values, int stride, int numberOfValues, const float* weights,
     int numberOfRows, bool keepNegative, float* result, long long resultStride, int size);
 
-  /// Puts two parts of segments together (Weiler et al. 2003, equations 5 and 6), for one scalar at
-  /// the back and the scalars [begin, end) at the front: the front part ends and the back part
-  /// begins at texel coordinate index + share of each. front: slice of the front parts' length, n x
-  /// n texels; back: row of the back scalar in the slice of the back parts' length.
-  void (*JoinSegments)(const float* front, const float* back, int n, const int* indices,
-    const float* shares, int begin, int end, float* result);
-
   /// Channels as the texels of a format hold them.
   void (*EncodeChannels)(
     TexelFormat format, const float* values, std::size_t count, std::uint8_t* texels);

@@ -157,31 +157,6 @@ void CombineRows(const float* values, int stride, int numberOfValues, const floa
   }
 }
 
-void JoinSegments(const float* front, const float* back, int n, const int* indices,
-  const float* shares, int begin, int end, float* result)
-{
-  for (int f = begin; f < end; ++f)
-  {
-    const float t = shares[f];
-    const float* f0 = front + 4 * (static_cast<long long>(indices[f]) * n + f);
-    const float* f1 = f0 + 4 * static_cast<long long>(n);
-    const float* b0 = back + 4 * static_cast<long long>(indices[f]);
-    float* sum = result + 4 * static_cast<long long>(f);
-    float first[4];
-    for (int c = 0; c < 4; ++c)
-    {
-      first[c] = f0[c] + t * (f1[c] - f0[c]);
-    }
-    const float behind = 1.f - first[3];
-    for (int c = 0; c < 4; ++c)
-    {
-      const float second = b0[c] + t * (b0[4 + c] - b0[c]);
-      sum[c] = first[c] + behind * second;
-    }
-    sum[3] = sum[3] < 1.f ? sum[3] : 1.f;
-  }
-}
-
 template <class Channel>
 void Encode(const float* values, std::size_t count, std::uint8_t* texels)
 {
@@ -210,7 +185,7 @@ void EncodeChannels(
 
 PreIntegrationKernels MakePreIntegrationKernels()
 {
-  return { IntegrateLengths, CombineRows, JoinSegments, EncodeChannels };
+  return { IntegrateLengths, CombineRows, EncodeChannels };
 }
 
 } // namespace

@@ -65,6 +65,11 @@ struct TableChoice
 TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(
   const TransferFunction& function, const TableGoal& goal);
 
+/// Settings of a table for the time of an interaction: of the same range, lengths, scale and format,
+/// in at most so many bytes; at most the size asked for, and at least 16 x 16 texels of 8 lengths.
+TETRALUXCORE_EXPORT PreIntegrationSettings GetCoarseSettings(
+  const PreIntegrationSettings& settings, std::size_t bytes);
+
 } // namespace tetralux
 
 #endif
