@@ -74,9 +74,9 @@ StabilityResult IntegrateSingle(const SegmentLanes& lanes, const StabilityCase& 
   return result;
 }
 
-/// Largest error by taking scalars on the segment for others within a distance, in the integral over
-/// its length: a change of tau by d changes the radiance by at most d through the emission and d
-/// through the absorption, one of the colour by d changes it by at most tau d.
+/// Largest error by taking scalars on the segment for others within a distance, in the integral
+/// over its length: a change of tau by d changes the radiance by at most d through the emission and
+/// d through the absorption, one of the colour by d changes it by at most tau d.
 double GetBlur(const StabilityCase& segment, double distance)
 {
   const auto& nodes = segment.Function.Nodes;

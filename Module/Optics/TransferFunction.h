@@ -9,8 +9,8 @@
 namespace tetralux
 {
 
-/// Colour c(s) and attenuation tau(s) over the scalar s (Weiler et al. 2003, section 3.3), piecewise
-/// linear, with a step allowed at every node.
+/// Colour c(s) and attenuation tau(s) over the scalar s (Weiler et al. 2003, section 3.3),
+/// piecewise linear, with a step allowed at every node.
 ///
 /// Between nodes k and k + 1 the function is linear from Nodes[k].Right to Nodes[k + 1].Left. Below
 /// the first node it is Nodes.front().Left, above the last one Nodes.back().Right.

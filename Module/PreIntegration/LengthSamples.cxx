@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreIntegration/LengthSamples.h"
 
+#include "Base/Check.h"
 #include "Integral/SegmentIntegral.h"
 #include "Simd/LaneCount.h"
 
@@ -24,6 +25,7 @@ LengthSamples::LengthSamples(const LengthAxisMap& axis, double largestDepth)
       const double end = std::ldexp(1, p - halvings);
       row = this->AddPanel(axis, longest, begin, end, row, p == halvings);
     }
+    TETRALUX_CHECK(row == axis.Size);
   }
   else
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreIntegration/PreIntegrationBuilder.h"
 
+#include "Base/Check.h"
 #include "PreIntegration/LengthSamples.h"
 #include "PreIntegration/PreIntegrationError.h"
 #include "PreIntegration/PreIntegrationKernel.h"
@@ -30,13 +31,13 @@ PreIntegrationKernels GetKernels()
   return GetPreIntegrationKernelsGeneric();
 }
 
-/// The texels of a row, of one scalar at the back, that are to be computed: all but [First, Second).
+/// The texels of a row, of one scalar at the back, that Filler computes: all but [First, Second).
 struct RowParts
 {
   int First, Second;
 };
 
-/// Fills the texels of a table whose axes and memory are there.
+/// Fills the texels of a table that has its axes and memory.
 class Filler
 {
 public:
@@ -81,6 +82,8 @@ public:
 private:
   std::uint8_t* GetTexels(int length, int back, int front)
   {
+    TETRALUX_CHECK(0 <= length && length < this->Table.Lengths.Size);
+    TETRALUX_CHECK(0 <= back && back < this->Size && 0 <= front && front < this->Size);
     const std::size_t n = this->Size;
     return this->Table.Texels.GetData() +
       ((static_cast<std::size_t>(length) * n + back) * n + front) * this->TexelSize;

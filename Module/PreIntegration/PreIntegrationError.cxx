@@ -29,8 +29,8 @@ Channels GetChannels(const TransferFunction::Value& value)
     value.Attenuation * value.Color[2], value.Attenuation };
 }
 
-/// A transfer function between the ends of the scalar axis: intervals on which it is linear, and the
-/// variation of each channel from the first scalar on, and its integral.
+/// A transfer function between the ends of the scalar axis: intervals on which it is linear, and
+/// the variation of each channel from the first scalar on, and its integral.
 struct Variation
 {
   std::vector<double> Scalars;  ///< ends of intervals
@@ -125,7 +125,8 @@ struct Variation
     }
   }
 
-  /// Of the interval that holds a scalar; one on an end belongs to the interval on its left or right.
+  /// Of the interval that holds a scalar; one on an end belongs to the interval on its left or
+  /// right.
   std::size_t Find(double s, bool onLeft) const
   {
     const auto begin = this->Scalars.begin() + 1;

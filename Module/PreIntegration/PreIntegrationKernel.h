@@ -22,8 +22,8 @@ struct SegmentPiece
 
 struct PreIntegrationKernels
 {
-  /// One segment at several lengths, in closed form. The pieces, front to back, are those of the
-  /// longest segment; lengths are fractions of it. count: a multiple of LaneCount. values: channel c of
+  /// Integrates one segment at several lengths in closed form. pieces: of the longest segment,
+  /// front to back. lengths: fractions of the longest. count: a multiple of LaneCount. Channel c of
   /// length k goes to values[k stride + c].
   void (*IntegrateLengths)(const SegmentPiece* pieces, int numberOfPieces, const float* lengths,
     int count, float* values, int stride);

@@ -57,8 +57,8 @@ TETRALUXCORE_EXPORT std::size_t GetTexelSize(TexelFormat format);
 /// What a table is to be.
 struct PreIntegrationSettings
 {
-  /// Texels along each of the two scalars, 2..4096. With ScalarAxis::Nodes the largest number: there
-  /// are fewer where single precision can't tell more apart.
+  /// Texels along each of the two scalars, 2..4096. With ScalarAxis::Nodes at most as many: there
+  /// are fewer if single precision cannot tell more apart.
   int ScalarSize = 128;
 
   /// Texels along the length, 2..4096.
@@ -166,9 +166,9 @@ private:
   std::size_t Size = 0;
 };
 
-/// A table: texels and how they are found. Each texel is computed by the closed form of the integral
-/// (SegmentIntegral.h), exact to PreIntegrationError::Rounding; a table of many lengths interpolates
-/// between the closed form at a few dozen of them (LengthSamples.h).
+/// A table: texels and how they are found. Each texel comes from the closed form of the integral
+/// (SegmentIntegral.h), exact to PreIntegrationError::Rounding. In a table of many lengths texels
+/// are interpolated between the closed form at a few dozen of them (LengthSamples.h).
 ///
 /// Texel (f, b, r) is at ((r n + b) n + f) texel sizes from the start, n = Scalars.GetSize(): front
 /// scalar fastest, length slowest. Its four channels are premultiplied red, green, blue and the

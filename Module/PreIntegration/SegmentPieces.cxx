@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreIntegration/SegmentPieces.h"
 
+#include "Base/Check.h"
 #include "Integral/SegmentIntegral.h"
 
 #include <algorithm>
@@ -72,6 +73,7 @@ void SegmentPieces::Find(int front, int back, std::vector<SegmentPiece>& pieces)
     }
     s = next;
     k = nextInterval;
+    TETRALUX_CHECK(k <= this->Nodes.size());
   }
 }
 

@@ -11,8 +11,8 @@
 namespace tetralux
 {
 
-/// The parts of a table's segments on which the transfer function is linear. Keeps references to the
-/// function and to the texels of the axis.
+/// The parts of a table's segments on which the transfer function is linear. Keeps references to
+/// the function and to the texels of the axis.
 class SegmentPieces
 {
 public:

@@ -37,16 +37,16 @@ enum class Reentry
 
 struct RayCastOptions
 {
-  /// Largest error of a colour channel or of the opacity that is aimed at, 0..1. Rays end early
-  /// where what is behind could not change a channel by half of it.
+  /// Largest error of a colour channel or of the opacity to aim at, 0..1. A ray ends early if what
+  /// is behind cannot change a channel by half of it.
   double MaximumError = 1e-4;
 
   Precision Arithmetic = Precision::Automatic;
 
-  /// Whether lights shine on OpticalModel::Isosurfaces, and on what emits and absorbs, where scalars
-  /// are at points: FindLight in SurfaceShading.h. A segment is lit as its middle is; the light of
-  /// surfaces is clamped to 0..1, that of volumes is not. Other models, and scalars at cells, shine by
-  /// themselves.
+  /// Whether lights shine (FindLight in SurfaceShading.h) on OpticalModel::Isosurfaces, and on
+  /// EmissionAbsorption if scalars are at points. A segment is lit as its middle is. The light of
+  /// surfaces is clamped to 0..1, that of volumes is not. Lights do not change other models, nor
+  /// volumes whose scalars are at cells.
   bool Shaded = false;
   bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
   std::vector<Light> Lights;
@@ -60,8 +60,8 @@ struct RayCastOptions
   /// differ by rounding. For tests of those kernels.
   bool PortableKernels = false;
 
-  /// Called every few milliseconds, by the calling thread only, with the share that is done, 0..1;
-  /// returns false to abort. The last call is with 1, when nothing is left to abort. May be empty.
+  /// Called every few milliseconds, by the calling thread only, with the share that is done, 0..1.
+  /// Returns false to abort. The last call is with 1, when nothing is left to abort. May be empty.
   std::function<bool(double)> Progress;
 };
 
@@ -70,8 +70,8 @@ struct RayCastStatistics
   bool Aborted = false;
   bool DoublePrecision = false;
   std::string InstructionSet;
-  /// How rays were integrated: "closed form", "table", "optical depth", "emission", "largest scalar"
-  /// or "isosurfaces".
+  /// How rays were integrated: "closed form", "table", "optical depth", "emission", "largest
+  /// scalar" or "isosurfaces".
   std::string Integration;
   int NumberOfThreads = 0;
   std::int64_t Rays = 0;
@@ -92,11 +92,13 @@ struct RayCastStatistics
 /// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of rays,
 /// tiles of the image over OpenMP threads. The picture does not depend on the number of threads.
 ///
-/// Casts all rays of the grid. Throws std::invalid_argument where the scene is not complete
-/// (VolumeScene::CheckComplete). A pre-integration table is read in single precision, whatever it is
-/// stored in. colors: four floats a pixel, premultiplied red, green, blue and opacity; depths: one
-/// float a pixel, the distance along the ray to the first contribution in world units, -1 where there
-/// is none; both lower row first. After an abort they are incomplete.
+/// Casts all rays of the grid. Throws std::invalid_argument if the scene is not complete
+/// (VolumeScene::CheckComplete). Reads a pre-integration table in single precision, whatever its
+/// format.
+///
+/// colors: four floats a pixel, premultiplied red, green, blue and opacity. depths: one float a
+/// pixel, the distance along the ray to the first contribution, world units, or -1. Both have the
+/// lowest row first, and are incomplete after an abort.
 TETRALUXCORE_EXPORT RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid,
   const RayLimits& limits, const RayCastOptions& options, Span<float> colors, Span<float> depths);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Visibility/VisibilityOrder.h"
 
+#include "Base/Check.h"
 #include "Base/CountingSort.h"
 #include "Base/RadixSort.h"
 #include "Visibility/VisibilityArrows.h"
@@ -98,6 +99,7 @@ public:
   {
     if (cell < this->NumberOfCells && (this->Drawn == nullptr || this->Drawn[cell] != 0))
     {
+      TETRALUX_CHECK(0 <= this->Next && this->Next < this->NumberOfCells);
       this->Order[this->Next] = cell;
       this->Next += this->Step;
     }
@@ -257,6 +259,7 @@ bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, CellWr
         if ((state >> face & 1) != 0)
         {
           const std::int32_t behind = facesOfCell[face].Cell;
+          TETRALUX_CHECK(0 <= behind && behind < numberOfCells);
           const unsigned stateBehind = states[behind];
           if ((stateBehind & VisitedCell) == 0)
           {
@@ -276,6 +279,7 @@ bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, CellWr
         states[cell] = static_cast<std::uint8_t>(state | PlacedCell);
         write(cell);
       }
+      TETRALUX_CHECK(depth <= numberOfCells);
     }
   }
   return !cycle;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Walk/WalkTables.h"
 
+#include "Base/Check.h"
+
 #include <algorithm>
 
 namespace tetralux
@@ -74,6 +76,8 @@ WalkTables MakeWalkTables(std::vector<WalkFace> faces, Span<const std::int32_t> 
         continue;
       }
       const std::int32_t* corners = &cells[4 * cell];
+      TETRALUX_CHECK(0 <= corners[0] && corners[0] < corners[1] && corners[1] < corners[2] &&
+        corners[2] < corners[3] && corners[3] < static_cast<std::int64_t>(points.size()));
       for (int face = 0; face < 4; ++face)
       {
         if (!isBoundary(cell, face))
@@ -90,6 +94,7 @@ WalkTables MakeWalkTables(std::vector<WalkFace> faces, Span<const std::int32_t> 
         ++entryId;
       }
     }
+    TETRALUX_CHECK(entryId == first[chunk + 1]);
   }
   const Span<const float> coordinates(
     reinterpret_cast<const float*>(points.data()), 4 * points.size());

@@ -19,7 +19,8 @@ struct Split
   float Share;
 };
 
-/// The splits of segments to one scalar at the back, a share of the way from each scalar at the front.
+/// The splits of segments to one scalar at the back, a share of the way from each scalar at the
+/// front.
 void FindSplits(const std::vector<double>& texels, int back, double share, Split* splits)
 {
   // Splits ascend with the front's scalar.

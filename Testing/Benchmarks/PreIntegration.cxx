@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Pre-integration tables: how long they take beside vtkUnstructuredGridPreIntegration, beside
-// computing each entry by itself and beside writing the memory; how wrong they are for each byte, by
-// axis, scale and format; and what a lookup costs beside the closed form.
+// computing each entry by itself and beside writing the memory; how wrong they are for each byte,
+// by axis, scale and format; and what a lookup costs beside the closed form.
 
 #include "IncrementalTable.h"
 #include "Integral/RayIntegral.h"
@@ -202,8 +202,8 @@ private:
   vtkNew<vtkUnstructuredGridPreIntegration> Table;
 };
 
-/// Each entry by itself, sampled at the step of the lengths, the distance at which increments add up:
-/// samples of colour and opacity of one step from a table of 1024, in the middle of the steps.
+/// Each entry by itself, sampled at the step of the lengths, the distance at which increments add
+/// up: samples of colour and opacity of one step from a table of 1024, in the middle of the steps.
 void SampleEntries(const TransferFunction& function, std::vector<float>& table)
 {
   constexpr int Samples = 1024;
