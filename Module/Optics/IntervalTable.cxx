@@ -45,9 +45,9 @@ void Check(const TransferFunction& function)
   }
 }
 
-/// Slope of what is a at a distance of 0 and b at a distance of reach. Rounded towards zero as far as
-/// it takes for a + slope x to stay between a and b in single precision, whether product and sum are
-/// rounded once or twice: no colour comes out negative, and no attenuation.
+/// Slope of what is a at a distance of 0 and b at a distance of reach. Rounded towards zero as far
+/// as it takes for a + slope x to stay between a and b in single precision, whether product and sum
+/// are rounded once or twice: no colour comes out negative, and no attenuation.
 float GetSlope(float a, float b, float reach)
 {
   if (reach == 0)
@@ -74,8 +74,8 @@ float GetSlope(float a, float b, float reach)
 IntervalTable::Interval MakeInterval(
   float lo, float hi, const TransferFunction::Value& left, const TransferFunction::Value& right)
 {
-  // Seen from the end with less attenuation, nothing is ever subtracted from an attenuation: next to
-  // a scalar where it vanishes, it keeps its relative accuracy.
+  // Seen from the end with less attenuation, nothing is ever subtracted from an attenuation: next
+  // to a scalar where it vanishes, it keeps its relative accuracy.
   const bool fromLeft = left.Attenuation <= right.Attenuation;
   const TransferFunction::Value& near = fromLeft ? left : right;
   const TransferFunction::Value& far = fromLeft ? right : left;

@@ -28,7 +28,7 @@ struct TableGoal
   double LongestSegment = 1; ///< world units
 
   /// Time of a lookup in units of that of the closed form on one piece. Segments with more pieces
-  /// are faster by table. A processor takes about as long for a lookup of eight rays as for
+  /// are faster by table. A processor takes about as long for a lookup of a packet of rays as for
   /// LookupCost pieces, see Documentation/Benchmarks.md; a GPU's texture units make it a fraction.
   double LookupCost = 3;
 

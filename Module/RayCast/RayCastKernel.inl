@@ -193,24 +193,25 @@ private:
 
   // For checks.
 
-  /// Lanes that go on, at rest too, are in cells of the mesh, before points of it. A negative cell
-  /// tells the entry where the mesh ends.
+  /// All lanes, those at rest too, are in cells of the mesh and before points of it, or at its end.
+  /// Where a ray leaves the mesh, a negative cell tells the entry.
   bool IsOnItsWay() const
   {
-    const Mask8 all = MaskFromBits(AllLanes);
     const Mask8 ended = Int8(0) > this->Cell;
-    return AreBelow(AndNot(all, ended), this->Cell, this->In.NumberOfWalkCells) &&
-      AreBelow(ended, Int8(-1) - this->Cell, this->In.NumberOfEntries) &&
-      AreBelow(AndNot(all, ended), this->Point, this->In.NumberOfPoints);
+    const Mask8 inside = AndNot(MaskFromBits(AllLanes), ended);
+    return AreBelow(inside, this->Cell, this->In.NumberOfWalkCells) &&
+      AreBelow(inside, this->Point, this->In.NumberOfPoints) &&
+      AreBelow(
+        ended & MaskFromBits(this->Running), Int8(-1) - this->Cell, this->In.NumberOfEntries);
   }
 
-  /// No ray is in a triangle without area. Points that fall together in the projection make signs
-  /// that no triangle is passed by (TieIsPositive).
+  /// No ray is in a triangle without area: points that coincide in the projection have signs with
+  /// which no ray passes their triangle (TieIsPositive). The weights are not numbers if the frame of
+  /// the ray is beyond the range of Real.
   bool HasWeights() const
   {
-    const V zero = Real(0);
     const V sum = this->WA + this->WB + this->WC;
-    return !Any(AndNot(MaskFromBits(this->Running), zero < sum));
+    return !Any(MaskFromBits(this->Running) & (sum <= V(Real(0))));
   }
 
   static TETRALUX_INLINE void Replace(Corner<Real>& corner, Mask8 m, const Corner<Real>& p)

@@ -124,8 +124,9 @@ public:
   template <class Select>
   void SortByDistance(const VisibilityView& view, const Select& select);
 
-  /// Hands the cells to write(cell), each behind all that it hides: roots first, then from the others
-  /// those that are left. False, and some cells in no particular order, where there is a cycle.
+  /// Hands the cells to write(cell), each behind all that it hides: roots first, then from the
+  /// others those that are left. False, and some cells in no particular order, where there is a
+  /// cycle.
   bool SortByFaces(Span<const KeyedItem> roots, CellWriter write);
 
   const WalkMesh& Mesh;
@@ -229,8 +230,8 @@ void VisibilityOrder::Internals::SortByDistance(const VisibilityView& view, cons
 //----------------------------------------------------------------------------
 bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, CellWriter write)
 {
-  // Depth first: a cell is placed once everything that it hides is. The bits of faces are cleared as
-  // they are followed, so that a path needs no more than its cells.
+  // Depth first: a cell is placed once everything that it hides is. The bits of faces are cleared
+  // as they are followed, so that a path needs no more than its cells.
   const std::int64_t numberOfCells = this->Geometry.GetNumberOfCells();
   const std::int64_t numberOfRoots = static_cast<std::int64_t>(roots.size());
   std::uint8_t* const states = this->States.data();

@@ -9,9 +9,9 @@ namespace tetralux
 {
 
 /// Fills a table by increments, to be compared with BuildPreIntegrationTable: the shortest segments
-/// by the closed form, longer ones each from one that is a step shorter and one of a step (Weiler et
-/// al. 2003, equations 5 and 6), by the table's own interpolation at the split. Errors add up from
-/// one length to the next.
+/// by the closed form, longer ones each from one that is a step shorter and one of a step (Weiler
+/// et al. 2003, equations 5 and 6), by the table's own interpolation at the split. Errors add up
+/// from one length to the next.
 ///
 /// For LengthScale::Linear, ScalarAxis::Uniform and TexelFormat::Float. In all threads of OpenMP.
 /// Leaves Bound as it is.
