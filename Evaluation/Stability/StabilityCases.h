@@ -11,8 +11,8 @@
 namespace tetralux
 {
 
-/// A segment of a ray whose integral is hard to get right, with the scalar running linearly from one
-/// end to the other.
+/// A segment of a ray whose integral is hard to get right, with the scalar running linearly from
+/// one end to the other.
 struct StabilityCase
 {
   TransferFunction Function; ///< colours in 0..1

@@ -74,9 +74,9 @@ StabilityResult IntegrateSingle(const SegmentLanes& lanes, const StabilityCase& 
   return result;
 }
 
-/// Largest error by taking scalars on the segment for others within a distance, in the integral over
-/// its length: a change of tau by d changes the radiance by at most d through the emission and d
-/// through the absorption, one of the colour by d changes it by at most tau d.
+/// Largest error by taking scalars on the segment for others within a distance, in the integral
+/// over its length: a change of tau by d changes the radiance by at most d through the emission and
+/// d through the absorption, one of the colour by d changes it by at most tau d.
 double GetBlur(const StabilityCase& segment, double distance)
 {
   const auto& nodes = segment.Function.Nodes;
@@ -255,9 +255,6 @@ std::vector<std::pair<std::string, PreIntegrationSettings>> MakeTableSettings()
   settings.Axis = ScalarAxis::Uniform;
   all.emplace_back("float, linear, uniform", settings);
   settings.Axis = ScalarAxis::Nodes;
-  settings.Method = PreIntegrationMethod::Incremental;
-  all.emplace_back("float, linear, incremental", settings);
-  settings.Method = PreIntegrationMethod::ClosedForm;
   settings.Scale = LengthScale::Logarithmic;
   all.emplace_back("float, logarithmic", settings);
   settings.Format = TexelFormat::Half;

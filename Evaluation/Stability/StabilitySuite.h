@@ -45,8 +45,8 @@ struct StabilityRow
   }
 };
 
-/// Opacities below this lose digits of their own: numbers of double precision do below 1e-308, those
-/// of single precision below 1e-38.
+/// Opacities below this lose digits of their own: numbers of double precision do below 1e-308,
+/// those of single precision below 1e-38.
 constexpr double SmallestOpacity = 1e-30;
 
 /// A row for each form and group, in the order of both.

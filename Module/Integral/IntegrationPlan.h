@@ -3,8 +3,8 @@
 #define tetralux_IntegrationPlan_h
 
 // Which table an optical model needs for the transfer function at hand (Weiler et al. 2003, section
-// 4), and the small tables: the length of a segment affects what it adds linearly or not at all, but
-// in one model.
+// 4), and the small tables: the length of a segment affects what it adds linearly or not at all,
+// but in one model.
 
 #include "Base/Span.h"
 #include "Optics/OpticalModel.h"
@@ -47,21 +47,23 @@ struct IntegrationPlan
 
 /// The plan of a model for scalars in a range (ends included).
 ///
-/// * EmissionAbsorption: no table where the function is one linear ramp. With a constant colour 2-D:
-///   the mean attenuation, MakeMeanTable; opacity 1 - exp(-length mean), times the colour. Else 3-D.
+/// * EmissionAbsorption: no table where the function is one linear ramp. With a constant colour
+///   2-D: the mean attenuation, MakeMeanTable; opacity 1 - exp(-length mean), times the colour.
+///   Else 3-D.
 /// * EmissionOnly: in proportion to the length, so 2-D, MakeMeanTable; none for one ramp.
 /// * AbsorptionOnly: the mean attenuation is all it needs, 2-D, MakeMeanTable; none for one ramp.
-/// * MaximumIntensity: the transfer function at one scalar, 1-D, MakeTransferTable; none for one ramp.
-/// * Isosurfaces (of which the transfer function is not used): 2-D, MakeIsosurfaceTable. Shaded ones,
-///   too: all crossings in a cell have its gradient, so each light changes them alike. With one
-///   surface no table: two comparisons.
+/// * MaximumIntensity: the transfer function at one scalar, 1-D, MakeTransferTable; none for one
+///   ramp.
+/// * Isosurfaces (of which the transfer function is not used): 2-D, MakeIsosurfaceTable. Shaded
+///   ones, too: all crossings in a cell have its gradient, so each light changes them alike. With
+///   one surface no table: two comparisons.
 TETRALUXCORE_EXPORT IntegrationPlan MakeIntegrationPlan(OpticalModel model,
   const TransferFunction& function, const double scalarRange[2],
   Span<const Isosurface> surfaces = {});
 
-/// Four channels over one or two scalars, in single precision: equal steps from one end of the range
-/// to the other, with a texel's centre at each end. Texel (f, b) begins at 4 (b Size + f), front
-/// scalar fastest; in a 1-D table b is 0.
+/// Four channels over one or two scalars, in single precision: equal steps from one end of the
+/// range to the other, with a texel's centre at each end. Texel (f, b) begins at 4 (b Size + f),
+/// front scalar fastest; in a 1-D table b is 0.
 struct ScalarTable
 {
   TableShape Shape = TableShape::Scalar;
@@ -90,9 +92,9 @@ TETRALUXCORE_EXPORT ScalarTable MakeTransferTable(
 TETRALUXCORE_EXPORT ScalarTable MakeMeanTable(
   const TransferFunction& function, const double scalarRange[2], int size);
 
-/// 2-D: premultiplied colour and opacity of all flat surfaces that a segment crosses, front to back.
-/// Between texels surfaces come and go at once: to be looked up at the nearest texel, which moves
-/// them by half a step of the table at most; interpolation fades them over one step.
+/// 2-D: premultiplied colour and opacity of all flat surfaces that a segment crosses, front to
+/// back. Between texels surfaces come and go at once: to be looked up at the nearest texel, which
+/// moves them by half a step of the table at most; interpolation fades them over one step.
 TETRALUXCORE_EXPORT ScalarTable MakeIsosurfaceTable(
   Span<const Isosurface> surfaces, const double scalarRange[2], int size);
 

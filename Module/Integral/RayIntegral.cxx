@@ -98,8 +98,8 @@ constexpr double LargestDoubleDepth = 1e100;
 /// loses less than one bit.
 constexpr double ThinDepth = 1;
 
-/// cosh(D/2) - J of SegmentIntegral.h as a power series in b and D^2: the coefficient of b^n D^2m is
-/// -(integral of x^2m q^n over [-1/2, 1/2]) / ((2m)! n!), and for n = 0 that of cosh(D/2) more.
+/// cosh(D/2) - J of SegmentIntegral.h as a power series in b and D^2: the coefficient of b^n D^2m
+/// is -(integral of x^2m q^n over [-1/2, 1/2]) / ((2m)! n!), and for n = 0 that of cosh(D/2) more.
 class BracketSeries
 {
 public:

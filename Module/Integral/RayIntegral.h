@@ -13,10 +13,10 @@ namespace tetralux
 {
 
 // What a segment of a ray adds to a picture, in double precision, for each optical model (Weiler et
-// al. 2003, sections 3.3 and 4): the scalar runs linearly from sf at the front end to sb at the back
-// end, and the segment is cut where it passes a node of the transfer function, so that attenuation
-// and colour are linear on each piece and the integral has a closed form (see SegmentIntegral.h for
-// its derivation).
+// al. 2003, sections 3.3 and 4): the scalar runs linearly from sf at the front end to sb at the
+// back end, and the segment is cut where it passes a node of the transfer function, so that
+// attenuation and colour are linear on each piece and the integral has a closed form (see
+// SegmentIntegral.h for its derivation).
 //
 // All functions take
 // * function: one that MakeIntervalTable accepts; it is not checked again here.
@@ -26,12 +26,12 @@ namespace tetralux
 // A constant scalar at a step takes the value from larger scalars, as in Evaluate. Cost: a binary
 // search, and one closed form for each piece.
 //
-// Segments are integrated one by one: nothing here is parallel or vectorised, and every function may
-// be called from any thread.
+// Nothing here is parallel or vectorised. Every function may be called from any thread.
 
 /// Largest error of a colour channel and of the opacity, relative to the opacity (and for a channel
-/// to the largest absolute value of that channel's colour on the segment): tested against quadrature
-/// in extended precision. Absolute below an opacity of 1e-295, where numbers lose digits.
+/// to the largest absolute value of that channel's colour on the segment): tested against
+/// quadrature in extended precision. Absolute below an opacity of 1e-295, where numbers lose
+/// digits.
 constexpr double RayIntegralError = 1e-12;
 
 /// What a segment adds, in front of nothing.
@@ -58,9 +58,9 @@ TETRALUXCORE_EXPORT SegmentRadiance IntegrateEmissionOnly(
 TETRALUXCORE_EXPORT SegmentRadiance IntegrateAbsorptionOnly(
   const TransferFunction& function, double sf, double sb, double length);
 
-/// OpticalModel::MaximumIntensity: colour and opacity at the largest scalar of a whole ray, which is
-/// at one of the ends of its segments. The attenuation is taken for the opacity itself, and held to
-/// 0..1.
+/// OpticalModel::MaximumIntensity: colour and opacity at the largest scalar of a whole ray, which
+/// is at one of the ends of its segments. The attenuation is taken for the opacity itself, and held
+/// to 0..1.
 TETRALUXCORE_EXPORT SegmentRadiance ClassifyMaximum(
   const TransferFunction& function, double largestScalar);
 
@@ -72,8 +72,8 @@ TETRALUXCORE_EXPORT SegmentRadiance IntegrateIsosurfaces(
 /// Calls visit(index, w) for each surface that the segment crosses, front to back, with w its place
 /// along the segment, 0..1. surfaces: strictly ascending in Value.
 ///
-/// A value is crossed where the scalar is below it at one end and not below it at the other: along a
-/// chain of segments each crossing is met once, also one at an end of a segment.
+/// A value is crossed where the scalar is below it at one end and not below it at the other: along
+/// a chain of segments each crossing is met once, also one at an end of a segment.
 template <class Visit>
 void ForEachCrossing(Span<const Isosurface> surfaces, double sf, double sb, const Visit& visit)
 {

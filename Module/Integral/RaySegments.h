@@ -14,8 +14,8 @@ struct RaySegment
   double Length;      ///< world units, more than 0
 };
 
-/// Rays by which to measure what approximate integrals do to pictures: what each goes through, front
-/// to back.
+/// Rays by which to measure what approximate integrals do to pictures: what each goes through,
+/// front to back.
 struct RaySample
 {
   std::vector<std::vector<RaySegment>> Rays;

@@ -24,12 +24,12 @@
 //   the bracket is a power series without a constant term: nothing is subtracted from 1. Fitted
 //   instead of cut off, 14 terms reach to D = ThinDepth: this form is the cheapest.
 // * thick, b >= 0: I = sqrt(pi / 4b) (erfcx(D0 / 2 sqrt b) - exp(-D) erfcx(D1 / 2 sqrt b)).
-// * thick, b < 0: I = (F(D0 / 2 sqrt -b) - exp(-D) F(D1 / 2 sqrt -b)) / sqrt -b, F Dawson's function.
-//   In both the first term is at least 1 / (1 - exp(-D)) times the difference at most: with
-//   D > ThinDepth less than half a bit is lost.
+// * thick, b < 0: I = (F(D0 / 2 sqrt -b) - exp(-D) F(D1 / 2 sqrt -b)) / sqrt -b, F Dawson's
+//   function. In both the first term is at least 1 / (1 - exp(-D)) times the difference at most:
+//   with D > ThinDepth less than half a bit is lost.
 //
-// The error of both weights is below SegmentWeightError (tested against quadrature from D = 1e-12 to
-// 1e12 and for every ratio of D0 and D1). RayIntegral.h has the same in double precision.
+// The error of both weights is below SegmentWeightError (tested against quadrature from D = 1e-12
+// to 1e12 and for every ratio of D0 and D1). RayIntegral.h has the same in double precision.
 
 #include "Integral/SegmentWeightError.h"
 #include "Simd/Lanes.h"
@@ -44,8 +44,8 @@ constexpr double LargestSingleDepth = 1e30;
 namespace TETRALUX_ISA
 {
 
-/// Optical depth up to which the power series is used. Its error is 1.3e-7 of the opacity there, and
-/// the thick forms, whose functions are less exact, are divided by no less than 0.78.
+/// Optical depth up to which the power series is used. Its error is 1.3e-7 of the opacity there,
+/// and the thick forms, whose functions are less exact, are divided by no less than 0.78.
 constexpr float ThinDepth = 1.5f;
 
 /// exp(-x) for x >= 0, relative error 2e-7; 0 from x = 87 (below the normal numbers).
@@ -134,8 +134,8 @@ TETRALUX_INLINE SegmentWeights IntegrateSegment(Float8 d0, Float8 d1)
   {
     // The bracket as a polynomial in b and D^2, by iteratively reweighted least squares over
     // |b| <= D <= ThinDepth, relative to the opacity. The terms of its power series are
-    // -(integral of x^2m q^n) / ((2m)! n!) b^n D^2m, and for n = 0 those of cosh(D/2) more; the first
-    // one, -b / 6, is kept as it is for the smallest depths.
+    // -(integral of x^2m q^n) / ((2m)! n!) b^n D^2m, and for n = 0 those of cosh(D/2) more; the
+    // first one, -b / 6, is kept as it is for the smallest depths.
     static constexpr float p0[] = { -1.f / 6, -0.0166666904f, -0.00119011029f, -6.6211389e-5f,
       -3.11817831e-6f };
     static constexpr float p1[] = { 0.0833334742f, -0.0041663916f, -0.000297384474f,

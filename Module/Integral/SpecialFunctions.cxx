@@ -76,8 +76,8 @@ double Dawson(double x)
   }
   if (x > 10)
   {
-    // The sum of (2k-1)!! / (2 y)^k over 2 x; the first term left out is 2e-17. From 1e9 on only 1 is
-    // left, and y need not be finite.
+    // The sum of (2k-1)!! / (2 y)^k over 2 x; the first term left out is 2e-17. From 1e9 on only 1
+    // is left, and y need not be finite.
     const double z = x < 1e9 ? 0.5 / y : 0;
     double sum = 0;
     for (int k = 11; k > 0; --k)
@@ -88,8 +88,8 @@ double Dawson(double x)
   }
   // The trapezoidal rule converges exponentially here: the sum over odd n of
   // exp(-(x - n h)^2) / n, over sqrt(pi), has an error of exp(-(pi / 2 h)^2), 7e-18 for h = 1/4
-  // (G. B. Rybicki, Dawson's integral and the sampling theorem, Computers in Physics 3, 1989). It is
-  // summed around the even n0 that is nearest to x / h.
+  // (G. B. Rybicki, Dawson's integral and the sampling theorem, Computers in Physics 3, 1989). It
+  // is summed around the even n0 that is nearest to x / h.
   static const DawsonWeights weights;
   constexpr double h = DawsonWeights::Step;
   const double n0 = 2 * std::nearbyint(0.5 * x / h);

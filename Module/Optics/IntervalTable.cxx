@@ -136,11 +136,10 @@ IntervalTable MakeIntervalTable(const TransferFunction& function)
   table.Intervals.push_back(
     MakeConstantInterval(map(last), Infinity, map(last), nodes.back().Right));
 
+  table.MaximumAttenuation = GetLargestAttenuation(function);
   double previous = nodes.front().Left.Attenuation;
   for (const TransferFunction::Node& node : nodes)
   {
-    table.MaximumAttenuation =
-      std::max({ table.MaximumAttenuation, node.Left.Attenuation, node.Right.Attenuation });
     table.AttenuationVariation += std::abs(node.Left.Attenuation - previous) +
       std::abs(node.Right.Attenuation - node.Left.Attenuation);
     previous = node.Right.Attenuation;

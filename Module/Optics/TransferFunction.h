@@ -47,6 +47,27 @@ inline double GetLargestColor(const TransferFunction& function)
   return largest;
 }
 
+/// Whether a channel of a colour of any node is below 0.
+inline bool HasNegativeColors(const TransferFunction& function)
+{
+  const auto isNegative = [](const TransferFunction::Value& value)
+  { return std::any_of(value.Color, value.Color + 3, [](double c) { return c < 0; }); };
+  return std::any_of(function.Nodes.begin(), function.Nodes.end(),
+    [&](const TransferFunction::Node& node)
+    { return isNegative(node.Left) || isNegative(node.Right); });
+}
+
+/// The largest attenuation of any node, per world unit.
+inline double GetLargestAttenuation(const TransferFunction& function)
+{
+  double largest = 0;
+  for (const TransferFunction::Node& node : function.Nodes)
+  {
+    largest = std::max({ largest, node.Left.Attenuation, node.Right.Attenuation });
+  }
+  return largest;
+}
+
 } // namespace tetralux
 
 #endif

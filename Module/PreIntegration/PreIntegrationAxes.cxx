@@ -114,9 +114,9 @@ struct Cell
   }
 };
 
-/// About the error of the mean attenuation of segments that begin in the cell and end beyond a bend:
-/// that of linear interpolation across the bend where it is next to the cell; of 1 / distance, in
-/// which the mean falls, farther away.
+/// About the error of the mean attenuation of segments that begin in the cell and end beyond a
+/// bend: that of linear interpolation across the bend where it is next to the cell; of 1 /
+/// distance, in which the mean falls, farther away.
 double GetWeight(const Cell& cell, const std::vector<Bend>& bends)
 {
   const double width = cell.End - cell.Begin;

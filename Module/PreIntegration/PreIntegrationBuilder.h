@@ -9,11 +9,11 @@
 namespace tetralux
 {
 
-/// Fills a table, in all threads of OpenMP; the same to the last bit for any number of them. Memory
-/// of the table is used again where its size stays the same.
+/// Fills a table in all threads of OpenMP; every number of threads makes the same bits. Uses the
+/// memory of the table again if its size stays the same.
 ///
-/// With PreIntegrationMethod::ClosedForm the time goes with the texels (at the speed of memory), and
-/// with their number along a scalar squared times the nodes between two scalars.
+/// The time goes with the texels (at the speed of memory), and with their number along a scalar
+/// squared times the nodes between two scalars.
 ///
 /// Throws std::invalid_argument, with one line that says what is wrong: a transfer function that
 /// MakeIntervalTable does not take, settings out of their ranges, colours outside of 0..1 for a
@@ -21,20 +21,15 @@ namespace tetralux
 TETRALUXCORE_EXPORT void BuildPreIntegrationTable(const TransferFunction& function,
   const PreIntegrationSettings& settings, PreIntegrationTable& table);
 
-/// Changes a table that was built from before to what BuildPreIntegrationTable makes of after, and
-/// rebuilds only texels whose segments meet a scalar at which the two functions differ. All of them
-/// where the axes change (nodes that come, go or move with ScalarAxis::Nodes; other bends, which move
-/// texels) or the largest attenuation passes a power of 2 on a long segment.
+/// Updates a table that was built from before to what BuildPreIntegrationTable makes of after.
+/// Rebuilds the texels whose segments meet a scalar at which the two functions differ. Rebuilds all
+/// texels if an axis changes (with ScalarAxis::Nodes: if a node comes, goes or moves, or if other
+/// bends move texels), or if the largest attenuation passes a power of 2 on a long segment.
 ///
-/// Returns the number of texels that were rebuilt. Throws as BuildPreIntegrationTable does; the table
-/// is unchanged then.
+/// Returns the number of texels that were rebuilt. Throws as BuildPreIntegrationTable does, and
+/// leaves the table as it is then.
 TETRALUXCORE_EXPORT std::int64_t UpdatePreIntegrationTable(
   const TransferFunction& before, const TransferFunction& after, PreIntegrationTable& table);
-
-/// Settings of a table for the time of an interaction: of the same range, lengths, scale and format,
-/// in at most so many bytes; at most the size asked for, and at least 16 x 16 texels of 8 lengths.
-TETRALUXCORE_EXPORT PreIntegrationSettings GetCoarseSettings(
-  const PreIntegrationSettings& settings, std::size_t bytes);
 
 /// The axes of a table; throw as BuildPreIntegrationTable does.
 TETRALUXCORE_EXPORT ScalarAxisMap MakeScalarAxis(

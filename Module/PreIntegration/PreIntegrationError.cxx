@@ -29,8 +29,8 @@ Channels GetChannels(const TransferFunction::Value& value)
     value.Attenuation * value.Color[2], value.Attenuation };
 }
 
-/// A transfer function between the ends of the scalar axis: intervals on which it is linear, and the
-/// variation of each channel from the first scalar on, and its integral.
+/// A transfer function between the ends of the scalar axis: intervals on which it is linear, and
+/// the variation of each channel from the first scalar on, and its integral.
 struct Variation
 {
   std::vector<double> Scalars;  ///< ends of intervals
@@ -125,7 +125,8 @@ struct Variation
     }
   }
 
-  /// Of the interval that holds a scalar; one on an end belongs to the interval on its left or right.
+  /// Of the interval that holds a scalar; one on an end belongs to the interval on its left or
+  /// right.
   std::size_t Find(double s, bool onLeft) const
   {
     const auto begin = this->Scalars.begin() + 1;
@@ -325,7 +326,7 @@ double GetFormatRounding(TexelFormat format, double largestColor)
 /// the opacity), and of the transmittance of those in front.
 constexpr double PieceRounding = 4e-7;
 
-/// Of interpolation along the length between Chebyshev points, see PreIntegrationBuilder.cxx, and of
+/// Of interpolation along the length between Chebyshev points, see LengthSamples.h, and of
 /// the trilinear interpolation in single precision, coordinates included.
 constexpr double InterpolationRounding = 4e-6;
 
@@ -339,15 +340,9 @@ PreIntegrationError BoundPreIntegrationError(
   const double unit = std::max(largestColor, 1.);
   const ScalarError scalars = BoundScalars(function, table.Scalars);
 
-  double largestAttenuation = 0;
-  for (const TransferFunction::Node& node : function.Nodes)
-  {
-    largestAttenuation =
-      std::max({ largestAttenuation, node.Left.Attenuation, node.Right.Attenuation });
-  }
+  const double largestAttenuation = GetLargestAttenuation(function);
 
   PreIntegrationError bound;
-  double sum = 0; // over all splits
   for (int r = 0; r + 1 < axis.Size; ++r)
   {
     const double begin = axis.GetLength(r);
@@ -359,16 +354,10 @@ PreIntegrationError BoundPreIntegrationError(
     const double between = std::min(unit * std::min(m * m, relative) / 8, unit);
     const double atTexels = BoundSegment(scalars, largestColor, end);
     const double segment = std::min(between + atTexels, unit);
-    sum += atTexels;
     bound.Segment = std::max(bound.Segment, segment);
     // In the first cell the error at a length l is at most l (h - l) / 2 M^2.
     const double perLength = begin > 0 ? between / begin : std::min(unit * 0.5 * m * m, unit) / end;
     bound.PerLength = std::max(bound.PerLength, perLength + atTexels / end);
-  }
-  if (table.Settings.Method == PreIntegrationMethod::Incremental)
-  {
-    bound.Segment = std::min(bound.Segment + 2 * sum, unit);
-    bound.PerLength += 2 * sum / axis.GetLength(1);
   }
   bound.Rounding = GetFormatRounding(table.Settings.Format, largestColor) +
     unit *

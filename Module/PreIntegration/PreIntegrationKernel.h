@@ -22,8 +22,8 @@ struct SegmentPiece
 
 struct PreIntegrationKernels
 {
-  /// One segment at several lengths, in closed form. The pieces, front to back, are those of the
-  /// longest segment; lengths are fractions of it. count: a multiple of LaneCount. values: channel c of
+  /// Integrates one segment at several lengths in closed form. pieces: of the longest segment,
+  /// front to back. lengths: fractions of the longest. count: a multiple of LaneCount. Channel c of
   /// length k goes to values[k stride + c].
   void (*IntegrateLengths)(const SegmentPiece* pieces, int numberOfPieces, const float* lengths,
     int count, float* values, int stride);
@@ -34,13 +34,6 @@ struct PreIntegrationKernels
   /// resultStride; size: a multiple of 4.
   void (*CombineRows)(const float* values, int stride, int numberOfValues, const float* weights,
     int numberOfRows, bool keepNegative, float* result, long long resultStride, int size);
-
-  /// Puts two parts of segments together (Weiler et al. 2003, equations 5 and 6), for one scalar at
-  /// the back and the scalars [begin, end) at the front: the front part ends and the back part
-  /// begins at texel coordinate index + share of each. front: slice of the front parts' length, n x
-  /// n texels; back: row of the back scalar in the slice of the back parts' length.
-  void (*JoinSegments)(const float* front, const float* back, int n, const int* indices,
-    const float* shares, int begin, int end, float* result);
 
   /// Channels as the texels of a format hold them.
   void (*EncodeChannels)(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "Base/Check.h"
 #include "Integral/SegmentIntegral.h"
 #include "PreIntegration/PreIntegrationKernel.h"
 #include "PreIntegration/TexelFormats.h"
@@ -16,6 +17,7 @@ namespace
 void IntegrateLengths(const SegmentPiece* pieces, int numberOfPieces, const float* lengths,
   int count, float* values, int stride)
 {
+  TETRALUX_CHECK(count % LaneCount == 0);
   for (int k = 0; k < count; k += LaneCount)
   {
     const Float8 length = LoadFloat8(lengths + k);
@@ -24,6 +26,7 @@ void IntegrateLengths(const SegmentPiece* pieces, int numberOfPieces, const floa
     for (int p = 0; p < numberOfPieces; ++p)
     {
       const SegmentPiece& piece = pieces[p];
+      TETRALUX_CHECK(piece.Depth[0] >= 0 && piece.Depth[1] >= 0);
       const SegmentWeights w =
         IntegrateSegment(Float8(piece.Depth[0]) * length, Float8(piece.Depth[1]) * length);
       const Float8 front = transmittance * w.Front;
@@ -53,8 +56,8 @@ void IntegrateLengths(const SegmentPiece* pieces, int numberOfPieces, const floa
   }
 }
 
-/// Rows, and registers of each, whose sums are made together: enough for no sum to wait for its last
-/// term, and each number that is loaded serves several.
+/// Rows, and registers of each, that are summed together: so many that no sum waits for its last
+/// term, and that each number loaded serves several sums.
 constexpr int RowsAtOnce = 4;
 constexpr int RegistersAtOnce = 2;
 
@@ -143,6 +146,7 @@ TETRALUX_INLINE void Combine(const float* values, int stride, int numberOfValues
 void CombineRows(const float* values, int stride, int numberOfValues, const float* weights,
   int numberOfRows, bool keepNegative, float* result, long long resultStride, int size)
 {
+  TETRALUX_CHECK(size % 4 == 0);
   const Float8 least = keepNegative ? -Unbounded : 0.f;
   int row = 0;
   for (; row + RowsAtOnce <= numberOfRows; row += RowsAtOnce)
@@ -154,31 +158,6 @@ void CombineRows(const float* values, int stride, int numberOfValues, const floa
   {
     Combine<1>(values, stride, numberOfValues, weights + row * numberOfValues, least,
       result + row * resultStride, resultStride, size);
-  }
-}
-
-void JoinSegments(const float* front, const float* back, int n, const int* indices,
-  const float* shares, int begin, int end, float* result)
-{
-  for (int f = begin; f < end; ++f)
-  {
-    const float t = shares[f];
-    const float* f0 = front + 4 * (static_cast<long long>(indices[f]) * n + f);
-    const float* f1 = f0 + 4 * static_cast<long long>(n);
-    const float* b0 = back + 4 * static_cast<long long>(indices[f]);
-    float* sum = result + 4 * static_cast<long long>(f);
-    float first[4];
-    for (int c = 0; c < 4; ++c)
-    {
-      first[c] = f0[c] + t * (f1[c] - f0[c]);
-    }
-    const float behind = 1.f - first[3];
-    for (int c = 0; c < 4; ++c)
-    {
-      const float second = b0[c] + t * (b0[4 + c] - b0[c]);
-      sum[c] = first[c] + behind * second;
-    }
-    sum[3] = sum[3] < 1.f ? sum[3] : 1.f;
   }
 }
 
@@ -210,7 +189,7 @@ void EncodeChannels(
 
 PreIntegrationKernels MakePreIntegrationKernels()
 {
-  return { IntegrateLengths, CombineRows, JoinSegments, EncodeChannels };
+  return { IntegrateLengths, CombineRows, EncodeChannels };
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PreIntegration/PreIntegrationTable.h"
 
+#include "Base/Check.h"
 #include "PreIntegration/TexelFormats.h"
 
 #include <algorithm>
@@ -125,6 +126,9 @@ void TexelBuffer::Resize(std::size_t bytes)
 
 void PreIntegrationTable::GetTexel(int front, int back, int length, float rgba[4]) const
 {
+  TETRALUX_CHECK(0 <= front && front < this->Scalars.GetSize());
+  TETRALUX_CHECK(0 <= back && back < this->Scalars.GetSize());
+  TETRALUX_CHECK(0 <= length && length < this->Lengths.Size);
   const std::size_t n = this->Scalars.GetSize();
   const std::size_t texel = (length * n + back) * n + front;
   const std::uint8_t* data = this->Texels.GetData() + texel * GetTexelSize(this->Settings.Format);
@@ -147,6 +151,7 @@ void PreIntegrationTable::FindPlaces(
   const auto find = [](float coordinate, int size)
   {
     const int index = std::min(static_cast<int>(coordinate), size - 2);
+    TETRALUX_CHECK(index >= 0);
     return Place{ index, coordinate - static_cast<float>(index) };
   };
   const auto map = [this](double scalar)

@@ -42,19 +42,6 @@ enum class ScalarAxis
   Nodes
 };
 
-/// How texels are computed.
-enum class PreIntegrationMethod
-{
-  /// Each from the closed form of the integral (SegmentIntegral.h): exact to
-  /// PreIntegrationError::Rounding. On many lengths, by interpolation between the closed form at a
-  /// few dozen of them.
-  ClosedForm,
-
-  /// Longer segments from shorter ones (Weiler et al. 2003, equations 5 and 6), by the table's own
-  /// interpolation at the split: its errors add up from one length to the next.
-  Incremental
-};
-
 /// What a texel's four channels are stored as.
 enum class TexelFormat
 {
@@ -70,8 +57,8 @@ TETRALUXCORE_EXPORT std::size_t GetTexelSize(TexelFormat format);
 /// What a table is to be.
 struct PreIntegrationSettings
 {
-  /// Texels along each of the two scalars, 2..4096. With ScalarAxis::Nodes the largest number: there
-  /// are fewer where single precision can't tell more apart.
+  /// Texels along each of the two scalars, 2..4096. With ScalarAxis::Nodes at most as many: there
+  /// are fewer if single precision cannot tell more apart.
   int ScalarSize = 128;
 
   /// Texels along the length, 2..4096.
@@ -84,7 +71,6 @@ struct PreIntegrationSettings
   int StepsPerDoubling = 1;
 
   ScalarAxis Axis = ScalarAxis::Nodes;
-  PreIntegrationMethod Method = PreIntegrationMethod::ClosedForm;
   TexelFormat Format = TexelFormat::Float;
 
   /// Scalars of the segments, in the units of the transfer function, finite, ascending (equal ends
@@ -180,7 +166,9 @@ private:
   std::size_t Size = 0;
 };
 
-/// A table: texels and how they are found.
+/// A table: texels and how they are found. Each texel comes from the closed form of the integral
+/// (SegmentIntegral.h), exact to PreIntegrationError::Rounding. In a table of many lengths texels
+/// are interpolated between the closed form at a few dozen of them (LengthSamples.h).
 ///
 /// Texel (f, b, r) is at ((r n + b) n + f) texel sizes from the start, n = Scalars.GetSize(): front
 /// scalar fastest, length slowest. Its four channels are premultiplied red, green, blue and the

@@ -257,4 +257,35 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
   return choice;
 }
 
+PreIntegrationSettings GetCoarseSettings(const PreIntegrationSettings& settings, std::size_t bytes)
+{
+  constexpr int SmallestScalarSize = 16;
+  constexpr int SmallestLengthSize = 8;
+  PreIntegrationSettings coarse = settings;
+  const auto getBytes = [&coarse]() {
+    return GetTexelSize(coarse.Format) * coarse.ScalarSize * coarse.ScalarSize * coarse.LengthSize;
+  };
+  while (getBytes() > bytes)
+  {
+    // Lengths of a linear scale cost most and give least. A logarithmic one has few already, and
+    // without doublings it would begin at longer ones.
+    const bool fewerLengths =
+      coarse.Scale == LengthScale::Linear && coarse.LengthSize / 2 >= SmallestLengthSize;
+    const bool fewerScalars = coarse.ScalarSize / 2 >= SmallestScalarSize;
+    if (!fewerLengths && !fewerScalars)
+    {
+      break;
+    }
+    if (fewerLengths && (!fewerScalars || coarse.LengthSize > coarse.ScalarSize / 2))
+    {
+      coarse.LengthSize /= 2;
+    }
+    else
+    {
+      coarse.ScalarSize /= 2;
+    }
+  }
+  return coarse;
+}
+
 } // namespace tetralux

@@ -28,12 +28,12 @@ struct TableGoal
   double LongestSegment = 1; ///< world units
 
   /// Time of a lookup in units of that of the closed form on one piece. Segments with more pieces
-  /// are faster by table. A processor takes about as long for a lookup of eight rays as for
+  /// are faster by table. A processor takes about as long for a lookup of a packet of rays as for
   /// LookupCost pieces, see Documentation/Benchmarks.md; a GPU's texture units make it a fraction.
   double LookupCost = 3;
 
-  /// A table also where the closed form would be chosen: the most exact one within the limits, where
-  /// none is right enough.
+  /// A table also where the closed form would be chosen: the most exact one within the limits,
+  /// where none is right enough.
   bool AlwaysTable = false;
 
   // What is not to be chosen: sizes of 0 are free.
@@ -59,11 +59,17 @@ struct TableChoice
 /// The smallest table whose EstimatePictureError is at most what is asked for; else none, or with
 /// AlwaysTable the one of the least error.
 /// Tables of growing size are tried until one is right. A few rays rule most of them out, for which
-/// only the texels they look up are computed; what is left is built and measured on all rays. Some 100
-/// milliseconds of one thread, and up to a second where no table is right. Throws as
+/// only the texels they look up are computed; what is left is built and measured on all rays. Some
+/// 100 milliseconds of one thread, and up to a second where no table is right. Throws as
 /// BuildPreIntegrationTable does.
 TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(
   const TransferFunction& function, const TableGoal& goal);
+
+/// Settings of a table for the time of an interaction: of the same range, lengths, scale and
+/// format, in at most so many bytes; at most the size asked for, and at least 16 x 16 texels of 8
+/// lengths.
+TETRALUXCORE_EXPORT PreIntegrationSettings GetCoarseSettings(
+  const PreIntegrationSettings& settings, std::size_t bytes);
 
 } // namespace tetralux
 

@@ -36,8 +36,8 @@ std::vector<double> FindNodes(
 }
 
 /// Those rays of a sample that come nearest to running along a node of the function, moved onto it:
-/// the middle of a segment gets the scalar of the node. Tables are most wrong next to bends and steps,
-/// along which the worst rays of a picture run, and none of a sample by chance.
+/// the middle of a segment gets the scalar of the node. Tables are most wrong next to bends and
+/// steps, along which the worst rays of a picture run, and none of a sample by chance.
 std::vector<std::vector<RaySegment>> MoveOntoNodes(
   const TransferFunction& function, const RaySample& sample)
 {

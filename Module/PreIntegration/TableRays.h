@@ -18,8 +18,8 @@
 namespace tetralux
 {
 
-/// How much worse the worst of the rays of a picture is than the worst of a sample, at most in nearly
-/// all scenes (Documentation/Benchmarks.md).
+/// How much worse the worst of the rays of a picture is than the worst of a sample, at most in
+/// nearly all scenes (Documentation/Benchmarks.md).
 constexpr double WorseInPictures = 3;
 
 /// What a camera anywhere on a ray sees of it, by table: back to front, so that each segment may be
@@ -56,8 +56,8 @@ class TableRays
 public:
   TableRays(const TransferFunction& function, const RaySample& sample);
 
-  /// What pictures by a table are expected to be wrong by, see EstimatePictureError; infinity where it
-  /// is more than is allowed.
+  /// What pictures by a table are expected to be wrong by, see EstimatePictureError; infinity where
+  /// it is more than is allowed.
   double Estimate(const PreIntegrationTable& table, double allowed) const;
 
   /// Whether it may be no more, as a few rays tell; lookUp as for Measure.
@@ -69,8 +69,8 @@ public:
   }
 
 private:
-  /// Largest error of a channel that any camera on the first rays sees, or infinity where it is more
-  /// than is allowed; lookUp(front, back, length, rgba).
+  /// Largest error of a channel that any camera on the first rays sees, or infinity where it is
+  /// more than is allowed; lookUp(front, back, length, rgba).
   template <class LookUp>
   double Measure(std::size_t count, double allowed, const LookUp& lookUp) const
   {

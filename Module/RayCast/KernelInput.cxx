@@ -21,6 +21,9 @@ void FillMesh(const WalkMesh& mesh, const WalkTables& tables, KernelInput& in)
   in.Nodes = tables.Bvh.Nodes.empty() ? nullptr : tables.Bvh.Nodes.data();
   in.Triangles = tables.Bvh.Triangles.data();
   in.NumberOfCells = mesh.GetNumberOfCells();
+  in.NumberOfPoints = static_cast<std::int32_t>(mesh.GetNumberOfTablePoints());
+  in.NumberOfWalkCells = static_cast<std::int32_t>(tables.Faces.size() / 4);
+  in.NumberOfEntries = static_cast<std::int32_t>(tables.Entries.size());
   std::copy_n(mesh.GetCenter(), 3, in.Center);
   in.Radius = mesh.GetRadius();
 }
@@ -46,6 +49,7 @@ void FillSurfaces(
         std::clamp(surface.Opacity, 0.f, 1.f) });
   }
   in.NeighborsOfSurfaces.push_back({ below, std::numeric_limits<float>::infinity() });
+  in.NumberOfSurfaces = static_cast<int>(surfaces.size());
   in.SurfaceNeighbors = in.NeighborsOfSurfaces.data();
   in.SurfaceColors = in.ColorsOfSurfaces.data();
 }

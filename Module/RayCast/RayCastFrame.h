@@ -4,6 +4,7 @@
 
 // The frame of its own in which each ray of a packet sees the mesh, see RayCastKernel.inl.
 
+#include "Base/Check.h"
 #include "RayCast/RayCastKernel.h"
 #include "Simd/Lanes.h"
 
@@ -31,6 +32,12 @@ template <>
 constexpr double SmallestProjection<double>()
 {
   return 7.888609052210118e-31; // 2^-100
+}
+
+/// For checks: whether the indices of these lanes are in 0..count - 1.
+TETRALUX_INLINE bool AreBelow(Mask8 lanes, Int8 index, std::int32_t count)
+{
+  return !Any(lanes & ((Int8(0) > index) | (index > Int8(count - 1))));
 }
 
 template <class Real>
@@ -112,8 +119,9 @@ TETRALUX_INLINE Mask8 IsPositive(V det, const Corner<Real>& a, const Corner<Real
   return (V(Real(0)) < det) | ((det == V(Real(0))) & TieIsPositive(a, b));
 }
 
-/// A value between three by weights whose sum is 1, that of a left out. By differences: a constant
-/// stays exactly what it is, also next to a step of the transfer function.
+/// Interpolates three values by weights whose sum is 1; the weight of a is left out. Adds
+/// differences, so that a constant stays exactly what it is, next to a step of the transfer
+/// function too.
 template <class V>
 TETRALUX_INLINE V Blend(V wb, V wc, V a, V b, V c)
 {

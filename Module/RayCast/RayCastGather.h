@@ -28,7 +28,7 @@ using ColorsOfLanes = float[4][LaneCount];
 template <class Real>
 using LanesOfReal = typename LanesOf<Real>::Type;
 
-/// A single precision number in the precision of the geometry.
+/// Converts single precision to the precision of the geometry.
 template <class V>
 TETRALUX_INLINE V ToPrecision(Float8 x)
 {

@@ -15,12 +15,13 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Surfaces of constant scalar, composited front to back. A surface is crossed where the scalar
-/// comes from below its value to it or above, or back: once, also where it lies in a face.
+/// Composites surfaces of constant scalar front to back. A ray crosses a surface where the scalar
+/// changes from below the value to at least the value, or back. So it crosses a surface in a face
+/// once.
 ///
-/// Where several faces are passed in no distance, next to a vertex or an edge, rounding makes the
-/// scalar go to and fro. So a crossing waits until the ray is beyond the rounding of distances, and
-/// one back through the same surface takes it away.
+/// Next to a vertex or an edge a ray passes several faces at nearly one distance, and rounding
+/// makes the scalar go back and forth. So a crossing waits until the ray is farther than distances
+/// are rounded by. A crossing back through the same surface before that cancels it.
 template <class Real>
 class Isosurfaces : public GatheredModel<Real, Unlit, Isosurfaces<Real>>
 {
@@ -85,6 +86,7 @@ private:
   /// The values of the surfaces below and above the scalar; infinite where there is none.
   TETRALUX_INLINE void LoadNeighbors(const KernelInput& in, Float8& below, Float8& above) const
   {
+    TETRALUX_CHECK(AreBelow(MaskFromBits(AllLanes), this->Index, in.NumberOfSurfaces + 1));
     Int8 first, second;
     GatherPairs(
       reinterpret_cast<const std::int32_t*>(in.SurfaceNeighbors), this->Index, first, second);
@@ -116,6 +118,7 @@ private:
   TETRALUX_NOINLINE void Settle(const KernelInput& in, Mask8 lanes)
   {
     const Int8 surface = Select(lanes, this->WaitingSurface, Int8(0));
+    TETRALUX_CHECK(AreBelow(lanes, surface, in.NumberOfSurfaces));
     Float8 color[3], opacity;
     GatherRows(in.SurfaceColors, surface, color[0], color[1], color[2], opacity);
     if (in.Shading)

@@ -52,6 +52,12 @@ struct KernelInput
   const BoundaryBvh::Node* Nodes; ///< nullptr: no boundary, an empty mesh
   const std::int32_t* Triangles;
   std::int32_t NumberOfCells; ///< of the mesh; those behind are imaginary
+  /// For checks: what ids are below.
+  ///@{
+  std::int32_t NumberOfPoints;
+  std::int32_t NumberOfWalkCells; ///< imaginary ones included
+  std::int32_t NumberOfEntries;
+  ///@}
   double Center[3];
   double Radius;
 
@@ -63,6 +69,7 @@ struct KernelInput
   float Color[3]; ///< OpticalDepth: where the colour is constant
   /// Values of surfaces i - 1 and i, for i from 0 up to their number.
   const std::array<float, 2>* SurfaceNeighbors;
+  int NumberOfSurfaces;
   const float* SurfaceColors;    ///< red, green, blue, opacity of each surface, ascending in value
   const KernelTable* Table;      ///< of Integrator::Table
   const SurfaceShading* Shading; ///< of lit integrators; of isosurfaces nullptr where they are flat
@@ -76,7 +83,7 @@ struct KernelInput
   std::uint32_t CroppingFlags;
   const float* MaximumDistances; ///< nullptr: none
 
-  /// A ray ends where it is this opaque: too little of the light behind would reach the eye.
+  /// A ray ends where it is this opaque, since too little of the light behind reaches the eye.
   float MaximumOpacity;
   float MaximumDepth; ///< the same as an optical depth
 

@@ -80,7 +80,7 @@ public:
   }
 
 private:
-  /// From the face a b c of each ray's cell to the one that the fourth point makes with two of them.
+  /// Moves each ray from the face a b c of its cell to the face through which it leaves the cell.
   TETRALUX_INLINE void Walk()
   {
     const Corner<Real> p = LoadCorner<Real>(this->Ray, this->In.Points, this->Point);
@@ -112,6 +112,7 @@ private:
     this->CellBefore = this->Cell;
     GatherPairs(reinterpret_cast<const std::int32_t*>(this->In.Faces),
       ShiftLeft(this->Cell, 2) + face, this->Cell, this->Point);
+    TETRALUX_CHECK(this->IsOnItsWay());
 
     // det(p, x) is the weight of the corner across; the replaced corner keeps its weight for p.
     const V wa = Select(dropA, this->WA, Abs(Select(dropB, pc, pb)));
@@ -124,12 +125,13 @@ private:
     Replace(this->C, AndNot(MaskFromBits(AllLanes), keepC), p);
   }
 
-  /// The integral over the cells of the last Walk, and what follows for rays at their end.
+  /// Integrates over the cells of the last Walk. Ends rays, or lets them enter the mesh again.
   TETRALUX_INLINE void Integrate()
   {
     const V z0 = this->Z;
     const V s0 = this->S;
     this->Interpolate();
+    TETRALUX_CHECK(this->HasWeights());
     const V z1 = this->Z;
     const V s1 = this->S;
     const Mask8 running = MaskFromBits(this->Running);
@@ -145,8 +147,7 @@ private:
     const Mask8 backward = z1 < z0;
     if (Any(running & (backward | (z0 < this->Near) | (this->Far < z1))))
     {
-      // An inverted cell among others is walked from its far side to its near one; it is seen as
-      // any other cell.
+      // A ray passes an inverted cell from its far side to its near side. It is drawn as any other.
       const V zNear = Min(z0, z1);
       const V zFar = Max(z0, z1);
       zFrom = Max(zNear, this->Near);
@@ -165,7 +166,9 @@ private:
     }
     if constexpr (CellData)
     {
-      this->Gathered.AddCell(this->In, valid, this->CellBefore, zFrom, zTo);
+      // Imaginary cells have no values. Every lane loads some.
+      const Int8 cell = Select(this->IsReal(), this->CellBefore, Int8(0));
+      this->Gathered.AddCell(this->In, valid, cell, zFrom, zTo);
     }
     else
     {
@@ -187,6 +190,29 @@ private:
 
   /// Imaginary cells come after those of the mesh, and contribute nothing.
   TETRALUX_INLINE Mask8 IsReal() const { return Int8(this->In.NumberOfCells) > this->CellBefore; }
+
+  // For checks.
+
+  /// All lanes, those at rest too, are in cells of the mesh and before points of it, or at its end.
+  /// Where a ray leaves the mesh, a negative cell tells the entry.
+  bool IsOnItsWay() const
+  {
+    const Mask8 ended = Int8(0) > this->Cell;
+    const Mask8 inside = AndNot(MaskFromBits(AllLanes), ended);
+    return AreBelow(inside, this->Cell, this->In.NumberOfWalkCells) &&
+      AreBelow(inside, this->Point, this->In.NumberOfPoints) &&
+      AreBelow(
+        ended & MaskFromBits(this->Running), Int8(-1) - this->Cell, this->In.NumberOfEntries);
+  }
+
+  /// No ray is in a triangle without area: points that coincide in the projection have signs with
+  /// which no ray passes their triangle (TieIsPositive). The weights are not numbers if the frame of
+  /// the ray is beyond the range of Real.
+  bool HasWeights() const
+  {
+    const V sum = this->WA + this->WB + this->WC;
+    return !Any(MaskFromBits(this->Running) & (sum <= V(Real(0))));
+  }
 
   static TETRALUX_INLINE void Replace(Corner<Real>& corner, Mask8 m, const Corner<Real>& p)
   {
@@ -215,7 +241,7 @@ private:
     return this->Buffer.Crossings + static_cast<std::int64_t>(lane) * this->Buffer.Capacity;
   }
 
-  /// Starts the next part of the rays that has anything in it, if there is one.
+  /// Starts the next part of the rays in which any ray meets the mesh, if there is one.
   void BeginPart()
   {
     for (; this->Part < this->Limits.Count; ++this->Part)
@@ -264,7 +290,7 @@ private:
     }
   }
 
-  /// The nearest crossing of a ray that was not walked from or to yet; -1 where there is none.
+  /// Takes a ray's nearest crossing that no walk began or ended at; -1 if there is none.
   std::int32_t TakeEntry(int lane)
   {
     Crossing* list = this->GetCrossings(lane);
@@ -299,6 +325,7 @@ private:
         lanes &= ~(1u << lane);
         continue;
       }
+      TETRALUX_CHECK(entryId < this->In.NumberOfEntries);
       const WalkEntry& entry = this->In.Entries[entryId];
       for (int k = 0; k < 3; ++k)
       {
@@ -337,7 +364,7 @@ private:
     this->Running &= ~(doneBits | outsideBits);
     std::int32_t exits[LaneCount];
     Store(exits, this->Cell);
-    // Lanes at rest go on from cell to cell without effect; what they load must exist.
+    // Lanes at rest go on from cell to cell without effect. What they load must exist.
     this->Cell = Select(outside, Int8(0), this->Cell);
     this->Point = Select(outside, Int8(0), this->Point);
     for (int lane = 0; lane < LaneCount; ++lane)

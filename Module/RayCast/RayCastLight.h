@@ -16,9 +16,9 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Light that is attenuated by what is in front of it, composited front to back. The opacity is what
-/// adds up, not the transmittance what is multiplied: segments too thin for 1 - opacity to differ
-/// from 1 in single precision still count, however many there are.
+/// Light composited front to back. It adds opacities rather than multiplying transmittances, so
+/// that segments count even if they are too thin for 1 - opacity to differ from 1 in single
+/// precision.
 struct Radiance
 {
   Float8 Red = 0.f, Green = 0.f, Blue = 0.f;
@@ -47,7 +47,7 @@ struct Radiance
   }
 };
 
-/// Light where the rays of a packet are, ray by ray: lights are many kinds of branches.
+/// The light where the rays of a packet are. Computed ray by ray, since lights are mostly branches.
 class LaneLights
 {
 public:
@@ -57,7 +57,7 @@ public:
   {
   }
 
-  /// scale and add: LightFactors of the rays that are valid, in their cells at distance z.
+  /// Returns LightFactors (scale, add) of the valid rays, in their cells at distance z.
   template <class V>
   TETRALUX_NOINLINE void Find(
     const KernelInput& in, Mask8 valid, Int8 cell, V z, Float8 (&scale)[3], Float8 (&add)[3]) const
@@ -104,7 +104,7 @@ private:
   Double8 Start; ///< distance of z = 0 along the rays
 };
 
-/// Radiance of what shines by itself: lights make no difference.
+/// Radiance that lights do not change.
 struct Unlit : Radiance
 {
   Unlit(const WorldRays&, Double8) {}
@@ -115,9 +115,9 @@ struct Unlit : Radiance
   }
 };
 
-/// Radiance of what lights shine on: those of the middle of what a ray meets of a cell, for all of
-/// it. The gradient is the same anyway, and so are the directions of distant lights and of one at the
-/// viewer. Nothing is clamped, so that what a segment adds stays linear in the light.
+/// Radiance under lights. A segment is lit as its middle is. The gradient is the same all along it,
+/// and so is the direction to a distant light or to one at the viewer. Nothing is clamped, so that
+/// what a segment adds is linear in the light.
 struct Lit : Radiance
 {
   LaneLights Lights;

@@ -19,8 +19,8 @@ namespace
 /// The most intervals that six cropping planes can leave of a ray.
 constexpr int MaximumIntervals = 4;
 
-/// Which part of each ray counts, by distance from the point nearest to the centre; several parts
-/// with cropping.
+/// The part of each ray that counts, or the parts if it is cropped. Distances are from the ray's
+/// point nearest to the centre of the mesh.
 struct Intervals
 {
   int Count;

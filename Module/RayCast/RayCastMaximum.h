@@ -44,6 +44,7 @@ public:
 
   TETRALUX_INLINE void AddCell(const KernelInput& in, Mask8 valid, Int8 cell, V z0, V)
   {
+    TETRALUX_CHECK(AreBelow(MaskFromBits(AllLanes), cell, in.NumberOfCells));
     Float8 scalar, red, green, blue;
     GatherRows(reinterpret_cast<const float*>(in.CellValues), cell, scalar, red, green, blue);
     this->Add(valid & (scalar == scalar), z0, ToPrecision<V>(scalar));

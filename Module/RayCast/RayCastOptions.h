@@ -30,16 +30,16 @@ enum class Reentry
 
 struct RayCastOptions
 {
-  /// Largest error of a colour channel or of the opacity that is aimed at, 0..1. Rays end early
-  /// where what is behind could not change a channel by half of it.
+  /// Largest error of a colour channel or of the opacity to aim at, 0..1. A ray ends early if what
+  /// is behind cannot change a channel by half of it.
   double MaximumError = 1e-4;
 
   Precision Arithmetic = Precision::Automatic;
 
-  /// Whether lights shine on OpticalModel::Isosurfaces, and on what emits and absorbs, where scalars
-  /// are at points: FindLight in SurfaceShading.h. A segment is lit as its middle is; the light of
-  /// surfaces is clamped to 0..1, that of volumes is not. Other models, and scalars at cells, shine by
-  /// themselves.
+  /// Whether lights shine (FindLight in SurfaceShading.h) on OpticalModel::Isosurfaces, and on
+  /// EmissionAbsorption if scalars are at points. A segment is lit as its middle is. The light of
+  /// surfaces is clamped to 0..1, that of volumes is not. Lights do not change other models, nor
+  /// volumes whose scalars are at cells.
   bool Shaded = false;
   bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
   std::vector<Light> Lights;
@@ -53,8 +53,8 @@ struct RayCastOptions
   /// differ by rounding. For tests of those kernels.
   bool PortableKernels = false;
 
-  /// Called every few milliseconds, by the calling thread only, with the share that is done, 0..1;
-  /// returns false to abort. The last call is with 1, when nothing is left to abort. May be empty.
+  /// Called every few milliseconds, by the calling thread only, with the share that is done, 0..1.
+  /// Returns false to abort. The last call is with 1, when nothing is left to abort. May be empty.
   std::function<bool(double)> Progress;
 };
 

@@ -18,7 +18,7 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// A part of a cell on which attenuation and colour are linear.
+/// Part of a cell on which attenuation and colour are linear.
 struct Piece
 {
   Float8 D0, D1; ///< attenuation at its ends times its length, at most LargestSingleDepth
@@ -35,9 +35,9 @@ struct Piece
   }
 };
 
-/// Cuts a cell whose scalar runs linearly from s0 at z0 to s1 at z1 at the nodes of the transfer
-/// function: add(contributes, z, piece) for each piece in which any ray is attenuated. interval:
-/// where in the function each ray's last scalar was.
+/// Cuts a cell at the nodes of the transfer function. The scalar runs linearly from s0 at z0 to s1
+/// at z1. Calls add(contributes, z, piece) for each piece that attenuates any ray. interval: the
+/// interval of each ray's last scalar; updated.
 template <class Real, class V, class AddT>
 TETRALUX_INLINE void CutAtNodes(
   const KernelInput& in, Int8& interval, Mask8 valid, V z0, V s0, V z1, V s1, AddT add)
@@ -47,6 +47,7 @@ TETRALUX_INLINE void CutAtNodes(
   {
     // Neighbouring rays are mostly in the same interval: one load for all of them.
     const unsigned bits = Bits(valid);
+    TETRALUX_CHECK(AreBelow(valid, interval, in.NumberOfIntervals));
     std::int32_t indices[LaneCount];
     Store(indices, interval);
     int leader = 0;
@@ -85,9 +86,9 @@ TETRALUX_INLINE void CutAtNodes(
     const V head = ToPrecision<V>(hi);
     const V origin = ToPrecision<V>(reference);
 
-    // The interval left from the last cell is mostly still the right one, else one of the next. A
-    // constant scalar at a node belongs to the interval above it, whatever was seen before; compared
-    // as the node was rounded.
+    // The interval of the last cell is mostly still right, or a neighbour is. A constant scalar at
+    // a node belongs to the interval above it, whichever came before. Scalars are compared in
+    // single precision, to which the nodes were rounded.
     const Float8 f0 = ToFloat(s0);
     const Float8 f1 = ToFloat(s1);
     const Mask8 below = valid & (f0 < lo);
@@ -140,10 +141,11 @@ TETRALUX_INLINE void CutAtNodes(
   }
 }
 
-/// Attenuation over the length of a cell of constant scalar, and its colour.
+/// Returns the optical depth of a cell of constant scalar, and its colour.
 template <class V>
 TETRALUX_INLINE Float8 LoadCell(const KernelInput& in, V z0, V z1, Int8 cell, Float8 (&color)[3])
 {
+  TETRALUX_CHECK(AreBelow(MaskFromBits(AllLanes), cell, in.NumberOfCells));
   Float8 attenuation;
   GatherRows(
     reinterpret_cast<const float*>(in.CellValues), cell, attenuation, color[0], color[1], color[2]);

@@ -2,8 +2,8 @@
 #ifndef tetralux_RayCastTable_h
 #define tetralux_RayCastTable_h
 
-// The density-emitter model by lookups in a pre-integration table (Weiler et al. 2003, section 3.3),
-// interpolated as PreIntegrationTable::Lookup defines it.
+// The density-emitter model by lookups in a pre-integration table (Weiler et al. 2003, section
+// 3.3), interpolated as PreIntegrationTable::Lookup defines.
 
 #include "RayCast/RayCastLight.h"
 
@@ -16,7 +16,7 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Where lookups fall along one axis of a table: between a texel and the next one.
+/// Places of lookups along an axis of a table, each between a texel and the next one.
 struct TexelPlace
 {
   Int8 Index;
@@ -24,7 +24,7 @@ struct TexelPlace
 
   TETRALUX_INLINE TexelPlace(Float8 coordinate, int size)
   {
-    // Rounded to the texel below, or to either where it is on one.
+    // Rounds to the texel below, or to either neighbour if the place is on a texel.
     const Int8 below = RoundToInt(coordinate - Float8(0.5f));
     const Int8 last = size - 2;
     this->Index = Select(below > last, last, below);
@@ -32,7 +32,7 @@ struct TexelPlace
   }
 };
 
-/// Scalars at points; in a cell of constant scalar the closed form costs less than any lookup.
+/// For scalars at points. In a cell of constant scalar the closed form costs less than a lookup.
 template <class Real, class RadianceT>
 class TableLookup : public GatheredModel<Real, RadianceT, TableLookup<Real, RadianceT>>
 {
@@ -53,6 +53,10 @@ public:
     const TexelPlace length(
       GetLengthCoordinate(table, Keep(valid, ToFloat(z1 - z0))), table.LengthSize);
 
+    // Of all lanes, since all are loaded.
+    TETRALUX_CHECK(AreBelow(MaskFromBits(AllLanes), front.Index, table.ScalarSize - 1) &&
+      AreBelow(MaskFromBits(AllLanes), back.Index, table.ScalarSize - 1) &&
+      AreBelow(MaskFromBits(AllLanes), length.Index, table.LengthSize - 1));
     const Int8 size = table.ScalarSize;
     std::array<Float8, 4> slices[2];
     for (int k = 0; k < 2; ++k)
@@ -70,8 +74,8 @@ public:
   }
 
 private:
-  /// Coordinates along the scalars; remembers the interval of each ray's last scalar, which the next
-  /// one is mostly in.
+  /// Returns coordinates along the scalars. Keeps each ray's interval, since the next scalar is
+  /// mostly in the same one.
   TETRALUX_INLINE Float8 GetCoordinate(const KernelTable& table, Mask8 valid, Float8 x)
   {
     const auto* rows = reinterpret_cast<const float*>(table.Axis);
@@ -88,6 +92,7 @@ private:
       const Int8 last = table.AxisSize - 1;
       for (;;)
       {
+        TETRALUX_CHECK(AreBelow(MaskFromBits(AllLanes), this->Interval, table.AxisSize));
         GatherRows(rows, this->Interval, lo, hi, coordinate, slope);
         const Mask8 up = valid & (hi <= x) & (last > this->Interval);
         const Mask8 down = valid & (x < lo) & (this->Interval > Int8(0));

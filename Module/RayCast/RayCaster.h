@@ -43,11 +43,13 @@ struct RayCastStatistics
 /// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of rays,
 /// tiles of the image over OpenMP threads. The picture does not depend on the number of threads.
 ///
-/// Casts all rays of the grid. Throws std::invalid_argument where the scene is not complete
-/// (VolumeScene::CheckComplete). A pre-integration table is read in single precision, whatever it is
-/// stored in. colors: four floats a pixel, premultiplied red, green, blue and opacity; depths: one
-/// float a pixel, the distance along the ray to the first contribution in world units, -1 where there
-/// is none; both lower row first. After an abort they are incomplete.
+/// Casts all rays of the grid. Throws std::invalid_argument if the scene is not complete
+/// (VolumeScene::CheckComplete). Reads a pre-integration table in single precision, whatever its
+/// format.
+///
+/// colors: four floats a pixel, premultiplied red, green, blue and opacity. depths: one float a
+/// pixel, the distance along the ray to the first contribution, world units, or -1. Both have the
+/// lowest row first, and are incomplete after an abort.
 TETRALUXCORE_EXPORT RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid,
   const RayLimits& limits, const RayCastOptions& options, Span<float> colors, Span<float> depths);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Visibility/VisibilityOrder.h"
 
+#include "Base/Check.h"
 #include "Base/CountingSort.h"
 #include "Base/RadixSort.h"
 #include "Visibility/VisibilityArrows.h"
@@ -98,6 +99,7 @@ public:
   {
     if (cell < this->NumberOfCells && (this->Drawn == nullptr || this->Drawn[cell] != 0))
     {
+      TETRALUX_CHECK(0 <= this->Next && this->Next < this->NumberOfCells);
       this->Order[this->Next] = cell;
       this->Next += this->Step;
     }
@@ -122,9 +124,9 @@ public:
   template <class Select>
   void SortByDistance(const VisibilityView& view, const Select& select);
 
-  /// Hands the cells to write(cell), each behind all that it hides: roots first, then
-  /// from the others those that are left. False, and some cells in no particular order,
-  /// where there is a cycle.
+  /// Hands the cells to write(cell), each behind all that it hides: roots first, then from the
+  /// others those that are left. False, and some cells in no particular order, where there is a
+  /// cycle.
   bool SortByFaces(Span<const KeyedItem> roots, CellWriter write);
 
   const WalkMesh& Mesh;
@@ -258,6 +260,7 @@ bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, CellWr
         if ((state >> face & 1) != 0)
         {
           const std::int32_t behind = facesOfCell[face].Cell;
+          TETRALUX_CHECK(0 <= behind && behind < numberOfCells);
           const unsigned stateBehind = states[behind];
           if ((stateBehind & VisitedCell) == 0)
           {
@@ -277,6 +280,7 @@ bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, CellWr
         states[cell] = static_cast<std::uint8_t>(state | PlacedCell);
         write(cell);
       }
+      TETRALUX_CHECK(depth <= numberOfCells);
     }
   }
   return !cycle;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Walk/WalkTables.h"
 
+#include "Base/Check.h"
+
 #include <algorithm>
 
 namespace tetralux
@@ -79,6 +81,8 @@ WalkTables MakeWalkTables(std::vector<WalkFace> faces, Span<const std::int32_t> 
         continue;
       }
       const std::int32_t* corners = &cells[4 * cell];
+      TETRALUX_CHECK(0 <= corners[0] && corners[0] < corners[1] && corners[1] < corners[2] &&
+        corners[2] < corners[3] && corners[3] < static_cast<std::int64_t>(points.size()));
       for (int face = 0; face < 4; ++face)
       {
         if (!isBoundary(cell, face))
@@ -95,6 +99,7 @@ WalkTables MakeWalkTables(std::vector<WalkFace> faces, Span<const std::int32_t> 
         ++entryId;
       }
     }
+    TETRALUX_CHECK(entryId == first[chunk + 1]);
   }
   tables.Bvh = BuildBoundaryBvh(GetCoordinates(points), triangles, BoxMargin);
   return tables;

@@ -106,7 +106,7 @@ void SegmentTable::Build(const TransferFunction& function, const PreIntegrationS
   {
     return s.ScalarSize == settings.ScalarSize && s.LengthSize == settings.LengthSize &&
       s.Scale == settings.Scale && s.StepsPerDoubling == settings.StepsPerDoubling &&
-      s.Axis == settings.Axis && s.Method == settings.Method && s.Format == settings.Format &&
+      s.Axis == settings.Axis && s.Format == settings.Format &&
       std::equal(s.ScalarRange, s.ScalarRange + 2, settings.ScalarRange) &&
       s.LongestSegment == settings.LongestSegment;
   };

@@ -4,6 +4,7 @@
 // computing each entry by itself and beside writing the memory; how wrong they are for each byte,
 // by axis, scale and format; and what a lookup costs beside the closed form.
 
+#include "IncrementalTable.h"
 #include "Integral/RayIntegral.h"
 #include "Integral/SegmentIntegral.h"
 #include "ModelRays.h"
@@ -312,15 +313,17 @@ void CompareTimes()
         vtkTime, "", "",
         GetEntryError(
           function.Nodes, [&](int f, int b, int r, float* rgba) { vtk.Get(f, b, r, rgba); }));
-      for (const PreIntegrationMethod method :
-        { PreIntegrationMethod::ClosedForm, PreIntegrationMethod::Incremental })
+      for (const bool increments : { false, true })
       {
         PreIntegrationSettings settings;
         settings.Axis = ScalarAxis::Uniform;
-        settings.Method = method;
         settings.LongestSegment = Longest;
         PreIntegrationTable table;
-        const auto build = [&]() { BuildPreIntegrationTable(function.Nodes, settings, table); };
+        const auto build = [&]()
+        {
+          (increments ? BuildIncrementalTable : BuildPreIntegrationTable)(
+            function.Nodes, settings, table);
+        };
         const double newTime = Time(5,
           [&]()
           {
@@ -328,8 +331,7 @@ void CompareTimes()
             build();
           });
         std::printf("%-16s %-28s %9.1f %9.1f %9.1f %12.1e\n", function.Name,
-          method == PreIntegrationMethod::ClosedForm ? "closed form" : "increments", newTime,
-          Time(5, build), vtkTime / newTime,
+          increments ? "increments" : "closed form", newTime, Time(5, build), vtkTime / newTime,
           GetEntryError(function.Nodes,
             [&](int f, int b, int r, float* rgba) { table.GetTexel(f, b, r, rgba); }));
       }

@@ -3,6 +3,7 @@
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "PreIntegration/PreIntegrationError.h"
 #include "PreIntegration/PreIntegrationTable.h"
+#include "PreIntegration/TableChoice.h"
 #include "PreIntegration/TexelFormats.h"
 #include "ReferenceIntegral.h"
 #include "SampleFunctions.h"
@@ -535,48 +536,6 @@ TEST(PreIntegrationTable, PicturesStayBelowTheirBound)
 }
 
 // ------------------------------------------------------------------------------------------------
-// Increments
-
-TEST(PreIntegrationTable, IncrementsAreRightWithinTheirBound)
-{
-  std::mt19937_64 generator(11);
-  for (int trial = 0; trial < 8; ++trial)
-  {
-    const TransferFunction function = MakeRandomFunction(generator, 4, 2, trial % 4 == 3);
-    PreIntegrationSettings settings =
-      trial % 2 == 0 ? MakeSettings(48, 48) : MakeLogarithmic(48, 33, 4);
-    settings.Axis = trial % 4 < 2 ? ScalarAxis::Uniform : ScalarAxis::Nodes;
-    settings.Method = PreIntegrationMethod::Incremental;
-    const PreIntegrationTable table = Build(function, settings);
-    EXPECT_TRUE(IsSound(table));
-    const double error = GetTexelError(function, table, 2000);
-    EXPECT_LE(error, table.Bound.Segment + table.Bound.Rounding);
-    // Without steps the splits' errors hardly add up.
-    EXPECT_LE(error, trial % 4 == 3 ? 0.5 : 0.02);
-    // On finer axes they fall.
-    settings.ScalarSize = 256;
-    EXPECT_LT(
-      GetTexelError(function, Build(function, settings), 2000), trial % 4 == 3 ? 1 : 0.8 * error);
-  }
-}
-
-TEST(PreIntegrationTable, IncrementsOfALinearFunctionAreNearlyExact)
-{
-  // Nothing bends: interpolation at the split is wrong only by what the exponential bends, some
-  // (change of the optical depth from texel to texel)^2 / 8 at each of 63 splits.
-  const Value a{ { 0.2, 0.4, 0.9 }, 0.5 }, b{ { 0.8, 0.1, 0.3 }, 1.5 };
-  const TransferFunction function{ { { 0, a, a }, { 1, b, b } } };
-  for (const TexelFormat format : Formats)
-  {
-    PreIntegrationSettings settings = MakeSettings(128, 64);
-    settings.Method = PreIntegrationMethod::Incremental;
-    settings.Format = format;
-    const PreIntegrationTable table = Build(function, settings);
-    EXPECT_LE(GetTexelError(function, table, 2000), 4e-4 + table.Bound.Rounding);
-  }
-}
-
-// ------------------------------------------------------------------------------------------------
 // Extremes
 
 TEST(PreIntegrationTable, ExtremesAreSound)
@@ -623,45 +582,36 @@ TEST(PreIntegrationTable, ExtremesAreSound)
     {
       for (const ScalarAxis axis : { ScalarAxis::Uniform, ScalarAxis::Nodes })
       {
-        for (const PreIntegrationMethod method :
-          { PreIntegrationMethod::ClosedForm, PreIntegrationMethod::Incremental })
+        const testing::ScopedTrace trace(__FILE__, __LINE__,
+          std::string(c.Name) + (logarithmic ? ", logarithmic" : ", linear") +
+            (axis == ScalarAxis::Nodes ? ", nodes" : ", uniform"));
+        // 2^30: lengths with a ratio of 1e9.
+        PreIntegrationSettings settings =
+          logarithmic ? MakeLogarithmic(17, 32, 1) : MakeSettings(17, 70);
+        settings.Axis = axis;
+        settings.ScalarRange[0] = c.Lo;
+        settings.ScalarRange[1] = c.Hi;
+        settings.LongestSegment = c.Longest;
+        const PreIntegrationTable table = Build(c.Function, settings);
+        EXPECT_TRUE(IsSound(table));
+        EXPECT_TRUE(std::isfinite(table.Bound.Segment) && table.Bound.Segment >= 0);
+        EXPECT_TRUE(std::isfinite(table.Bound.Rounding) && table.Bound.Rounding > 0);
+        EXPECT_LE(GetTexelError(c.Function, table, 300), table.Bound.Rounding);
+        std::uniform_real_distribution<double> unit(0, 1);
+        for (int i = 0; i < 100; ++i)
         {
-          const testing::ScopedTrace trace(__FILE__, __LINE__,
-            std::string(c.Name) + (logarithmic ? ", logarithmic" : ", linear") +
-              (axis == ScalarAxis::Nodes ? ", nodes" : ", uniform") +
-              (method == PreIntegrationMethod::ClosedForm ? ", closed form" : ", increments"));
-          // 2^30: lengths with a ratio of 1e9.
-          PreIntegrationSettings settings =
-            logarithmic ? MakeLogarithmic(17, 32, 1) : MakeSettings(17, 70);
-          settings.Axis = axis;
-          settings.Method = method;
-          settings.ScalarRange[0] = c.Lo;
-          settings.ScalarRange[1] = c.Hi;
-          settings.LongestSegment = c.Longest;
-          const PreIntegrationTable table = Build(c.Function, settings);
-          EXPECT_TRUE(IsSound(table));
-          EXPECT_TRUE(std::isfinite(table.Bound.Segment) && table.Bound.Segment >= 0);
-          EXPECT_TRUE(std::isfinite(table.Bound.Rounding) && table.Bound.Rounding > 0);
-          if (method == PreIntegrationMethod::ClosedForm)
-          {
-            EXPECT_LE(GetTexelError(c.Function, table, 300), table.Bound.Rounding);
-          }
-          std::uniform_real_distribution<double> unit(0, 1);
-          for (int i = 0; i < 100; ++i)
-          {
-            const auto scalar = [&]() { return c.Lo + unit(generator) * (c.Hi - c.Lo); };
-            float rgba[4];
-            table.Lookup(scalar(), scalar(), c.Longest * std::pow(10, -9 * unit(generator)), rgba);
-            EXPECT_TRUE(IsSound(rgba));
-          }
-          // A constant field is looked up exactly.
-          if (c.Lo == c.Hi && method == PreIntegrationMethod::ClosedForm)
-          {
-            float rgba[4];
-            table.Lookup(c.Lo, c.Lo, c.Longest, rgba);
-            EXPECT_LE(GetDifference(IntegrateReference(c.Function, c.Lo, c.Lo, c.Longest), rgba),
-              table.Bound.Rounding);
-          }
+          const auto scalar = [&]() { return c.Lo + unit(generator) * (c.Hi - c.Lo); };
+          float rgba[4];
+          table.Lookup(scalar(), scalar(), c.Longest * std::pow(10, -9 * unit(generator)), rgba);
+          EXPECT_TRUE(IsSound(rgba));
+        }
+        // A constant field is looked up exactly.
+        if (c.Lo == c.Hi)
+        {
+          float rgba[4];
+          table.Lookup(c.Lo, c.Lo, c.Longest, rgba);
+          EXPECT_LE(GetDifference(IntegrateReference(c.Function, c.Lo, c.Lo, c.Longest), rgba),
+            table.Bound.Rounding);
         }
       }
     }
@@ -695,8 +645,6 @@ TEST(PreIntegrationTable, UpdatesEqualRebuilds)
       trial % 3 == 0 ? MakeLogarithmic(40, 20, 2) : MakeSettings(40, 64);
     settings.Axis = ScalarAxis::Uniform;
     settings.Format = Formats[trial % 4];
-    settings.Method =
-      trial % 5 == 4 ? PreIntegrationMethod::Incremental : PreIntegrationMethod::ClosedForm;
     TransferFunction before = MakeRandomFunction(generator, 9, 1, trial % 2 == 0);
     before.Nodes[0].Left.Attenuation = before.Nodes[0].Right.Attenuation = 1.1;
     PreIntegrationTable table = Build(before, settings);
@@ -710,15 +658,12 @@ TEST(PreIntegrationTable, UpdatesEqualRebuilds)
     const std::int64_t all = std::int64_t{ 40 } * 40 * settings.LengthSize;
     EXPECT_GT(rebuilt, 0);
     EXPECT_LE(rebuilt, all);
-    if (settings.Method == PreIntegrationMethod::ClosedForm && changed == 8)
+    if (changed == 8)
     {
       EXPECT_LT(rebuilt, all);
     }
     // Nothing changed, nothing to do.
-    EXPECT_EQ(UpdatePreIntegrationTable(after, after, table),
-      settings.Method == PreIntegrationMethod::ClosedForm || settings.Format == TexelFormat::Float
-        ? 0
-        : all);
+    EXPECT_EQ(UpdatePreIntegrationTable(after, after, table), 0);
   }
 }
 
@@ -769,21 +714,17 @@ TEST(PreIntegrationTable, ThreadsDoNotMatter)
 {
   std::mt19937_64 generator(14);
   const TransferFunction function = MakeRandomFunction(generator, 6, 10, true);
-  for (const PreIntegrationMethod method :
-    { PreIntegrationMethod::ClosedForm, PreIntegrationMethod::Incremental })
+  for (const PreIntegrationSettings& settings :
+    { MakeSettings(33, 100), MakeLogarithmic(33, 30, 4) })
   {
-    for (PreIntegrationSettings settings : { MakeSettings(33, 100), MakeLogarithmic(33, 30, 4) })
-    {
-      settings.Method = method;
-      const PreIntegrationTable expected = Build(function, settings);
-      ForEachThreadCount(
-        [&]()
-        {
-          const PreIntegrationTable table = Build(function, settings);
-          EXPECT_TRUE(IsIdentical(expected, table));
-          EXPECT_EQ(expected.Bound.Segment, table.Bound.Segment);
-        });
-    }
+    const PreIntegrationTable expected = Build(function, settings);
+    ForEachThreadCount(
+      [&]()
+      {
+        const PreIntegrationTable table = Build(function, settings);
+        EXPECT_TRUE(IsIdentical(expected, table));
+        EXPECT_EQ(expected.Bound.Segment, table.Bound.Segment);
+      });
   }
 }
 

@@ -39,8 +39,8 @@ constexpr double ErrorGoal = 1e-4;
 /// mean that they compute something else.
 constexpr double KernelDifference = 1e-5;
 
-/// Pixels that a silhouette grazes are no more than this share of those covered, unless a
-/// scene puts them there.
+/// Pixels that a silhouette grazes are no more than this share of those covered, unless a scene
+/// puts them there.
 constexpr double GrazedShare = 0.01;
 
 /// Largest error of a depth, relative to the largest depth: coordinates are rounded to 2^-24 of the

@@ -54,9 +54,8 @@ class Reentries
 {
 };
 
-TEST_P(Reentries, SeeTheSame)
+void ExpectTheSame(const RayScene& scene)
 {
-  const RayScene scene = MakeScene(GetParam().first, GetParam().second);
   VolumeScene volume = scene.MakeVolumeScene();
   for (const Precision precision : { Precision::Single, Precision::Double })
   {
@@ -80,6 +79,21 @@ TEST_P(Reentries, SeeTheSame)
     EXPECT_LE(imaginary.Statistics.Paths, imaginary.Statistics.Rays);
     EXPECT_GT(imaginary.Statistics.Segments, boundary.Statistics.Segments);
   }
+}
+
+TEST_P(Reentries, SeeTheSame) { ExpectTheSame(MakeScene(GetParam().first, GetParam().second)); }
+
+TEST_P(Reentries, SeeTheSameOfScalarsAtCells)
+{
+  RayScene scene = MakeScene(GetParam().first, GetParam().second);
+  std::vector<double> scalars;
+  for (std::size_t cell = 0; cell < scene.Mesh.GetNumberOfCells(); ++cell)
+  {
+    scalars.push_back(scene.Scalars[scene.Mesh.Cells[4 * cell]]);
+  }
+  scene.Scalars = scalars;
+  scene.CellScalars = true;
+  ExpectTheSame(scene);
 }
 
 INSTANTIATE_TEST_SUITE_P(RayCaster, Reentries,
