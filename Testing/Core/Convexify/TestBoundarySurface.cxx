@@ -201,8 +201,9 @@ TEST(ConvexSurface, KnownSurfaces)
   EXPECT_FALSE(
     tetralux::IsConvexSurface(schoenhardt.GetPoints(), pockets::Reverse(schoenhardt.Triangles)));
 
-  // Two cells apart: each is convex, but not both together.
+  // Two cells apart, also with shadows apart: each is convex, but not both together.
   EXPECT_FALSE(IsConvex(pockets::MakeSurface(MakePair(3, 0, 0))));
+  EXPECT_FALSE(IsConvex(pockets::MakeSurface(MakePair(3, 5, 7))));
 }
 
 TEST(ConvexSurface, CoplanarTriangles)
