@@ -201,8 +201,9 @@ TEST(ConvexSurface, KnownSurfaces)
   EXPECT_FALSE(
     tetralux::IsConvexSurface(schoenhardt.GetPoints(), pockets::Reverse(schoenhardt.Triangles)));
 
-  // Two cells apart: each is convex, but not both together.
+  // Two cells apart, also with shadows apart: each is convex, but not both together.
   EXPECT_FALSE(IsConvex(pockets::MakeSurface(MakePair(3, 0, 0))));
+  EXPECT_FALSE(IsConvex(pockets::MakeSurface(MakePair(3, 5, 7))));
 }
 
 TEST(ConvexSurface, CoplanarTriangles)
@@ -229,10 +230,11 @@ TEST(ConvexSurface, CoplanarTriangles)
 
 TEST(SelfIntersection, OfTwoCells)
 {
-  // Apart, with a face in a face, deep in each other, and touching in a point that is not shared.
+  // Apart; with a face in a face, deep in each other, touching in a point that is not shared, and at
+  // the same place.
   EXPECT_EQ(tetralux::FindSelfIntersection(pockets::MakeSurface(MakePair(2, 0, 0))).Reason, "");
   const std::array<double, 3> shifts[] = { { 0.25, 0.25, 0.25 }, { 0.25, 0, 0 }, { 0.5, 0.25, 0 },
-    { 0, 0, 0.9 }, { 0.25, 0.25, 0.5 } };
+    { 0, 0, 0.9 }, { 0.25, 0.25, 0.5 }, { 0, 0, 0 } };
   for (const auto& [x, y, z] : shifts)
   {
     const Obstacle obstacle =

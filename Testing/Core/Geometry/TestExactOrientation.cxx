@@ -18,7 +18,8 @@ namespace
 using Vector = std::array<double, 3>;
 using Corners = std::array<Vector, 4>;
 
-constexpr double Scales[] = { 1e-120, 1e-30, 1e-7, 1, 1e7, 1e30, 1e100 };
+/// At the smallest ones volumes are denormal numbers, or none; at the largest one they are infinite.
+constexpr double Scales[] = { 1e-120, 1e-104, 1e-102, 1e-30, 1e-7, 1, 1e7, 1e30, 1e105 };
 
 /// Draws four points that are nearly in one plane, or in it: the last one is a combination of the
 /// others, rounded, then moved by up to two roundings in each coordinate.
@@ -184,7 +185,8 @@ TEST(ExactOrientation, DirectionTurnIsThatOfAFarViewer)
 TEST(ExactOrientation, ProjectedTurnsAreThoseOfRationals)
 {
   int counts[3] = { 0, 0, 0 };
-  NearlyFlat draws[] = { { 1, 0 }, { 1e-30, 0 }, { 1e30, 0 }, { 1, 1e7 }, { 1e-160, 0 } };
+  NearlyFlat draws[] = { { 1, 0 }, { 1e-30, 0 }, { 1e30, 0 }, { 1, 1e7 }, { 1e-160, 0 },
+    { 1e-155, 0 }, { 1e155, 0 } };
   std::mt19937_64 random(2);
   for (NearlyFlat& draw : draws)
   {
@@ -228,4 +230,13 @@ TEST(ExactOrientation, RepeatedIdsHaveNoVolume)
   EXPECT_EQ(points.OrientProjected(0, 1, 0, 2), 0);
   EXPECT_EQ(points.OrientProjected(0, 1, 2, 2), 1);
   EXPECT_EQ(points.FindProjection(0, 1, 2), 2);
+}
+
+TEST(ExactOrientation, TinyTrianglesHaveAProjection)
+{
+  // All components of the normal underflow, so that only exact signs tell which one is not 0.
+  const std::vector<double> coordinates = { 0, 0, 0, 1e-200, 0, 0, 0, 1e-200, 0, 2e-200, 0, 0 };
+  const tetralux::ExactPoints points(coordinates.data());
+  EXPECT_EQ(points.FindProjection(0, 1, 2), 2);
+  EXPECT_EQ(points.FindProjection(0, 1, 3), -1);
 }
