@@ -29,9 +29,10 @@
  * not taken for the outside, but give no triangles. Flat and inverted cells are kept, since they
  * connect their neighbours, and counted.
  *
- * Other three-dimensional cells are refused, with an error: vtkTetrahedralizeCells makes tetrahedra of
- * them. So are more than 2^31 - 1 points or 2^29 - 1 cells, and blocks of a composite that are data
- * sets but no unstructured grids. Linear time; the output does not depend on the number of threads.
+ * Other three-dimensional cells are refused, with an error: vtkTetrahedralizeCells makes tetrahedra
+ * of them. So are more than 2^31 - 1 points or 2^29 - 1 cells, and blocks of a composite that are
+ * data sets but no unstructured grids. Linear time; the output does not depend on the number of
+ * threads.
  *
  * @sa vtkTetrahedralizeCells, vtkConvexifyTetrahedra
  */

@@ -105,7 +105,8 @@ Comparison CompareOpacityVariation(const BenchScene& ball)
 
 Comparison CompareTable(const BenchScene& ball)
 {
-  return { "3-D table", { "the integral in closed form", ball, { "Integration=closed-form" }, {} }, {},
+  return { "3-D table", { "the integral in closed form", ball, { "Integration=closed-form" }, {} },
+    {},
     { "from a table of 128 x 128 x 16", ball,
       { "Integration=table", "TableScalarSize=128", "TableLengthSize=16" }, {} } };
 }
@@ -248,8 +249,8 @@ Comparison CompareCellData(int cells)
 
 Comparison ComparePrecision(const BenchScene& ball)
 {
-  return { "double precision", { "geometry in single precision", ball, { "Precision=single" }, {} }, {},
-    { "in double precision", ball, { "Precision=double" }, {} } };
+  return { "double precision", { "geometry in single precision", ball, { "Precision=single" }, {} },
+    {}, { "in double precision", ball, { "Precision=double" }, {} } };
 }
 
 std::unique_ptr<BenchView> MakeView(const Variant& variant, const SceneOptions& view)

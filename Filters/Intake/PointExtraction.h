@@ -20,7 +20,8 @@ TETRALUXFILTERS_EXPORT std::vector<double> ExtractPoints(
   vtkDataObject* input, const TetrahedralMesh& mesh);
 
 /// Whether the tetrahedra of an input depend on where its points are: it has polyhedra, prisms of
-/// more than three sides or convex point sets. Those of all other cells follow from point ids alone.
+/// more than three sides or convex point sets. Those of all other cells follow from point ids
+/// alone.
 TETRALUXFILTERS_EXPORT bool DependsOnPoints(const TetrahedraIntakeReport& report);
 
 } // namespace tetralux

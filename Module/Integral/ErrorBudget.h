@@ -35,8 +35,8 @@ struct ErrorBudget
 };
 
 /// Functions take an eighth, geometry a quarter and rounding an eighth. Of the other half a table
-/// and a buffer take a quarter each, and ending rays early takes what they leave. What nobody spends
-/// is not given away, so that a table's share does not depend on what else is chosen.
+/// and a buffer take a quarter each, and ending rays early takes what they leave. What nobody
+/// spends is not given away, so that a table's share does not depend on what else is chosen.
 inline ErrorBudget MakeErrorBudget(double maximumError, const ErrorSpending& spending)
 {
   ErrorBudget budget;

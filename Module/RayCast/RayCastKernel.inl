@@ -206,8 +206,8 @@ private:
   }
 
   /// No ray is in a triangle without area: points that coincide in the projection have signs with
-  /// which no ray passes their triangle (TieIsPositive). The weights are not numbers if the frame of
-  /// the ray is beyond the range of Real.
+  /// which no ray passes their triangle (TieIsPositive). The weights are not numbers if the frame
+  /// of the ray is beyond the range of Real.
   bool HasWeights() const
   {
     const V sum = this->WA + this->WB + this->WC;

@@ -92,8 +92,9 @@ const WalkTables* ChooseTables(
   return &mesh.GetTables();
 }
 
-/// Chooses the integrator, precision and walk of a picture, and prepares what they need of the scene;
-/// no Tables after an abort. Tells statistics what was chosen, and the errors that follow from it.
+/// Chooses the integrator, precision and walk of a picture, and prepares what they need of the
+/// scene; no Tables after an abort. Tells statistics what was chosen, and the errors that follow
+/// from it.
 CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOptions& options,
   RayCastStatistics& statistics)
 {

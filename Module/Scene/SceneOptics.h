@@ -25,8 +25,8 @@ public:
   void SetModel(OpticalModel model) { this->Model = model; }
   OpticalModel GetModel() const { return this->Model; }
 
-  /// Replaces the function, and removes the table. Throws std::invalid_argument as MakeIntervalTable
-  /// does. Isosurfaces need no function.
+  /// Replaces the function, and removes the table. Throws std::invalid_argument as
+  /// MakeIntervalTable does. Isosurfaces need no function.
   void SetTransferFunction(const TransferFunction& function);
   const TransferFunction& GetTransferFunction() const { return this->Function; }
   const IntervalTable& GetIntervalTable() const { return this->Intervals; }

@@ -22,8 +22,8 @@ constexpr double MinimumTransparentShare = 0.1;
 /// and makes more boundary.
 constexpr double EntryCost = 4;
 
-/// World radii of meshes for which single precision does: distances inside keep all their digits, as
-/// do their products with attenuations that make them visible.
+/// World radii of meshes for which single precision does: distances inside keep all their digits,
+/// as do their products with attenuations that make them visible.
 constexpr double SmallestSingleRadius = 1e-30;
 constexpr double LargestSingleRadius = 1e30;
 

@@ -14,8 +14,8 @@ class vtkRenderer;
 namespace tetralux
 {
 
-/// Where the rays of a camera come from, in homogeneous coordinates of the world: the last one is 1,
-/// or 0 in a parallel projection, where the others point against the rays. Throws
+/// Where the rays of a camera come from, in homogeneous coordinates of the world: the last one is
+/// 1, or 0 in a parallel projection, where the others point against the rays. Throws
 /// std::invalid_argument, with one line, where the camera's matrices have no inverse.
 std::array<double, 4> FindEye(vtkCamera* camera);
 
@@ -52,8 +52,8 @@ public:
   /// value.
   double GetDistance(int i, int j, double depth) const;
 
-  /// What pixels show, as homogeneous world coordinates relative to the camera's position: ray (i, j)
-  /// at depth d is at Farthest + i FarthestStepX + j FarthestStepY + (1 - d) Nearer.
+  /// What pixels show, as homogeneous world coordinates relative to the camera's position: ray (i,
+  /// j) at depth d is at Farthest + i FarthestStepX + j FarthestStepY + (1 - d) Nearer.
   struct DepthPlaces
   {
     double Farthest[4], FarthestStepX[4], FarthestStepY[4], Nearer[4];

@@ -28,9 +28,9 @@ public:
   ImageCompositor(const ImageCompositor&) = delete;
   ImageCompositor& operator=(const ImageCompositor&) = delete;
 
-  /// A premultiplied picture, stretched over the rectangle with linear interpolation where the sizes
-  /// differ, into the frame buffer that is bound for drawing. Leaves OpenGL's state as it was. Throws
-  /// std::runtime_error, with one line, where there is no shader program or no texture.
+  /// A premultiplied picture, stretched over the rectangle with linear interpolation where the
+  /// sizes differ, into the frame buffer that is bound for drawing. Leaves OpenGL's state as it
+  /// was. Throws std::runtime_error, with one line, where there is no shader program or no texture.
   ///@{
   /// colors: width x height x 4 floats, lower row first.
   void Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,

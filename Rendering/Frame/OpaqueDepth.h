@@ -17,8 +17,8 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// The depth buffer of the opaque geometry that was drawn before, as a texture. Belongs to one window's
-/// context, the last one.
+/// The depth buffer of the opaque geometry that was drawn before, as a texture. Belongs to one
+/// window's context, the last one.
 class TETRALUXRENDERING_EXPORT OpaqueDepth
 {
 public:
@@ -27,8 +27,8 @@ public:
   OpaqueDepth(const OpaqueDepth&) = delete;
   OpaqueDepth& operator=(const OpaqueDepth&) = delete;
 
-  /// Copies a rectangle of the depth buffer that is bound for drawing; of a multisampled one, one of
-  /// the samples of each pixel, as resolving it does. Leaves OpenGL's state as it was. Throws
+  /// Copies a rectangle of the depth buffer that is bound for drawing; of a multisampled one, one
+  /// of the samples of each pixel, as resolving it does. Leaves OpenGL's state as it was. Throws
   /// std::runtime_error, with one line, where there is none or it can't be copied.
   void Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle);
 

@@ -12,8 +12,9 @@ class vtkVolumeProperty;
 namespace tetralux
 {
 
-/// The lights of a renderer that are switched on, as VTK's mappers of volumes take them: diffuse and
-/// specular light have the diffuse colour. The ambient light of the renderer comes with the first.
+/// The lights of a renderer that are switched on, as VTK's mappers of volumes take them: diffuse
+/// and specular light have the diffuse colour. The ambient light of the renderer comes with the
+/// first.
 std::vector<Light> GetRendererLights(vtkRenderer* renderer);
 
 /// How component 0 of a property answers to lights.

@@ -41,7 +41,8 @@ struct SegmentSource
   /// source.
   CacheKey Key;
 
-  /// The transfer function; of no use to Isosurfaces. Scalars at points are mapped as in this table.
+  /// The transfer function; of no use to Isosurfaces. Scalars at points are mapped as in this
+  /// table.
   const IntervalTable* Intervals = nullptr;
 
   /// Isosurfaces: ascending in value, their values mapped as the scalars are.
@@ -51,12 +52,12 @@ struct SegmentSource
   const PreIntegrationTable* Table = nullptr;
   std::uint64_t TableVersion = 0;
 
-  /// Interpolate in the table by the shader even where the graphics card is right enough: for tests and
-  /// measurements of it.
+  /// Interpolate in the table by the shader even where the graphics card is right enough: for tests
+  /// and measurements of it.
   bool FilterInShader = false;
 
-  /// No segment is longer, world units. Where all of them are thin, the shader is without what thick
-  /// ones need.
+  /// No segment is longer, world units. Where all of them are thin, the shader is without what
+  /// thick ones need.
   double LongestSegment = std::numeric_limits<double>::infinity();
 
   /// Whether isosurfaces are lit; of volumes the integrator tells.
@@ -78,17 +79,18 @@ TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(const VolumeScene& scen
 ///
 /// red, green, blue and opacity of a segment along which the mapped scalar runs linearly from front
 /// to back, len world units long: emission and absorption, in closed form, by table, or by optical
-/// depth where the colour is constant; absorption alone (colour 0); emission alone (opacity 0; it may
-/// exceed 1); flat isosurfaces. A scalar that is not a number makes the segment contribute nothing. The opacity
-/// keeps its relative accuracy where it is tiny: gather opacities, not transmittances.
+/// depth where the colour is constant; absorption alone (colour 0); emission alone (opacity 0; it
+/// may exceed 1); flat isosurfaces. A scalar that is not a number makes the segment contribute
+/// nothing. The opacity keeps its relative accuracy where it is tiny: gather opacities, not
+/// transmittances.
 ///
 ///   vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradient,
 ///     vec3 backGradient, vec3 frontPoint, vec3 backPoint, vec3 direction)
 ///
 /// the same with light, where it is asked for, after the functions of GpuLighting: of a volume the
-/// light in the middle of the segment, of a surface that where it is crossed. Gradients at both ends,
-/// equal ones for those of cells, are in coordinates of the mesh and of any length; points and the
-/// direction are those of Ray in RayGridDec.glsl.
+/// light in the middle of the segment, of a surface that where it is crossed. Gradients at both
+/// ends, equal ones for those of cells, are in coordinates of the mesh and of any length; points
+/// and the direction are those of Ray in RayGridDec.glsl.
 ///
 ///   vec4 IntegrateCell(int cell, float len)
 ///
@@ -96,20 +98,20 @@ TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(const VolumeScene& scen
 ///
 ///   vec4 ClassifyLargest(float largest)
 ///
-/// for MaximumIntensity, colour and opacity at the largest scalar of the whole ray, which the caller
-/// gathers; for scalars at cells from GetCellScalar(int cell). Below -1e30 there was none.
+/// for MaximumIntensity, colour and opacity at the largest scalar of the whole ray, which the
+/// caller gathers; for scalars at cells from GetCellScalar(int cell). Below -1e30 there was none.
 ///
 /// Errors: single precision throughout; of a segment's channels at most SegmentWeightError of its
-/// opacity for each piece between nodes, tested against double precision over the stability cases; by
-/// table those of the table, see PreIntegrationTable::Bound.
+/// opacity for each piece between nodes, tested against double precision over the stability cases;
+/// by table those of the table, see PreIntegrationTable::Bound.
 class TETRALUXRENDERING_EXPORT GpuSegmentIntegral
 {
 public:
   GpuSegmentIntegral();
   ~GpuSegmentIntegral();
 
-  /// Sends to the graphics card what changed. Throws std::runtime_error, with one line, where there is
-  /// no room for it.
+  /// Sends to the graphics card what changed. Throws std::runtime_error, with one line, where there
+  /// is no room for it.
   void Update(vtkOpenGLRenderWindow* window, const SegmentSource& source);
 
   /// The functions, to be put into a shader before its own; they change only where the name does.

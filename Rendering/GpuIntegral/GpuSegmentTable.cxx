@@ -38,7 +38,8 @@ GLenum GetType(TexelFormat format)
   return GL_FLOAT;
 }
 
-/// The last place of a texel of 1: weights that are off by no more leave lookups as right as texels.
+/// The last place of a texel of 1: weights that are off by no more leave lookups as right as
+/// texels.
 double GetLastPlace(TexelFormat format)
 {
   switch (format)

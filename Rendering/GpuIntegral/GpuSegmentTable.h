@@ -19,18 +19,18 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// A pre-integration table as a texture of its own format, and the GLSL function IntegrateSegment that
-/// looks it up, see GpuSegmentIntegral.
+/// A pre-integration table as a texture of its own format, and the GLSL function IntegrateSegment
+/// that looks it up, see GpuSegmentIntegral.
 class GpuSegmentTable
 {
 public:
   GpuSegmentTable();
   ~GpuSegmentTable();
 
-  /// Sends the table to the graphics card, unless it has this version of it. Texels are interpolated by
-  /// the graphics card where that is as right as the texels themselves, see MeasureTextureFilterError;
-  /// else, or where inShader is true, in the shader. Throws std::runtime_error, with one line, where
-  /// there is no room for the table.
+  /// Sends the table to the graphics card, unless it has this version of it. Texels are
+  /// interpolated by the graphics card where that is as right as the texels themselves, see
+  /// MeasureTextureFilterError; else, or where inShader is true, in the shader. Throws
+  /// std::runtime_error, with one line, where there is no room for the table.
   void Update(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table,
     std::uint64_t version, bool inShader);
 

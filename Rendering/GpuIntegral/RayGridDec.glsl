@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rays of a picture, relative to the mesh: coordinates are those of WalkPoint, in radii from its
-// centre. Affine in the position of the pixel, and made so that the numbers stay small: the ray of a
-// camera far away does not begin at the camera, but where it passes the centre.
+// The rays of a picture, relative to the mesh: coordinates are those of WalkPoint, in radii from
+// its centre. Affine in the position of the pixel, and made so that the numbers stay small: the ray
+// of a camera far away does not begin at the camera, but where it passes the centre.
 
 uniform vec2 rayMiddle;    // of the picture, pixels
 uniform vec3 rayPoints[3]; // in the middle, and the changes for a pixel to the right and up
@@ -31,8 +31,8 @@ Ray GetRay(vec2 pixel)
 }
 
 #if NUMBER_OF_PLANES > 0
-// Height of a ray's point above each plane, affine in the position of the pixel, and how fast it grows
-// along the world direction.
+// Height of a ray's point above each plane, affine in the position of the pixel, and how fast it
+// grows along the world direction.
 uniform vec3 planeHeights[NUMBER_OF_PLANES];
 uniform vec3 planeSlopes[NUMBER_OF_PLANES];
 #endif

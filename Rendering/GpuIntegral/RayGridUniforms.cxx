@@ -20,8 +20,8 @@ Vector Add(const Vector& a, double t, const Vector& b)
   return { a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2] };
 }
 
-/// A vector for each pixel: in the middle of the picture, and the changes for a pixel to the right and
-/// up.
+/// A vector for each pixel: in the middle of the picture, and the changes for a pixel to the right
+/// and up.
 struct PixelVectors
 {
   Vector Middle, X, Y;

@@ -3,8 +3,8 @@
 // 2004, section 4.2): so that what is too thin for 8 bits still counts, on the average.
 
 // Random in 0..1: evenly spread over neighbouring pixels (interleaved gradient noise, Jimenez, Next
-// Generation Post Processing in Call of Duty: Advanced Warfare, 2014), and over the keys of cells by
-// the golden ratio. The same in each frame.
+// Generation Post Processing in Call of Duty: Advanced Warfare, 2014), and over the keys of cells
+// by the golden ratio. The same in each frame.
 float GetRandomNumber(vec2 pixel, float key)
 {
   float noise = fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));

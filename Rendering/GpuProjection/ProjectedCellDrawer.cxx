@@ -26,8 +26,8 @@ std::size_t GetBytes(const std::vector<Value>& values)
   return values.size() * sizeof(Value);
 }
 
-/// Of corners, which are a quarter of a cell's bytes apart: attributes that belong to a whole cell are
-/// read as if they were the first corner's, from where the other corners have room.
+/// Of corners, which are a quarter of a cell's bytes apart: attributes that belong to a whole cell
+/// are read as if they were the first corner's, from where the other corners have room.
 struct Attribute
 {
   const char* Name;
@@ -67,8 +67,8 @@ constexpr Attribute GradientAttributes[] = {
   { "cellGradient3", offsetof(ProjectedGradient, Slope), 3 },
 };
 
-/// Sends what there is of cells, and tells the program's attributes where it is; false where it can't
-/// be sent.
+/// Sends what there is of cells, and tells the program's attributes where it is; false where it
+/// can't be sent.
 template <class Cell, std::size_t Size>
 bool Send(const std::vector<Cell>& cells, const Attribute (&attributes)[Size],
   vtkShaderProgram* program, vtkOpenGLBufferObject* buffer, vtkOpenGLVertexArrayObject* array)

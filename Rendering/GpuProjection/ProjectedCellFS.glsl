@@ -9,7 +9,8 @@
 //   NUMBER_OF_LIMITS    kept on the positive side of so many planes
 //   OPAQUE              not behind opaque geometry
 //   CROPPED             in some of 27 regions only
-//   LINEAR            a perspective, but without PERSPECTIVE: what is linear comes interpolated; what
+//   LINEAR            a perspective, but without PERSPECTIVE: what is linear comes interpolated;
+//   what
 //                     limits rays has 1 / depth
 //   GATHER            of vec4 before and added, two parts of a ray in the same cell: what both add;
 //                     where CROPPED
@@ -107,8 +108,8 @@ uniform vec4 limitPlanes[NUMBER_OF_LIMITS]; // ScreenPlane
 #endif
 #ifdef OPAQUE
 uniform sampler2D opaqueDepth; // of the window, 0..1
-// Depth of what pixels show, the first over the second: at depth 1 of the window in the middle of the
-// picture, the changes for a pixel right and up, and the change for a depth of one less.
+// Depth of what pixels show, the first over the second: at depth 1 of the window in the middle of
+// the picture, the changes for a pixel right and up, and the change for a depth of one less.
 uniform vec2 opaquePlaces[4];
 #endif
 #ifdef CROPPED

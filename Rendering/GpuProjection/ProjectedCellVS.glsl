@@ -25,7 +25,8 @@ in vec3 cellOwn;     // CellData
 #endif
 
 #ifdef SHADED
-in vec3 cellGradient0; // ProjectedGradient: on the base, its changes for a pixel, and behind the base
+// ProjectedGradient: on the base, its changes for a pixel, and behind the base.
+in vec3 cellGradient0;
 in vec3 cellGradient1;
 in vec3 cellGradient2;
 in vec3 cellGradient3;

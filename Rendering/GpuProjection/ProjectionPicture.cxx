@@ -26,8 +26,8 @@ namespace tetralux
 namespace
 {
 
-/// Cells that are projected and sent at once, 16 MB: enough for all threads, which wait busily for each
-/// other, and few enough that whoever wants to abort is heard soon.
+/// Cells that are projected and sent at once, 16 MB: enough for all threads, which wait busily for
+/// each other, and few enough that whoever wants to abort is heard soon.
 constexpr std::size_t BatchSize = 131072;
 
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a ray comes in through a boundary face, by the same signs as the walk. Needs RayFrameDec.glsl.
+// Where a ray comes in through a boundary face, by the same signs as the walk. Needs
+// RayFrameDec.glsl.
 //
 // DIRECTED: only faces through which rays come in count; else each ray asks once, and the nearest
 // crossing is the right one.

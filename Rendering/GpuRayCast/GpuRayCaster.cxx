@@ -34,8 +34,8 @@ namespace tetralux
 namespace
 {
 
-/// Passes that may be under way before the count of an earlier one is waited for: so that the graphics
-/// card never waits for the processor, and an abort not for long.
+/// Passes that may be under way before the count of an earlier one is waited for: so that the
+/// graphics card never waits for the processor, and an abort not for long.
 constexpr std::size_t PassesAhead = 2;
 
 /// A program's source from its file.
@@ -87,8 +87,8 @@ public:
   }
   void End() { glEndQuery(GL_SAMPLES_PASSED); }
 
-  /// Takes the counts that are there, and waits for those before the last `ahead` passes; true where a
-  /// pass drew nothing.
+  /// Takes the counts that are there, and waits for those before the last `ahead` passes; true
+  /// where a pass drew nothing.
   bool Take(std::size_t ahead)
   {
     while (!this->Waiting.empty())

@@ -40,14 +40,14 @@ struct GpuRayCastOptions
   bool LargestScalar = false;            ///< look for the largest scalar, instead of compositing
   const GpuLighting* Lighting = nullptr; ///< nullptr: nothing is lit
   bool SmoothGradients = false;          ///< light by gradients of points, see WalkTextures
-  /// Entries are found by drawing the boundary, layer after layer, with this projection; nullptr: by the
-  /// hierarchy. It has to be regular.
+  /// Entries are found by drawing the boundary, layer after layer, with this projection; nullptr:
+  /// by the hierarchy. It has to be regular.
   const PixelProjection* Layers = nullptr;
   float MaximumOpacity = 1; ///< a ray that is this opaque is done; more than 1: never
   int StepsPerPass = 1;
   bool CountFragments = false; ///< wait for the count of each pass, and count steps
-  /// Called between passes, with the share of the rays that is known to be done, 0..1; returns false to
-  /// abort.
+  /// Called between passes, with the share of the rays that is known to be done, 0..1; returns
+  /// false to abort.
   std::function<bool(double)> Continue;
 };
 
@@ -61,8 +61,8 @@ struct GpuRayCastStatistics
   std::string Variant;    ///< of the shader that walks: its defines
 };
 
-/// Cell-to-cell ray casting on the graphics card (Weiler et al. 2003), see RayWalkFS.glsl: passes of a
-/// bounded number of steps, each for the rays that are not done.
+/// Cell-to-cell ray casting on the graphics card (Weiler et al. 2003), see RayWalkFS.glsl: passes
+/// of a bounded number of steps, each for the rays that are not done.
 class TETRALUXRENDERING_EXPORT GpuRayCaster
 {
 public:

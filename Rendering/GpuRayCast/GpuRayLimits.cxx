@@ -20,8 +20,8 @@ namespace
 /// The most parts that six cropping planes can leave of a ray.
 constexpr int MostParts = 4;
 
-/// Homogeneous coordinates relative to a position in the world, in the coordinates of rays: radii of the
-/// mesh from its centre.
+/// Homogeneous coordinates relative to a position in the world, in the coordinates of rays: radii
+/// of the mesh from its centre.
 void TransformPoint(const RayGrid& grid, const double position[3], const double center[3],
   double radius, const double point[4], float result[4])
 {

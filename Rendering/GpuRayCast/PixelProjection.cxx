@@ -23,8 +23,8 @@ PixelProjection::PixelProjection(const RayGrid& grid, const double center[3], do
     std::any_of(grid.DirectionStepY, grid.DirectionStepY + 3, [](double x) { return x != 0; });
   const double* stepX = perspective ? grid.DirectionStepX : grid.OriginStepX;
   const double* stepY = perspective ? grid.DirectionStepY : grid.OriginStepY;
-  // A point less the origin is i stepX + j stepY + direction, times any number in a perspective, or with
-  // any multiple of the direction in a parallel projection.
+  // A point less the origin is i stepX + j stepY + direction, times any number in a perspective, or
+  // with any multiple of the direction in a parallel projection.
   double columns[3][3];
   double origin[3];
   for (int a = 0; a < 3; ++a)

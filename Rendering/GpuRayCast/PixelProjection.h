@@ -14,12 +14,12 @@ struct TETRALUXRENDERING_EXPORT PixelProjection
   /// center and radius: of the mesh, see WalkMesh.
   PixelProjection(const RayGrid& grid, const double center[3], double radius);
 
-  /// Homogeneous position in pixels, with centres at halves, of a point (x, y, z, 1) in radii from the
-  /// centre.
+  /// Homogeneous position in pixels, with centres at halves, of a point (x, y, z, 1) in radii from
+  /// the centre.
   double Rows[3][4];
 
-  /// Whether the whole mesh is in front of the eye, or all of it behind, so that each of its triangles
-  /// has the pixels between its corners.
+  /// Whether the whole mesh is in front of the eye, or all of it behind, so that each of its
+  /// triangles has the pixels between its corners.
   bool Regular = false;
 };
 

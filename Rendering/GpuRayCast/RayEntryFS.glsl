@@ -1,7 +1,8 @@
 //VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
-// Where rays that are outside of the mesh come in next: the boundary face whose crossing is the nearest
-// one behind that of the last entry, by the hierarchy over the boundary, the nearer box first.
+// Where rays that are outside of the mesh come in next: the boundary face whose crossing is the
+// nearest one behind that of the last entry, by the hierarchy over the boundary, the nearer box
+// first.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
@@ -17,8 +18,8 @@ uniform int numberOfBoundaryNodes;
 
 out ivec4 fragOutput0; // gl_FragData[0]
 
-// Boxes are grown by what distances along the ray may be rounded by, as the hierarchy's margin is for
-// those across: radii.
+// Boxes are grown by what distances along the ray may be rounded by, as the hierarchy's margin is
+// for those across: radii.
 const float AlongMargin = 1.9073486328125e-06; // 2^-19
 
 // BoundaryBvh::MaximumDepth + 1: one box waits for each level.

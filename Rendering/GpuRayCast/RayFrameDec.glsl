@@ -4,11 +4,12 @@
 //
 // Why no ray is lost or counted twice, whatever a compiler makes of sums and products:
 // * Across the ray, points are rounded to a grid of 2^-22 radii of the mesh, not much coarser than
-//   their coordinates: whole numbers, the same whichever cell asks. Where the language has a word for
-//   it (precise), it is told so; all of them are projected by the same function.
-// * The determinant of two of them is exact, but for one rounding of the result, which leaves its sign.
-//   It is put together from products of halves, all of which, and their sums, are whole numbers up to
-//   2^24, which single precision holds, in whatever order or fusion they are computed.
+//   their coordinates: whole numbers, the same whichever cell asks. Where the language has a word
+//   for it (precise), it is told so; all of them are projected by the same function.
+// * The determinant of two of them is exact, but for one rounding of the result, which leaves its
+// sign.
+//   It is put together from products of halves, all of which, and their sums, are whole numbers up
+//   to 2^24, which single precision holds, in whatever order or fusion they are computed.
 // * Zero, a ray through an edge or a vertex, is decided as if the ray were displaced by (e, e^2), e
 //   infinitely small; where two points are in the same place, by their ids.
 
@@ -21,8 +22,8 @@
 // Coordinates in radii, and the mapped scalar.
 uniform samplerBuffer walkPoints;
 
-// Grid points a radius. Points and rays that meet the mesh are within a radius of its centre, so that
-// grid coordinates are within 2^23.
+// Grid points a radius. Points and rays that meet the mesh are within a radius of its centre, so
+// that grid coordinates are within 2^23.
 const float GridScale = 4194304.0; // 2^22
 const float LargestGridCoordinate = 8388607.0; // 2^23 - 1
 
@@ -67,8 +68,8 @@ vec2 Project(RayFrame frame, vec3 point)
   return clamp(floor(vec2(x, y) + 0.5), -LargestGridCoordinate, LargestGridCoordinate);
 }
 
-// A whole number up to 2^24 without its last twelve bits, and in units of them; what is left is within
-// 2^11.
+// A whole number up to 2^24 without its last twelve bits, and in units of them; what is left is
+// within 2^11.
 vec2 GetHigh(vec2 x)
 {
   return floor(x * (1.0 / HalfScale) + 0.5);
@@ -102,10 +103,11 @@ bool TieIsPositive(Corner a, Corner b)
 float GetDeterminant(Corner a, Corner b, out bool positive)
 {
   float high = a.High.x * b.High.y - a.High.y * b.High.x;
-  float middle = (a.High.x * b.Low.y - a.High.y * b.Low.x) + (a.Low.x * b.High.y - a.Low.y * b.High.x);
+  float middle =
+    (a.High.x * b.Low.y - a.High.y * b.Low.x) + (a.Low.x * b.High.y - a.Low.y * b.High.x);
   float low = a.Low.x * b.Low.y - a.Low.y * b.Low.x;
-  // What of the middle belongs to the high part is added to it: the rest is then not larger than one
-  // of its units.
+  // What of the middle belongs to the high part is added to it: the rest is then not larger than
+  // one of its units.
   float carry = floor(middle * (1.0 / HalfScale) + 0.5);
   SAME_EVERYWHERE float rest = HalfScale * (middle - HalfScale * carry) + low;
   SAME_EVERYWHERE float determinant = (HalfScale * HalfScale) * (high + carry) + rest;

@@ -1,7 +1,7 @@
 //VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
-// A layer of the boundary: where rays that are outside of the mesh come in next, of all faces that are
-// drawn the nearest one by the depth test, behind the last entry (depth peeling).
+// A layer of the boundary: where rays that are outside of the mesh come in next, of all faces that
+// are drawn the nearest one by the depth test, behind the last entry (depth peeling).
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
@@ -39,7 +39,8 @@ void main()
   int last = texelFetch(rayEntries, pixel, 0).x;
   if (last >= 0)
   {
-    // In the order of depths, and of faces, which are drawn in their order, where they are the same.
+    // In the order of depths, and of faces, which are drawn in their order, where they are the
+    // same.
     float lastDistance;
     TestEntry(frame, last, lastDistance);
     float lastDepth = FindDepth(frame, lastDistance);

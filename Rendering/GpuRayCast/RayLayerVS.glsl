@@ -1,11 +1,13 @@
 //VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
-// A boundary face as two triangles, six vertices: the bounds of its pixels and one pixel around them,
-// so that no rounding of a rasteriser loses a pixel; which of them are in the face is decided exactly.
+// A boundary face as two triangles, six vertices: the bounds of its pixels and one pixel around
+// them, so that no rounding of a rasteriser loses a pixel; which of them are in the face is decided
+// exactly.
 
 uniform samplerBuffer walkPoints;
 uniform isamplerBuffer boundaryEntries;
-uniform vec4 pixelFromRay[3]; // homogeneous position in pixels of a point in the coordinates of rays
+// Homogeneous position in pixels of a point in the coordinates of rays.
+uniform vec4 pixelFromRay[3];
 uniform vec2 pictureSize;     // pixels
 
 flat out int entryVSOutput;
@@ -13,7 +15,8 @@ flat out int entryVSOutput;
 vec2 FindPixel(int id)
 {
   vec4 point = vec4(texelFetch(walkPoints, id).xyz, 1.0);
-  return vec2(dot(pixelFromRay[0], point), dot(pixelFromRay[1], point)) / dot(pixelFromRay[2], point);
+  vec2 homogeneous = vec2(dot(pixelFromRay[0], point), dot(pixelFromRay[1], point));
+  return homogeneous / dot(pixelFromRay[2], point);
 }
 
 void main()

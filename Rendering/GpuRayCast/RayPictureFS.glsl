@@ -1,8 +1,8 @@
 //VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
 // The picture that rays gathered: premultiplied colour and opacity, and the distance of the first
-// contribution from where the ray starts, -1 where there is none. A ray that was done is left alone by
-// later passes: what it came to is in that texture of the two in which it took more steps.
+// contribution from where the ray starts, -1 where there is none. A ray that was done is left alone
+// by later passes: what it came to is in that texture of the two in which it took more steps.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec

@@ -48,9 +48,9 @@ public:
   void EndDrawing();
   ///@}
 
-  /// What can be drawn into: the sets, the texture of entries that rays come in by next, and nothing;
-  /// each with the depth buffer; and that texture with a depth buffer of its own. Nothing that is drawn
-  /// into may be read.
+  /// What can be drawn into: the sets, the texture of entries that rays come in by next, and
+  /// nothing; each with the depth buffer; and that texture with a depth buffer of its own. Nothing
+  /// that is drawn into may be read.
   enum Framebuffer
   {
     OfSet0,

@@ -1,13 +1,13 @@
 //VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
-// A number of steps of each ray from cell to cell (Weiler et al. 2003, section 3), front to back: exit
-// face, scalar there, ray integral, blending, next cell. What a ray has come to is read from textures
-// and written to others; the next pass goes on from there.
+// A number of steps of each ray from cell to cell (Weiler et al. 2003, section 3), front to back:
+// exit face, scalar there, ray integral, blending, next cell. What a ray has come to is read from
+// textures and written to others; the next pass goes on from there.
 //
-// A cell is entered through the triangle a b c, whose corners surround the ray counter-clockwise. The
-// cell's fourth point p replaces one of them: the signs of det(p, a), det(p, b), det(p, c) tell which,
-// and thereby the face through which the ray leaves. So a step reads one point, 16 bytes, and one face,
-// 8 bytes: the cell behind it and that cell's fourth point.
+// A cell is entered through the triangle a b c, whose corners surround the ray counter-clockwise.
+// The cell's fourth point p replaces one of them: the signs of det(p, a), det(p, b), det(p, c) tell
+// which, and thereby the face through which the ray leaves. So a step reads one point, 16 bytes,
+// and one face, 8 bytes: the cell behind it and that cell's fourth point.
 //
 // CELL_DATA: scalars are constant in each cell. GATHER_LARGEST: the largest scalar along the ray is
 // looked for; else segments are composited. IMAGINARY_CELLS: cells from numberOfCells on fill the
@@ -21,11 +21,11 @@
 //VTK::Lighting::Dec
 //VTK::RayIntegral::Dec
 
-// What rays have come to. States: points of the triangle, and index of the face that is crossed next,
-// or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps. Colors:
-// gathered so far, or the largest scalar. Firsts: of the first segment that contributed the distances
-// of its ends from the point nearest to the centre, and the scalars there; or the distance of the
-// largest scalar.
+// What rays have come to. States: points of the triangle, and index of the face that is crossed
+// next, or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps.
+// Colors: gathered so far, or the largest scalar. Firsts: of the first segment that contributed the
+// distances of its ends from the point nearest to the centre, and the scalars there; or the
+// distance of the largest scalar.
 uniform isampler2D rayStates;
 uniform isampler2D rayEntries;
 uniform sampler2D rayColors;
@@ -45,8 +45,8 @@ out ivec4 fragOutput1;
 out vec4 fragOutput2;
 out vec4 fragOutput3;
 
-// Distance and scalar where the ray goes through a triangle. By differences: a constant stays exactly
-// what it is, also next to a step of the transfer function.
+// Distance and scalar where the ray goes through a triangle. By differences: a constant stays
+// exactly what it is, also next to a step of the transfer function.
 void Interpolate(vec3 weights, Corner a, Corner b, Corner c, out float along, out float scalar)
 {
   vec2 shares = GetShares(weights).yz;
@@ -69,8 +69,8 @@ vec3 InterpolateGradient(vec3 weights, ivec3 ids)
     shares.y * (texelFetch(pointGradients, ids.z).xyz - first);
 }
 #else
-// Of the cell that a triangle and a point make: the direction, or the opposite one, which light does
-// not tell apart.
+// Of the cell that a triangle and a point make: the direction, or the opposite one, which light
+// does not tell apart.
 vec3 FindCellGradient(ivec3 ids, int point)
 {
   vec4 origin = texelFetch(walkPoints, point);
@@ -199,7 +199,8 @@ void main()
       float largest = GetCellScalar(cellBefore);
       float largestAlong = from;
 #else
-      float largest = fromScalar + toScalar < LargestFloat ? max(fromScalar, toScalar) : -LargestFloat;
+      float largest =
+        fromScalar + toScalar < LargestFloat ? max(fromScalar, toScalar) : -LargestFloat;
       float largestAlong = fromScalar < toScalar ? to : from;
 #endif
       if (largest > gathered.r)

@@ -20,8 +20,8 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// A mesh on the graphics card: 32 bytes a tetrahedron, 16 a point, and about 40 a boundary face for
-/// what rays come in by. Belongs to one window's context, the last one.
+/// A mesh on the graphics card: 32 bytes a tetrahedron, 16 a point, and about 40 a boundary face
+/// for what rays come in by. Belongs to one window's context, the last one.
 class TETRALUXRENDERING_EXPORT WalkTextures
 {
 public:
@@ -52,8 +52,8 @@ public:
   static std::string FindObstacle(
     vtkOpenGLRenderWindow* window, const WalkTables& tables, std::size_t numberOfPoints);
 
-  /// For a program in use: the arrays that RayEntryFS.glsl, RayLayerFS.glsl or RayWalkFS.glsl reads,
-  /// bound to texture units until Deactivate.
+  /// For a program in use: the arrays that RayEntryFS.glsl, RayLayerFS.glsl or RayWalkFS.glsl
+  /// reads, bound to texture units until Deactivate.
   ///@{
   void ActivateForEntry(vtkShaderProgram* program);
   void ActivateForLayer(vtkShaderProgram* program);

@@ -27,8 +27,8 @@ enum class ChannelFormat
   Float   ///< IEEE 754 binary32
 };
 
-/// Pictures on the graphics card to draw into: one or several textures of the same size, and a depth
-/// and stencil buffer where one is asked for. Belongs to one window's context, the last one.
+/// Pictures on the graphics card to draw into: one or several textures of the same size, and a
+/// depth and stencil buffer where one is asked for. Belongs to one window's context, the last one.
 class TETRALUXRENDERING_EXPORT FloatTarget
 {
 public:
@@ -90,8 +90,8 @@ public:
   /// To be read by shaders; not while it is drawn into.
   vtkTextureObject* GetTexture(int picture) const;
 
-  /// Copies a picture, lower row first, into width x height x components values. Leaves OpenGL's state
-  /// as it was.
+  /// Copies a picture, lower row first, into width x height x components values. Leaves OpenGL's
+  /// state as it was.
   void Read(int picture, Span<float> values);
 
   void ReleaseGraphicsResources(vtkWindow* window);

@@ -17,14 +17,15 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// Compiles a shader by itself, since VTK's cache prints a program that does not compile line by line and
-/// keeps the compiler's words to itself. Throws std::runtime_error with what the compiler says.
+/// Compiles a shader by itself, since VTK's cache prints a program that does not compile line by
+/// line and keeps the compiler's words to itself. Throws std::runtime_error with what the compiler
+/// says.
 TETRALUXRENDERING_EXPORT void CheckShader(
   const std::string& name, const std::string& source, bool ofVertices);
 
-/// A fragment shader that is run for each pixel of the viewport, which it tells by gl_FragCoord, or for
-/// the triangles that a vertex shader makes of the numbers of their vertices. Belongs to one window's context, the
-/// last one.
+/// A fragment shader that is run for each pixel of the viewport, which it tells by gl_FragCoord, or
+/// for the triangles that a vertex shader makes of the numbers of their vertices. Belongs to one
+/// window's context, the last one.
 class TETRALUXRENDERING_EXPORT ScreenProgram
 {
 public:
@@ -35,8 +36,8 @@ public:
 
   /// The program of a source, which begins with its version, in use; compiled only where the source
   /// changed. Outputs are fragOutput0, fragOutput1, ...; the source has to mention gl_FragData[0],
-  /// gl_FragData[1], ... for each of them, as VTK counts them by that. Throws std::runtime_error with
-  /// what the compiler says.
+  /// gl_FragData[1], ... for each of them, as VTK counts them by that. Throws std::runtime_error
+  /// with what the compiler says.
   /// vertexSource: empty for one triangle that covers the viewport.
   vtkShaderProgram* Use(vtkOpenGLRenderWindow* window, const std::string& name,
     const std::string& source, const std::string& vertexSource = {});

@@ -31,8 +31,8 @@ public:
   TextureBuffer& operator=(const TextureBuffer&) = delete;
 
   /// numberOfTexels of 1, 2 or 4 components each; at least one texel is made. what: the name of the
-  /// array in errors. Throws std::runtime_error, with one line, where the graphics card has no texture
-  /// that large or no memory for it. Needs the window's context to be current.
+  /// array in errors. Throws std::runtime_error, with one line, where the graphics card has no
+  /// texture that large or no memory for it. Needs the window's context to be current.
   ///@{
   void Upload(vtkOpenGLRenderWindow* window, const float* texels, std::size_t numberOfTexels,
     int components, const std::string& what);

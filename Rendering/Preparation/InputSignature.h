@@ -24,8 +24,8 @@ CacheKey GetCellsKey(vtkDataObject* input);
 /// Of the coordinates of the points.
 CacheKey GetPointsKey(vtkDataObject* input);
 
-/// 128 bits of what GetCellsKey is of, by content: a reader of a time series makes new arrays of the
-/// same cells in every step. Linear time, some five milliseconds a million tetrahedra.
+/// 128 bits of what GetCellsKey is of, by content: a reader of a time series makes new arrays of
+/// the same cells in every step. Linear time, some five milliseconds a million tetrahedra.
 using CellsDigest = std::array<std::uint64_t, 2>;
 CellsDigest DigestCells(vtkDataObject* input);
 

@@ -9,8 +9,8 @@
 namespace tetralux
 {
 
-/// A warning that may be due in every frame, and is given once: not again before it was another one,
-/// or none.
+/// A warning that may be due in every frame, and is given once: not again before it was another
+/// one, or none.
 class OnceWarning
 {
 public:

@@ -238,7 +238,10 @@ class Bench(ToolTest):
         rows = self.read_rows("out")
         self.assertEqual(
             [row["setting"] for row in rows],
-            ["reference", "default", "Precision-Single-MaximumError-1e-2", "Precision-double", *PEERS],
+            [
+                "reference", "default", "Precision-Single-MaximumError-1e-2", "Precision-double",
+                *PEERS,
+            ],
         )
         self.assertEqual({row["scene"] for row in rows}, {"m"})
         self.assertEqual({row["frames"] for row in rows}, {1})

@@ -42,7 +42,8 @@ class WrongUsage(ToolTest):
 
     def test_properties_of_other_methods(self):
         self.render_fails(
-            "--method", "projection", "--set", "Precision=2", says=["vtkTetrahedraProjectionMapper has no property 'Precision'", "ColorBuffer"]
+            "--method", "projection", "--set", "Precision=2",
+            says=["vtkTetrahedraProjectionMapper has no property 'Precision'", "ColorBuffer"],
         )
         self.render_fails(
             "--method", "gpu-ray-cast", "--threads", 2, says=["--threads", "gpu-ray-cast"]
@@ -97,10 +98,12 @@ class WrongUsage(ToolTest):
         self.render_fails("--set", "BlendMode=isosurface", says="--isovalues")
         self.render_fails("--isovalues", "1,x", says="list of numbers")
         self.render_fails("--set", "BlendMode=2", says=["'2'", "maximum-intensity (1)"])
-        self.render_fails("--set", "Precision=half", says=["automatic (0), single (1) or double (2)"])
+        self.render_fails("--set", "Precision=half", says="automatic (0), single (1) or double (2)")
         self.render_fails("--set", "VectorMode=component", says="has no property 'VectorMode'")
         self.render_fails("--set", "Cropping=2", says="on or off")
-        self.render_fails("--set", "TableScalarSize=1", says="an integer from 2 to 4096, or automatic (0)")
+        self.render_fails(
+            "--set", "TableScalarSize=1", says="an integer from 2 to 4096, or automatic (0)"
+        )
         self.render_fails("--set", "TableScalarSize=2.5", says="an integer from 2 to 4096")
         self.render_fails(
             "--method", "ray-cast", "--set", "Reentry=boundary-layers",

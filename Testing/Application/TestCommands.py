@@ -58,7 +58,8 @@ class Commands(ToolTest):
         for option in (
             "--array --component --method --transfer --opacity-unit-distance --camera-position "
             "--camera-focal-point --camera-view-up --camera-view-angle --camera-parallel-scale "
-            "--size --background --shade --max-error --set --list-properties --threads --stats --output --plot3d-q"
+            "--size --background --shade --max-error --set --list-properties --threads --stats "
+            "--output --plot3d-q"
         ).split():
             self.assertIn(option, text)
         self.assertIn("--plot3d-q", self.succeed("info", "--help"))
@@ -299,7 +300,9 @@ class Commands(ToolTest):
         self.assertEqual(statistics["rays"]["threads"], 1)
         self.assertNotIn("cropping", statistics["left_out"])
         self.assertIn("cropping", render("ray-cast", "Cropping=False")["left_out"])
-        statistics = render("ray-cast", "Integration=table", "TableFormat=half", "TableScalarSize=64")
+        statistics = render(
+            "ray-cast", "Integration=table", "TableFormat=half", "TableScalarSize=64"
+        )
         self.assertEqual(statistics["segments"]["integration"], "table")
         self.assertIn("half", json.dumps(statistics["segments"]))
 

@@ -230,8 +230,8 @@ TEST(ConvexSurface, CoplanarTriangles)
 
 TEST(SelfIntersection, OfTwoCells)
 {
-  // Apart; with a face in a face, deep in each other, touching in a point that is not shared, and at
-  // the same place.
+  // Apart; with a face in a face, deep in each other, touching in a point that is not shared, and
+  // at the same place.
   EXPECT_EQ(tetralux::FindSelfIntersection(pockets::MakeSurface(MakePair(2, 0, 0))).Reason, "");
   const std::array<double, 3> shifts[] = { { 0.25, 0.25, 0.25 }, { 0.25, 0, 0 }, { 0.5, 0.25, 0 },
     { 0, 0, 0.9 }, { 0.25, 0.25, 0.5 }, { 0, 0, 0 } };

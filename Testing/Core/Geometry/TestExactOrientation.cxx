@@ -18,7 +18,8 @@ namespace
 using Vector = std::array<double, 3>;
 using Corners = std::array<Vector, 4>;
 
-/// At the smallest ones volumes are denormal numbers, or none; at the largest one they are infinite.
+/// At the smallest ones volumes are denormal numbers, or none; at the largest one they are
+/// infinite.
 constexpr double Scales[] = { 1e-120, 1e-104, 1e-102, 1e-30, 1e-7, 1, 1e7, 1e30, 1e105 };
 
 /// Draws four points that are nearly in one plane, or in it: the last one is a combination of the
