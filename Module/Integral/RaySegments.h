@@ -12,6 +12,16 @@ struct RaySegment
 {
   double Front, Back; ///< scalars at its ends, finite
   double Length;      ///< world units, more than 0
+
+  /// Change of the scalar across the ray for one radius of the mesh; 0 in a cell of constant scalar.
+  double Gradient = 0;
+
+  /// Tangents of the angles between the ray and the normals of the faces at its ends: how much farther
+  /// along the ray it meets them where they move across it.
+  double FrontSlope = 0, BackSlope = 0;
+
+  bool First = false; ///< the ray enters the mesh here
+  bool Last = false;  ///< and leaves it here
 };
 
 /// Rays by which to measure what approximate integrals do to pictures: what each goes through, front

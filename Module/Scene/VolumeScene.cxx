@@ -30,20 +30,6 @@ constexpr double EntryCost = 4;
 constexpr double SmallestSingleRadius = 1e-30;
 constexpr double LargestSingleRadius = 1e30;
 
-double EstimateEmissionAbsorptionError(
-  const IntervalTable& table, double worldRadius, double largestScalar)
-{
-  constexpr double FaceRounding = 1. / (1 << 23);
-  constexpr double ScalarRounding = 1. / (1 << 24);
-  const double faces = FaceRounding * (table.MaximumAttenuation + table.AttenuationVariation);
-  // Scalars do not matter to a constant, however large they are.
-  const double scalars = table.AttenuationVariation > 0
-    ? ScalarRounding * largestScalar * table.AttenuationVariation
-    : 0;
-  const double error = faces + scalars;
-  return error > 0 ? worldRadius * error : 0;
-}
-
 } // namespace
 
 void VolumeScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
@@ -440,7 +426,7 @@ std::shared_ptr<const RaySample> VolumeScene::GetRaySample(double scale)
   if (!this->SampledRays || this->ScaleOfRays != scale)
   {
     this->SampledRays =
-      std::make_shared<const RaySample>(DrawMeshRays(*this->Mesh, this->Scalars, scale));
+      std::make_shared<const RaySample>(DrawMeshRays(*this->Mesh, this->Scalars, scale, this->ScalarsOfCells));
     this->ScaleOfRays = scale;
   }
   return this->SampledRays;
@@ -461,7 +447,7 @@ double VolumeScene::GetWorldRadius(const RayGrid& grid) const
   return shortest > 0 && std::isfinite(shortest) ? radius / shortest : radius;
 }
 
-double VolumeScene::EstimateGeometryError(double worldRadius) const
+double VolumeScene::EstimateGeometryError(double worldRadius, const GeometryRounding& rounding)
 {
   if (!(SmallestSingleRadius <= worldRadius && worldRadius <= LargestSingleRadius))
   {
@@ -478,9 +464,20 @@ double VolumeScene::EstimateGeometryError(double worldRadius) const
       return ScalarRounding * this->GetLargestMappedScalar() * FindSteepestColor(this->Intervals);
     }
     default:
-      return EstimateEmissionAbsorptionError(
-        this->Intervals, worldRadius, this->GetLargestMappedScalar());
+      return this->EstimateRounding(worldRadius, rounding);
   }
+}
+
+double VolumeScene::EstimateRounding(double worldRadius, const GeometryRounding& rounding)
+{
+  const double scale = worldRadius / this->Mesh->GetRadius();
+  if (!this->SampledRays)
+  {
+    this->GetRaySample(scale);
+  }
+  return EstimateRoundingError(*this->SampledRays, scale / this->ScaleOfRays, worldRadius,
+    this->GetLargestMappedScalar() * this->GetScalarMap().Scale, this->Function,
+    this->Model != OpticalModel::EmissionOnly, rounding);
 }
 
 } // namespace tetralux

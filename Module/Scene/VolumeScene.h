@@ -8,6 +8,7 @@
 #include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
 #include "PreIntegration/PreIntegrationTable.h"
+#include "Scene/GeometryError.h"
 #include "TetraluxCoreModule.h"
 #include "View/RayGrid.h"
 #include "Walk/MeshRays.h"
@@ -147,16 +148,16 @@ public:
   /// the grid stretches it.
   double GetWorldRadius(const RayGrid& grid) const;
 
-  /// Estimated error of a channel by single precision coordinates and scalars: their rounding moves
-  /// every face along a ray by about worldRadius 2^-23 and every scalar by its largest value 2^-24,
-  /// which matters as far as the attenuation changes over that. Infinite where the mesh is so small
-  /// or so large that distances in it leave the range of single precision.
-  double EstimateGeometryError(double worldRadius) const;
+  /// Estimated error of a channel by single precision coordinates and scalars, see GeometryError.h.
+  /// Infinite where the mesh is so small or so large that distances in it leave the range of single
+  /// precision. Kept until what it depends on changes.
+  double EstimateGeometryError(double worldRadius, const GeometryRounding& rounding);
 
 private:
   void SetScalars(std::vector<double> scalars, bool ofCells);
   void CountBlankCells();
   double GetLargestMappedScalar() const;
+  double EstimateRounding(double worldRadius, const GeometryRounding& rounding);
   void Invalidate();
 
   std::shared_ptr<WalkMesh> Mesh;

@@ -30,11 +30,12 @@ class MeshLine
 {
 public:
   /// point and direction, of length 1, as the tables of the mesh have them.
-  MeshLine(
-    const WalkMesh& mesh, Span<const double> scalars, const Vector& point, const Vector& direction)
+  MeshLine(const WalkMesh& mesh, Span<const double> scalars, bool ofCells, const Vector& point,
+    const Vector& direction)
     : Mesh(mesh)
     , Points(mesh.GetPoints<float>())
     , Scalars(scalars)
+    , ScalarsOfCells(ofCells)
     , Origin(point)
     , Along(direction)
   {
@@ -75,10 +76,11 @@ private:
     std::int32_t Entry; ///< -1 where it leaves
   };
 
-  /// A triangle that the line goes through: where, and the scalar there.
+  /// A triangle that the line goes through: where, the scalar there, and the tangent of the angle
+  /// between the line and its normal.
   struct Place
   {
-    double Z, S;
+    double Z, S, Slope;
   };
 
   Corner See(std::int32_t id) const
@@ -86,14 +88,38 @@ private:
     const WalkPoint<float>& p = this->Points[id];
     const Vector d = { p.X - this->Origin[0], p.Y - this->Origin[1], p.Z - this->Origin[2] };
     const auto dot = [&d](const Vector& v) { return d[0] * v[0] + d[1] * v[1] + d[2] * v[2]; };
-    return { dot(this->AcrossX), dot(this->AcrossY), dot(this->Along), this->Scalars[id], id };
+    return { dot(this->AcrossX), dot(this->AcrossY), dot(this->Along),
+      this->ScalarsOfCells ? 0 : this->Scalars[id], id };
   }
 
   static Place Interpolate(const Corner& a, const Corner& b, const Corner& c)
   {
     const double wa = Det(b, c), wb = Det(c, a), wc = Det(a, b);
     const double sum = wa + wb + wc;
-    return { (wa * a.Z + wb * b.Z + wc * c.Z) / sum, (wa * a.S + wb * b.S + wc * c.S) / sum };
+    // The normal is (x, y, sum), as long as the triangle is large.
+    const double x = (b.Y - a.Y) * (c.Z - a.Z) - (b.Z - a.Z) * (c.Y - a.Y);
+    const double y = (b.Z - a.Z) * (c.X - a.X) - (b.X - a.X) * (c.Z - a.Z);
+    return { (wa * a.Z + wb * b.Z + wc * c.Z) / sum, (wa * a.S + wb * b.S + wc * c.S) / sum,
+      std::hypot(x, y) / std::abs(sum) };
+  }
+
+  /// Change of the scalar across the line in the cell of four corners, where it is not flat.
+  static double FindGradient(const Corner& a, const Corner& b, const Corner& c, const Corner& d)
+  {
+    const Corner e[3] = { { b.X - a.X, b.Y - a.Y, b.Z - a.Z, b.S - a.S, 0 },
+      { c.X - a.X, c.Y - a.Y, c.Z - a.Z, c.S - a.S, 0 },
+      { d.X - a.X, d.Y - a.Y, d.Z - a.Z, d.S - a.S, 0 } };
+    double x = 0, y = 0, volume = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Corner& p = e[(i + 1) % 3];
+      const Corner& q = e[(i + 2) % 3];
+      x += e[i].S * (p.Y * q.Z - p.Z * q.Y);
+      y += e[i].S * (p.Z * q.X - p.X * q.Z);
+      volume += e[i].Z * Det(p, q);
+    }
+    const double gradient = std::hypot(x, y) / std::abs(volume);
+    return std::isfinite(gradient) ? gradient : 0;
   }
 
   static bool IsInside(const Corner& a, const Corner& b, const Corner& c)
@@ -158,6 +184,7 @@ private:
       std::swap(b, c); // counter-clockwise from here on
     }
     Place place = Interpolate(a, b, c);
+    bool first = true;
     WalkFace behind = { entry.Cell, entry.Opposite };
     // No walk visits a cell twice.
     for (std::int32_t steps = this->Mesh.GetNumberOfCells(); behind.Cell >= 0 && steps > 0; --steps)
@@ -167,17 +194,23 @@ private:
       // The exit face is opposite to the corner that p replaces.
       Corner& replaced = bSide && !cSide ? a : cSide && !aSide ? b : c;
       const std::int32_t dropped = replaced.Id;
+      const double gradient = this->ScalarsOfCells ? 0 : FindGradient(a, b, c, p);
       replaced = p;
       const int face = (dropped > a.Id) + (dropped > b.Id) + (dropped > c.Id);
-      behind = this->Mesh.GetFaces()[4 * static_cast<std::size_t>(behind.Cell) + face];
+      const std::int32_t cell = behind.Cell;
+      behind = this->Mesh.GetFaces()[4 * static_cast<std::size_t>(cell) + face];
 
       const Place next = Interpolate(a, b, c);
       const double length = scale * std::abs(next.Z - place.Z); // also of inverted cells
-      if (length > 0 && std::isfinite(place.S) && std::isfinite(next.S))
+      const double front = this->ScalarsOfCells ? this->Scalars[cell] : place.S;
+      const double back = this->ScalarsOfCells ? this->Scalars[cell] : next.S;
+      if (length > 0 && std::isfinite(front) && std::isfinite(back))
       {
-        segments.push_back({ place.S, next.S, length });
+        segments.push_back(
+          { front, back, length, gradient, place.Slope, next.Slope, first, behind.Cell < 0 });
       }
       place = next;
+      first = false;
     }
     return ~behind.Cell;
   }
@@ -185,6 +218,7 @@ private:
   const WalkMesh& Mesh;
   const WalkPoint<float>* Points;
   Span<const double> Scalars;
+  bool ScalarsOfCells;
   Vector Origin, Along, AcrossX, AcrossY;
 };
 
@@ -195,7 +229,8 @@ constexpr std::size_t MostRays = 1024;
 
 } // namespace
 
-RaySample DrawMeshRays(const WalkMesh& mesh, Span<const double> scalars, double scale)
+RaySample DrawMeshRays(
+  const WalkMesh& mesh, Span<const double> scalars, double scale, bool ofCells)
 {
   RaySample sample;
   const std::int32_t numberOfCells = mesh.GetNumberOfCells();
@@ -240,7 +275,7 @@ RaySample DrawMeshRays(const WalkMesh& mesh, Span<const double> scalars, double 
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::ptrdiff_t i = 0; i < n; ++i)
     {
-      const MeshLine line(mesh, scalars, lines[i].first, lines[i].second);
+      const MeshLine line(mesh, scalars, ofCells, lines[i].first, lines[i].second);
       sample.Rays[first + i] = line.Walk(scale * mesh.GetRadius());
     }
   };
