@@ -101,7 +101,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
   const tetralux::RayLimits limits = frame.MakeLimits(rays);
-  const double geometryError = scene.EstimateGeometryError(scene.GetWorldRadius(grid), tetralux::GeometryRounding{ 6e-8, 6e-8 });
+  const double geometryError = scene.EstimateGeometryError(scene.GetWorldRadius(grid), tetralux::GeometryRounding{ 2.4e-7, 6e-8 });
   if (!std::isfinite(geometryError))
   {
     throw std::invalid_argument(

@@ -434,7 +434,7 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   frame.Errors = { { "integrals", SegmentError },
     { "summation", EstimateSummationError(volume, scene.Format) },
     { "table", volume.GetTableError() },
-    { "geometry", volume.EstimateGeometryError(volume.GetWorldRadius(scene.Grid), tetralux::GeometryRounding{ 6e-8, 6e-8 }) } };
+    { "geometry", volume.EstimateGeometryError(volume.GetWorldRadius(scene.Grid), tetralux::GeometryRounding{ 2.4e-7, 1.2e-7 }) } };
 
   frame.LeaveOut(!this->Sorted, "order", "what cells add commutes");
   frame.LeaveOut(scene.Planes.empty(), "near and far plane", "they cut nothing");

@@ -29,6 +29,10 @@ struct RaySegment
 struct RaySample
 {
   std::vector<std::vector<RaySegment>> Rays;
+
+  /// How often each ray would be one of a picture: where rays were drawn through places in cells, those
+  /// through many and small cells were drawn too often. In any unit; empty: all the same.
+  std::vector<double> Weights;
 };
 
 } // namespace tetralux

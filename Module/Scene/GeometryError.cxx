@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
+#include <numeric>
 #include <vector>
 
 namespace tetralux
@@ -14,263 +12,266 @@ namespace tetralux
 namespace
 {
 
-/// The attenuation over the scalar, its integral, and the variation of the function: the sum of all its
-/// changes, each as it matters to a channel.
-class FunctionTable
+/// Optical depth behind which nothing is seen any more: e^-16 is 1e-7.
+constexpr double OpaqueDepth = 16;
+
+/// One ray in so many exceeds what WorstOfPicture multiplies.
+constexpr double RaysForOne = 1000;
+
+/// Sums over a transfer function, from its first node to a scalar.
+class FunctionSums
 {
 public:
-  FunctionTable(const TransferFunction& function, double largestColor)
+  struct Sum
   {
-    double scalar = function.Nodes.front().Scalar;
+    double Attenuation; ///< of its changes, absolute
+    double Color;       ///< the same of the channel that changes most
+    double Integral;    ///< of the attenuation
+    double Value;       ///< the attenuation itself
+  };
+
+  explicit FunctionSums(const TransferFunction& function)
+  {
     const TransferFunction::Value* before = &function.Nodes.front().Left;
-    double variation = 0;
-    double integral = 0;
+    double scalar = function.Nodes.front().Scalar;
+    Sum sum{ 0, 0, 0, 0 };
     for (const TransferFunction::Node& node : function.Nodes)
     {
-      variation += Compare(*before, node.Left, largestColor);
-      integral += 0.5 * (before->Attenuation + node.Left.Attenuation) * (node.Scalar - scalar);
-      Entry entry{ node.Scalar, variation, 0, integral, node.Left.Attenuation,
-        node.Right.Attenuation };
-      variation += Compare(node.Left, node.Right, largestColor);
-      entry.VariationAbove = variation;
-      this->Entries.push_back(entry);
+      sum.Integral += 0.5 * (before->Attenuation + node.Left.Attenuation) * (node.Scalar - scalar);
+      Add(sum, *before, node.Left);
+      const Sum below = sum;
+      Add(sum, node.Left, node.Right);
+      this->Nodes.push_back({ node.Scalar, below, sum });
       scalar = node.Scalar;
       before = &node.Right;
     }
   }
 
-  struct Sample
+  /// above: at a step, with the step.
+  Sum At(double scalar, bool above) const
   {
-    double Variation, Integral, Attenuation;
-  };
-
-  /// above: at a step the value above it.
-  Sample At(double scalar, bool above) const
-  {
-    const auto less = [](double s, const Entry& entry) { return s < entry.Scalar; };
-    const auto next = std::upper_bound(this->Entries.begin(), this->Entries.end(), scalar, less);
-    if (next == this->Entries.begin())
+    const auto next = std::upper_bound(this->Nodes.begin(), this->Nodes.end(), scalar,
+      [](double s, const Node& node) { return s < node.Scalar; });
+    if (next == this->Nodes.begin())
     {
-      const Entry& first = *next;
-      return { 0, first.Integral - (first.Scalar - scalar) * first.Below, first.Below };
+      Sum sum = next->Below;
+      sum.Integral += (scalar - next->Scalar) * sum.Value;
+      return sum;
     }
-    const Entry& entry = *(next - 1);
-    if (scalar == entry.Scalar && !above)
+    const Node& node = *(next - 1);
+    if (scalar == node.Scalar && !above)
     {
-      return { entry.Variation, entry.Integral, entry.Below };
+      return node.Below;
     }
-    const double x = scalar - entry.Scalar;
-    if (next == this->Entries.end())
+    Sum sum = node.Above;
+    const double x = scalar - node.Scalar;
+    if (next != this->Nodes.end())
     {
-      return { entry.VariationAbove, entry.Integral + x * entry.Above, entry.Above };
+      const double share = x / (next->Scalar - node.Scalar);
+      sum.Attenuation += share * (next->Below.Attenuation - sum.Attenuation);
+      sum.Color += share * (next->Below.Color - sum.Color);
+      sum.Value += share * (next->Below.Value - sum.Value);
     }
-    const double share = x / (next->Scalar - entry.Scalar);
-    const double attenuation = entry.Above + share * (next->Below - entry.Above);
-    return { entry.VariationAbove + share * (next->Variation - entry.VariationAbove),
-      entry.Integral + 0.5 * (entry.Above + attenuation) * x, attenuation };
+    sum.Integral += 0.5 * (node.Above.Value + sum.Value) * x;
+    return sum;
   }
 
 private:
-  struct Entry
+  struct Node
   {
-    double Scalar, Variation, VariationAbove, Integral, Below, Above;
+    double Scalar;
+    Sum Below, Above; ///< without and with the step at it
   };
 
-  /// Of the optical depth and of the colour that goes with it, per unit of length.
-  static double Compare(
-    const TransferFunction::Value& a, const TransferFunction::Value& b, double largestColor)
+  static void Add(Sum& sum, const TransferFunction::Value& a, const TransferFunction::Value& b)
   {
     double color = 0;
     for (int c = 0; c < 3; ++c)
     {
       color = std::max(color, std::abs(b.Color[c] - a.Color[c]));
     }
-    return std::abs(b.Attenuation - a.Attenuation) * largestColor +
-      std::max(a.Attenuation, b.Attenuation) * color;
+    sum.Color += color;
+    sum.Attenuation += std::abs(b.Attenuation - a.Attenuation);
+    sum.Value = b.Attenuation;
   }
 
-  std::vector<Entry> Entries;
+  std::vector<Node> Nodes;
 };
 
-/// What rounding does to a ray.
-struct RayError
-{
-  double Sum;    ///< of all segments, as a camera anywhere on the ray sees it, at most
-  double Inside; ///< of the worst segment by the function's changes in it
-  double Ends;   ///< of the worst face by the function's jump there
-  double Limit;  ///< of any segment that touches a surface of the function
-};
-
-/// Measures rays.
+/// What rounding does to rays.
 class RoundedRays
 {
 public:
-  RoundedRays(const TransferFunction& function, bool absorbs, double lengthScale, double radius,
-    double scalarUnit, const GeometryRounding& rounding)
-    : LargestColor(std::max(1., GetLargestColor(function)))
-    , Function(function, this->LargestColor)
+  RoundedRays(const RayUnits& units, const TransferFunction& function, bool absorbs,
+    const GeometryRounding& rounding)
+    : Function(function)
+    , LargestColor(std::max(1., GetLargestColor(function)))
     , Absorbs(absorbs)
-    , LengthScale(lengthScale)
+    , Length(units.Length)
     , Across(rounding.Across)
-    , Distance(rounding.Across * radius)
-    , Scalar(rounding.Scalar * scalarUnit)
+    , Distance(rounding.Across * units.Radius)
+    , Scalar(rounding.Scalar * units.Scalar)
   {
-    const double window = 2 * this->Scalar;
-    for (const TransferFunction::Node& node : function.Nodes)
-    {
-      for (const double lower : { node.Scalar, node.Scalar - 0.5 * window, node.Scalar - window })
-      {
-        const double change = 0.5 * this->GetVariation(lower, lower + window);
-        if (change > this->LargestChange)
-        {
-          this->LargestChange = change;
-          this->AttenuationThere = 0.5 * std::max(node.Left.Attenuation, node.Right.Attenuation);
-        }
-      }
-    }
   }
 
-  RayError Measure(const std::vector<RaySegment>& ray) const
+  /// Error of a channel that a camera anywhere on the ray sees, at most.
+  double Measure(const std::vector<RaySegment>& ray) const
   {
-    RayError error{ 0, 0, 0, 0 };
-    double behind = 0;
+    double largest = 0;
+    double squares = 0; // behind, as seen from here
     for (std::size_t k = ray.size(); k-- > 0;)
     {
-      const RaySegment& segment = ray[k];
-      const double length = this->LengthScale * segment.Length;
-      const double depth = length * this->GetMeanAttenuation(segment);
-      const double change = this->Scalar + this->Across * segment.Gradient;
-      const double inside = Weaken(length * this->GetChange(segment, change), depth);
-      const double ends = std::min(this->GetChangeAtEnds(ray, k), this->LargestColor);
-      error.Inside = std::max(error.Inside, inside);
-      error.Ends = std::max(error.Ends, ends);
-      if (this->Scalar > 0)
-      {
-        error.Limit = std::max(error.Limit,
-          Weaken(length * this->LargestChange * (change / this->Scalar),
-            length * this->AttenuationThere));
-      }
-      const double transmittance = this->Absorbs ? std::exp(-depth) : 1;
-      behind = std::hypot(inside + ends, transmittance * behind);
-      error.Sum = std::max(error.Sum, behind);
+      const double faces = this->MeasureFaces(ray, k);
+      const SegmentError segment = this->MeasureSegment(ray[k], faces);
+      squares = segment.Error * segment.Error +
+        segment.Transmittance * segment.Transmittance * squares;
+      largest = std::max(largest, squares);
     }
-    return error;
+    return std::sqrt(largest);
   }
 
 private:
-  /// The change of an optical depth, where there is a depth that hides it.
-  double Weaken(double change, double depth) const
+  struct SegmentError
   {
-    return this->Absorbs ? change / std::max(1., depth) : change;
+    double Error, Transmittance;
+  };
+
+  /// Optical depth of a segment from one scalar to another one.
+  double GetDepth(double from, double to, double length) const
+  {
+    const double lower = std::min(from, to);
+    const double upper = std::max(from, to);
+    const FunctionSums::Sum low = this->Function.At(lower, true);
+    return length *
+      (upper > lower
+          ? std::max(0., this->Function.At(upper, false).Integral - low.Integral) / (upper - lower)
+          : low.Value);
   }
 
-  double GetVariation(double lower, double upper) const
+  /// Cuts off what is behind OpaqueDepth. Returns the depth of what is left.
+  double CutOpaque(double front, double& back, double& length, double depth) const
   {
-    return this->Function.At(upper, true).Variation - this->Function.At(lower, false).Variation;
-  }
-
-  double GetMeanAttenuation(const RaySegment& segment) const
-  {
-    const double lower = std::min(segment.Front, segment.Back);
-    const double upper = std::max(segment.Front, segment.Back);
-    const FunctionTable::Sample low = this->Function.At(lower, true);
-    return upper > lower
-      ? std::max(0., (this->Function.At(upper, true).Integral - low.Integral) / (upper - lower))
-      : low.Attenuation;
-  }
-
-  /// Of a unit of length.
-  double GetChange(const RaySegment& segment, double change) const
-  {
-    if (!(change > 0))
+    double share = 1;
+    double lowest = 0;
+    const double wholeBack = back;
+    const double wholeLength = length;
+    constexpr int Halvings = 24;
+    for (int i = 0; i < Halvings; ++i)
     {
-      return 0;
+      const double middle = 0.5 * (lowest + share);
+      const double end = front + middle * (wholeBack - front);
+      const double found = this->GetDepth(front, end, middle * wholeLength);
+      if (found > OpaqueDepth)
+      {
+        share = middle;
+        back = end;
+        length = middle * wholeLength;
+        depth = found;
+      }
+      else
+      {
+        lowest = middle;
+      }
     }
-    const double lower = std::min(segment.Front, segment.Back) - change;
-    const double upper = std::max(segment.Front, segment.Back) + change;
-    return this->GetVariation(lower, upper) * change / (upper - lower);
+    return depth;
   }
 
-  double GetChangeAtEnds(const std::vector<RaySegment>& ray, std::size_t k) const
+  /// faces: what the depth changes by at the ends of the segment.
+  SegmentError MeasureSegment(const RaySegment& segment, double faces) const
+  {
+    double length = this->Length * segment.Length;
+    double back = segment.Back;
+    double depth = this->GetDepth(segment.Front, back, length);
+    const double transmittance = this->Absorbs ? std::exp(-depth) : 1;
+    if (this->Absorbs && depth > OpaqueDepth)
+    {
+      depth = this->CutOpaque(segment.Front, back, length, depth);
+    }
+    const double change = this->Scalar + this->Across * segment.Gradient;
+    const double lower = std::min(segment.Front, back) - change;
+    const double upper = std::max(segment.Front, back) + change;
+    const FunctionSums::Sum low = this->Function.At(lower, false);
+    const FunctionSums::Sum high = this->Function.At(upper, true);
+    const double share = upper > lower ? change / (upper - lower) : 0;
+    const double colors = high.Color - low.Color;
+    const double thickness = this->Absorbs ? std::max(1., depth) : 1;
+    const double depthChange =
+      length * (high.Attenuation - low.Attenuation) * share / thickness + faces;
+    if (!this->Absorbs)
+    {
+      return { this->LargestColor * depthChange + depth * colors * share, 1 };
+    }
+    // A depth matters as far as what it hides has another colour.
+    const double hidden = std::min(1., transmittance + colors / this->LargestColor);
+    return { hidden * this->LargestColor * std::min(1., depthChange) +
+        std::min(depth, 1.) * colors * share,
+      transmittance };
+  }
+
+  double MeasureFaces(const std::vector<RaySegment>& ray, std::size_t k) const
   {
     const RaySegment& segment = ray[k];
     double change = 0;
     if (segment.First)
     {
-      change += segment.FrontSlope * this->Function.At(segment.Front, true).Attenuation;
+      change += segment.FrontSlope * this->Function.At(segment.Front, true).Value;
     }
     if (segment.Last)
     {
-      change += segment.BackSlope * this->Function.At(segment.Back, true).Attenuation;
+      change += segment.BackSlope * this->Function.At(segment.Back, true).Value;
     }
-    change *= this->LargestColor;
-    if (!segment.Last && k + 1 < ray.size() && ray[k + 1].Front != segment.Back &&
-      segment.Front == segment.Back)
+    else if (k + 1 < ray.size() && ray[k + 1].Front != segment.Back)
     {
       change += segment.BackSlope *
-        this->GetVariation(std::min(ray[k + 1].Front, segment.Back),
-          std::max(ray[k + 1].Front, segment.Back));
+        std::abs(this->Function.At(ray[k + 1].Front, true).Value -
+          this->Function.At(segment.Back, true).Value);
     }
     return this->Distance * change;
   }
 
+  FunctionSums Function;
   double LargestColor;
-  FunctionTable Function;
   bool Absorbs;
-  double LengthScale;
-  double Across;   ///< in radii
+  double Length;
+  double Across;   ///< radii
   double Distance; ///< the same, world units
   double Scalar;   ///< units of the scalars
-  double LargestChange = 0;
-  double AttenuationThere = 0;
 };
 
-/// The largest of a picture's errors whose large ones are as rare as their inverse squares. sample: any
-/// order; it is sorted.
-double Extrapolate(std::vector<double>& sample)
+/// What the given part of the rays exceeds, by their weights.
+double FindQuantile(const std::vector<double>& errors, const std::vector<double>& weights)
 {
-  constexpr std::size_t Fewest = 8; // of the largest; fewer are chance
-  std::sort(sample.begin(), sample.end(), [](double a, double b) { return a > b; });
-  double largest = 0;
-  for (std::size_t k = Fewest; k <= sample.size(); ++k)
+  std::vector<std::size_t> order(errors.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+    [&errors](std::size_t a, std::size_t b) { return errors[a] > errors[b]; });
+  const double allowed = std::accumulate(weights.begin(), weights.end(), 0.) / RaysForOne;
+  double sum = 0;
+  for (const std::size_t i : order)
   {
-    largest = std::max(largest, sample[k - 1] * sample[k - 1] * static_cast<double>(k));
+    sum += weights[i];
+    if (sum > allowed)
+    {
+      return errors[i];
+    }
   }
-  return std::sqrt(largest / static_cast<double>(sample.size()) * RaysOfPicture);
+  return 0;
 }
 
 } // namespace
 
-double EstimateRoundingError(const RaySample& rays, double lengthScale, double radius,
-  double scalarUnit, const TransferFunction& function, bool absorbs,
-  const GeometryRounding& rounding)
+double EstimateRoundingError(const RaySample& rays, const RayUnits& units,
+  const TransferFunction& function, bool absorbs, const GeometryRounding& rounding)
 {
-  const RoundedRays rounded(function, absorbs, lengthScale, radius, scalarUnit, rounding);
-  const std::size_t n = rays.Rays.size();
-  if (n == 0)
+  const RoundedRays rounded(units, function, absorbs, rounding);
+  const auto n = static_cast<std::ptrdiff_t>(rays.Rays.size());
+  std::vector<double> errors(rays.Rays.size());
+#pragma omp parallel for schedule(dynamic, 8)
+  for (std::ptrdiff_t i = 0; i < n; ++i)
   {
-    return 0;
+    errors[i] = rounded.Measure(rays.Rays[i]);
   }
-  std::vector<double> inside(n), ends(n);
-  double sum = 0;
-  double limit = 0;
-#pragma omp parallel for schedule(dynamic, 8) reduction(max : sum, limit)
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(n); ++i)
-  {
-    const RayError error = rounded.Measure(rays.Rays[i]);
-    inside[i] = error.Inside;
-    ends[i] = error.Ends;
-    sum = std::max(sum, error.Sum);
-    limit = std::max(limit, error.Limit);
-  }
-  const double touching = std::min(Extrapolate(inside), limit);
-  const double grazing = Extrapolate(ends);
-  if (std::getenv("TX_DEBUG"))
-  {
-    std::fprintf(stderr, "sum %.2g inside %.2g limit %.2g ends %.2g rays %zu\n", sum,
-      Extrapolate(inside), limit, grazing, n);
-  }
-  return sum + std::max(touching, grazing);
+  return WorstOfPicture * FindQuantile(errors, rays.Weights);
 }
 
 } // namespace tetralux

@@ -475,8 +475,9 @@ double VolumeScene::EstimateRounding(double worldRadius, const GeometryRounding&
   {
     this->GetRaySample(scale);
   }
-  return EstimateRoundingError(*this->SampledRays, scale / this->ScaleOfRays, worldRadius,
-    this->GetLargestMappedScalar() * this->GetScalarMap().Scale, this->Function,
+  const RayUnits units{ scale / this->ScaleOfRays, worldRadius,
+    this->GetLargestMappedScalar() * this->GetScalarMap().Scale };
+  return EstimateRoundingError(*this->SampledRays, units, this->Function,
     this->Model != OpticalModel::EmissionOnly, rounding);
 }
 

@@ -49,9 +49,11 @@ public:
   }
 
   /// The segments of all cells that the line goes through; lengths times scale.
-  std::vector<RaySegment> Walk(double scale) const
+  /// density: how likely it is drawn through a place in one of the cells, in any unit.
+  std::vector<RaySegment> Walk(double scale, double& density) const
   {
     std::vector<RaySegment> segments;
+    density = 0;
     std::vector<Crossing> crossings = this->FindCrossings();
     for (std::size_t k = 0; k < crossings.size(); ++k)
     {
@@ -59,7 +61,7 @@ public:
       {
         continue;
       }
-      const std::int32_t exit = this->WalkFrom(crossings[k].Entry, scale, segments);
+      const std::int32_t exit = this->WalkFrom(crossings[k].Entry, scale, segments, density);
       for (std::size_t i = k + 1; i < crossings.size(); ++i)
       {
         crossings[i].Entry = crossings[i].Entry == exit ? -1 : crossings[i].Entry;
@@ -103,8 +105,13 @@ private:
       std::hypot(x, y) / std::abs(sum) };
   }
 
-  /// Change of the scalar across the line in the cell of four corners, where it is not flat.
-  static double FindGradient(const Corner& a, const Corner& b, const Corner& c, const Corner& d)
+  /// Of the cell of four corners: its volume times six, and how the scalar changes across the line.
+  struct CellShape
+  {
+    double Volume, Gradient;
+  };
+
+  static CellShape FindShape(const Corner& a, const Corner& b, const Corner& c, const Corner& d)
   {
     const Corner e[3] = { { b.X - a.X, b.Y - a.Y, b.Z - a.Z, b.S - a.S, 0 },
       { c.X - a.X, c.Y - a.Y, c.Z - a.Z, c.S - a.S, 0 },
@@ -119,7 +126,7 @@ private:
       volume += e[i].Z * Det(p, q);
     }
     const double gradient = std::hypot(x, y) / std::abs(volume);
-    return std::isfinite(gradient) ? gradient : 0;
+    return { std::abs(volume), std::isfinite(gradient) ? gradient : 0 };
   }
 
   static bool IsInside(const Corner& a, const Corner& b, const Corner& c)
@@ -174,7 +181,8 @@ private:
   }
 
   /// From an entry to where the line leaves the mesh: which boundary face that is.
-  std::int32_t WalkFrom(std::int32_t entryId, double scale, std::vector<RaySegment>& segments) const
+  std::int32_t WalkFrom(
+    std::int32_t entryId, double scale, std::vector<RaySegment>& segments, double& density) const
   {
     const WalkEntry& entry = this->Mesh.GetEntries()[entryId];
     Corner a = this->See(entry.Points[0]), b = this->See(entry.Points[1]),
@@ -194,7 +202,7 @@ private:
       // The exit face is opposite to the corner that p replaces.
       Corner& replaced = bSide && !cSide ? a : cSide && !aSide ? b : c;
       const std::int32_t dropped = replaced.Id;
-      const double gradient = this->ScalarsOfCells ? 0 : FindGradient(a, b, c, p);
+      const CellShape shape = FindShape(a, b, c, p);
       replaced = p;
       const int face = (dropped > a.Id) + (dropped > b.Id) + (dropped > c.Id);
       const std::int32_t cell = behind.Cell;
@@ -207,7 +215,11 @@ private:
       if (length > 0 && std::isfinite(front) && std::isfinite(back))
       {
         segments.push_back(
-          { front, back, length, gradient, place.Slope, next.Slope, first, behind.Cell < 0 });
+          { front, back, length, shape.Gradient, place.Slope, next.Slope, first, behind.Cell < 0 });
+      }
+      if (shape.Volume > 0)
+      {
+        density += std::abs(next.Z - place.Z) / shape.Volume;
       }
       place = next;
       first = false;
@@ -271,12 +283,15 @@ RaySample DrawMeshRays(
     std::generate(lines.begin(), lines.end(), draw);
     const std::size_t first = sample.Rays.size();
     sample.Rays.resize(first + count);
+    sample.Weights.resize(first + count);
     const auto n = static_cast<std::ptrdiff_t>(count);
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::ptrdiff_t i = 0; i < n; ++i)
     {
       const MeshLine line(mesh, scalars, ofCells, lines[i].first, lines[i].second);
-      sample.Rays[first + i] = line.Walk(scale * mesh.GetRadius());
+      double density;
+      sample.Rays[first + i] = line.Walk(scale * mesh.GetRadius(), density);
+      sample.Weights[first + i] = density > 0 ? 1 / density : 0;
     }
   };
   walk(FewestRays);
