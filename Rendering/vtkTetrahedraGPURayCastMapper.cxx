@@ -7,6 +7,7 @@
 #include "Frame/MapperFrame.h"
 #include "GpuIntegral/GpuLighting.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
+#include "GpuIntegral/ShaderError.h"
 #include "GpuRayCast/GpuRayCaster.h"
 #include "GpuRayCast/GpuRayLimits.h"
 #include "GpuRayCast/PixelProjection.h"
@@ -101,7 +102,8 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
   const tetralux::RayLimits limits = frame.MakeLimits(rays);
-  const double geometryError = scene.EstimateGeometryError(scene.GetWorldRadius(grid), tetralux::GeometryRounding{ 2.4e-7, 6e-8 });
+  const double geometryError =
+    scene.EstimateGeometryError(scene.GetWorldRadius(grid), tetralux::RayShaderRounding);
   if (!std::isfinite(geometryError))
   {
     throw std::invalid_argument(

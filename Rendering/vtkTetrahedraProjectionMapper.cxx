@@ -6,6 +6,7 @@
 #include "Frame/ImageCompositor.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/OpaqueDepth.h"
+#include "GpuIntegral/ShaderError.h"
 #include "GpuProjection/ProjectionPicture.h"
 #include "Projection/ScreenFrame.h"
 #include "Report/JsonObject.h"
@@ -430,11 +431,17 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   }
   frame.Sections.emplace_back("projection", section);
 
+  const double worldRadius = volume.GetWorldRadius(scene.Grid);
+  const bool isOrderWrong = this->Sorted &&
+    (this->Method == VisibilityMethod::CentroidDistance ||
+      this->Method == VisibilityMethod::MeshedNonConvex ||
+      this->Sorter->GetCycles().GetNumberOfCycles() > 0);
   constexpr double SegmentError = 5e-7; // SegmentWeightError
   frame.Errors = { { "integrals", SegmentError },
     { "summation", EstimateSummationError(volume, scene.Format) },
     { "table", volume.GetTableError() },
-    { "geometry", volume.EstimateGeometryError(volume.GetWorldRadius(scene.Grid), tetralux::GeometryRounding{ 2.4e-7, 1.2e-7 }) } };
+    { "geometry", volume.EstimateGeometryError(worldRadius, tetralux::CellShaderRounding) },
+    { "order", isOrderWrong ? volume.EstimateOrderError(worldRadius) : 0 } };
 
   frame.LeaveOut(!this->Sorted, "order", "what cells add commutes");
   frame.LeaveOut(scene.Planes.empty(), "near and far plane", "they cut nothing");

@@ -6,6 +6,7 @@
 #include "Frame/RendererLights.h"
 #include "Preparation/ScenePreparation.h"
 #include "Report/JsonObject.h"
+#include "Report/OnceWarning.h"
 
 #include "Intake/TetrahedraIntake.h"
 #include "vtkBoundingBox.h"
@@ -22,12 +23,22 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <algorithm>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 using tetralux::JsonObject;
 using tetralux::MapperFrame;
+
+namespace
+{
+
+/// No picture in single precision is expected to be better: the header says so.
+constexpr double SmallestMaximumError = 1e-6;
+
+} // namespace
 
 //------------------------------------------------------------------------------------------------
 // The stages of a frame, what they keep and what they report.
@@ -59,6 +70,9 @@ public:
 
 private:
   void WriteStatistics(MapperFrame& frame, double seconds);
+  void WarnOfError(const MapperFrame& frame);
+
+  tetralux::OnceWarning ErrorWarning;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -166,6 +180,24 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   statistics.Set("error", error);
   statistics.Set("left_out", frame.LeftOut);
   this->Statistics = statistics.ToString();
+  this->WarnOfError(frame);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::Internals::WarnOfError(const MapperFrame& frame)
+{
+  const double asked = this->Self->MaximumError;
+  if (frame.Aborted || asked < SmallestMaximumError || this->ErrorEstimate <= asked)
+  {
+    this->ErrorWarning.Update(this->Self, "");
+    return;
+  }
+  const auto largest = std::max_element(frame.Errors.begin(), frame.Errors.end(),
+    [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::ostringstream warning;
+  warning << "the estimated error " << this->ErrorEstimate << " is above the MaximumError " << asked
+          << ": " << largest->second << " of it by '" << largest->first << "'";
+  this->ErrorWarning.Update(this->Self, warning.str(), largest->first);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -220,9 +220,10 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
 }
 
 /// Renders the volume of an input once. Returns VTK's first error, empty where there was none; warnings
-/// are printed then.
-std::string Draw(
-  const std::string& input, vtkTetrahedraVolumeMapper* mapper, vtkRenderWindow* window)
+/// are printed then. mayChange: another method is taken if this one's error is too large, which is
+/// returned as an error.
+std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
+  vtkRenderWindow* window, bool mayChange)
 {
   const MessageCapture messages;
   ProgressLine progress("rendering");
@@ -232,6 +233,10 @@ std::string Draw(
   if (messages.GetError().empty())
   {
     CheckRendered(input, nlohmann::ordered_json::parse(mapper->GetStatistics()));
+    if (mayChange && !KeepsMaximumError(mapper))
+    {
+      return "its error is estimated to be larger than MaximumError";
+    }
     messages.PrintWarnings();
   }
   return messages.GetError();
@@ -301,16 +306,17 @@ void RenderPicture(const RenderOptions& options)
   window->AddRenderer(renderer);
   PlaceCamera(options, bounds, renderer);
 
-  std::string error = Draw(options.Input, mapper, window);
-  if (!error.empty() && options.Method == "auto" && method.Method != "ray-cast")
+  const bool mayChange = options.Method == "auto" && method.Method != "ray-cast";
+  std::string error = Draw(options.Input, mapper, window, mayChange);
+  if (mayChange && !error.empty())
   {
-    // No room for the mesh, say: a processor has it.
+    // No room for the mesh, or too few digits, say: a processor has both.
     method = { "ray-cast", method.Method + " failed: " + error };
     mapper = MakeConfiguredMapper(method.Method, options);
     SelectScalars(choice, mapper);
     mapper->SetInputData(data.GetPointer());
     volume->SetMapper(mapper);
-    error = Draw(options.Input, mapper, window);
+    error = Draw(options.Input, mapper, window, false);
   }
   if (!error.empty())
   {

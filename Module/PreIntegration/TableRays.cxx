@@ -14,17 +14,26 @@ namespace tetralux
 namespace
 {
 
-/// Nodes within the scalars of a sample; a part of them, evenly, where they are many.
+/// Nodes within the scalars of a sample, and the middles between them, where tables on the nodes are
+/// most wrong; a part of them, evenly, where they are many.
 std::vector<double> FindNodes(
   const TransferFunction& function, const double range[2], std::size_t most)
 {
   std::vector<double> nodes;
-  for (const TransferFunction::Node& node : function.Nodes)
+  const auto add = [&nodes, range](double scalar)
   {
-    if (range[0] < node.Scalar && node.Scalar < range[1])
+    if (range[0] < scalar && scalar < range[1])
     {
-      nodes.push_back(node.Scalar);
+      nodes.push_back(scalar);
     }
+  };
+  for (std::size_t k = 0; k < function.Nodes.size(); ++k)
+  {
+    if (k > 0)
+    {
+      add(0.5 * (function.Nodes[k - 1].Scalar + function.Nodes[k].Scalar));
+    }
+    add(function.Nodes[k].Scalar);
   }
   const std::size_t step = nodes.size() / std::max<std::size_t>(most, 1) + 1;
   for (std::size_t k = 0; k * step < nodes.size(); ++k)

@@ -179,7 +179,9 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   const bool lit = options.Shaded && model == OpticalModel::EmissionAbsorption && !cellData;
   const Integrator integrator = ChooseIntegrator(scene, lit, statistics.Integration);
   const double worldRadius = scene.GetWorldRadius(grid);
-  const double geometryError = scene.EstimateGeometryError(worldRadius, SingleRounding);
+  const double geometryError = options.Arithmetic == Precision::Double
+    ? 0
+    : scene.EstimateGeometryError(worldRadius, SingleRounding);
   // Half of the error may come from ending rays early, a quarter from rounding.
   statistics.DoublePrecision = options.Arithmetic == Precision::Double ||
     !std::isfinite(geometryError) ||

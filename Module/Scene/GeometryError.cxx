@@ -123,8 +123,8 @@ public:
     {
       const double faces = this->MeasureFaces(ray, k);
       const SegmentError segment = this->MeasureSegment(ray[k], faces);
-      squares = segment.Error * segment.Error +
-        segment.Transmittance * segment.Transmittance * squares;
+      squares =
+        segment.Error * segment.Error + segment.Transmittance * segment.Transmittance * squares;
       largest = std::max(largest, squares);
     }
     return std::sqrt(largest);

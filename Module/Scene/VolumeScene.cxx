@@ -3,6 +3,7 @@
 
 #include "Mesh/CellVolumes.h"
 
+#include "Scene/OrderError.h"
 #include "Scene/VisibleCells.h"
 
 #include <algorithm>
@@ -133,6 +134,7 @@ void VolumeScene::Invalidate()
 {
   this->CellValuesValid = this->VisibleCellsValid = this->VisibleTablesValid = this->PlanValid =
     false;
+  this->GeometryError = -1;
 }
 
 void VolumeScene::SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError)
@@ -425,8 +427,8 @@ std::shared_ptr<const RaySample> VolumeScene::GetRaySample(double scale)
 {
   if (!this->SampledRays || this->ScaleOfRays != scale)
   {
-    this->SampledRays =
-      std::make_shared<const RaySample>(DrawMeshRays(*this->Mesh, this->Scalars, scale, this->ScalarsOfCells));
+    this->SampledRays = std::make_shared<const RaySample>(
+      DrawMeshRays(*this->Mesh, this->Scalars, scale, this->ScalarsOfCells));
     this->ScaleOfRays = scale;
   }
   return this->SampledRays;
@@ -468,17 +470,43 @@ double VolumeScene::EstimateGeometryError(double worldRadius, const GeometryRoun
   }
 }
 
-double VolumeScene::EstimateRounding(double worldRadius, const GeometryRounding& rounding)
+std::pair<const RaySample&, double> VolumeScene::GetAnyRays(double worldRadius)
 {
   const double scale = worldRadius / this->Mesh->GetRadius();
   if (!this->SampledRays)
   {
     this->GetRaySample(scale);
   }
-  const RayUnits units{ scale / this->ScaleOfRays, worldRadius,
-    this->GetLargestMappedScalar() * this->GetScalarMap().Scale };
-  return EstimateRoundingError(*this->SampledRays, units, this->Function,
-    this->Model != OpticalModel::EmissionOnly, rounding);
+  return { *this->SampledRays, scale / this->ScaleOfRays };
+}
+
+double VolumeScene::EstimateRounding(double worldRadius, const GeometryRounding& rounding)
+{
+  // Rounded, so that a volume which is only turned keeps its estimate.
+  const double radius = static_cast<float>(worldRadius);
+  if (this->GeometryError < 0 || radius != this->GeometryErrorRadius ||
+    rounding.Across != this->GeometryErrorRounding.Across ||
+    rounding.Scalar != this->GeometryErrorRounding.Scalar)
+  {
+    const auto [rays, length] = this->GetAnyRays(radius);
+    const RayUnits units{ length, radius,
+      this->GetLargestMappedScalar() * this->GetScalarMap().Scale };
+    this->GeometryError = EstimateRoundingError(
+      rays, units, this->Function, this->Model != OpticalModel::EmissionOnly, rounding);
+    this->GeometryErrorRadius = radius;
+    this->GeometryErrorRounding = rounding;
+  }
+  return this->GeometryError;
+}
+
+double VolumeScene::EstimateOrderError(double worldRadius)
+{
+  if (this->Model != OpticalModel::EmissionAbsorption)
+  {
+    return 0;
+  }
+  const auto [rays, length] = this->GetAnyRays(worldRadius);
+  return tetralux::EstimateOrderError(rays, length, this->Function);
 }
 
 } // namespace tetralux

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace tetralux
@@ -148,16 +149,22 @@ public:
   /// the grid stretches it.
   double GetWorldRadius(const RayGrid& grid) const;
 
-  /// Estimated error of a channel by single precision coordinates and scalars, see GeometryError.h.
-  /// Infinite where the mesh is so small or so large that distances in it leave the range of single
-  /// precision. Kept until what it depends on changes.
+  /// Estimated error of a channel by rounding coordinates and scalars, see GeometryError.h; of
+  /// isosurfaces 0. Infinite where the mesh is so small or so large that distances in it leave the range
+  /// of single precision. worldRadius: GetWorldRadius. Measured once for what it depends on.
   double EstimateGeometryError(double worldRadius, const GeometryRounding& rounding);
+
+  /// EstimateOrderError of emission and absorption; 0 of other models. worldRadius: GetWorldRadius.
+  double EstimateOrderError(double worldRadius);
 
 private:
   void SetScalars(std::vector<double> scalars, bool ofCells);
   void CountBlankCells();
   double GetLargestMappedScalar() const;
   double EstimateRounding(double worldRadius, const GeometryRounding& rounding);
+
+  /// Rays to estimate errors by, and the world length of a unit of theirs.
+  std::pair<const RaySample&, double> GetAnyRays(double worldRadius);
   void Invalidate();
 
   std::shared_ptr<WalkMesh> Mesh;
@@ -183,6 +190,9 @@ private:
   double LongestEdge = -1;                      ///< of the mesh; negative: not measured yet
   std::shared_ptr<const RaySample> SampledRays; ///< nullptr: not drawn yet
   double ScaleOfRays = 0;
+  double GeometryError = -1; ///< negative: not measured yet
+  double GeometryErrorRadius = 0;
+  GeometryRounding GeometryErrorRounding = { 0, 0 };
   std::uint64_t PointsVersion = 0;
   std::uint64_t TableVersion = 0;
   std::uint64_t CellValuesVersion = 0;

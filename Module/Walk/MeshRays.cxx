@@ -241,8 +241,7 @@ constexpr std::size_t MostRays = 1024;
 
 } // namespace
 
-RaySample DrawMeshRays(
-  const WalkMesh& mesh, Span<const double> scalars, double scale, bool ofCells)
+RaySample DrawMeshRays(const WalkMesh& mesh, Span<const double> scalars, double scale, bool ofCells)
 {
   RaySample sample;
   const std::int32_t numberOfCells = mesh.GetNumberOfCells();
