@@ -3,16 +3,16 @@
 """What mappers say that their largest error is, beside what it is.
 
     TETRALUX_DATA=FOLDER PYTHONPATH=build/lib/python3.11/dist-packages \
-        python3 Testing/Benchmarks/estimates.py --output FILE.csv [--tool build/bin/tetralux] \
-        [--size 256] [--scene WORD] [--setting NAME,NAME]
+        python3 Testing/Benchmarks/estimates.py [--output FILE.csv] [--tool build/bin/tetralux] \
+        [--size 256] [--scene WORD] [--setting NAME,NAME] [--quick]
 
 Renders each scene by each mapper and setting, and compares with ray casting in double precision, in
 closed form and to the end of each ray. Prints a line for each picture: scene, setting, largest error of
 a channel, GetErrorEstimate(), and the estimate over the error, which should never be below 1. Pixels
 that graze are left out and counted: those in which the exact picture itself changes by more than the
 estimate where all rays move across by 2^-22 of the mesh's radius. --scene chooses the scenes whose names
-contain the word, --setting the settings of a list. The blunt fin and the can take part where TETRALUX_DATA
-names the folder with their files.
+contain the word, --setting the settings of a list, --quick small meshes. The blunt fin and the can take
+part where TETRALUX_DATA names the folder with their files. Fails where an estimate is below the error.
 """
 
 import argparse
@@ -149,6 +149,22 @@ def list_meshes(tool):
     )
 
 
+def list_quick_meshes(tool):
+    """Small ones, which a test has time for."""
+
+    def make_ring():
+        return generate(tool, "ring", "--around", "48", "--across", "5")
+
+    def make_small_o_grid():
+        return make_o_grid(around=24, across=12, along=3, first=1e-3)
+
+    return (
+        ("ring", make_ring, ("smooth", "needle", "needles", "steps", "stiff")),
+        ("o-grid", make_small_o_grid, ("smooth", "dense", "steps", "stiff", "constant")),
+        ("ring-cells", lambda: make_cell_data(make_ring()), ("smooth", "steps")),
+    )
+
+
 def table(size, lengths, scale_=2, format_=4, axis=1):
     return {
         "Integration": 2,
@@ -183,6 +199,7 @@ MAPPERS = {
     "gpu": tetralux.vtkTetrahedraGPURayCastMapper,
     "projection": tetralux.vtkTetrahedraProjectionMapper,
 }
+LARGEST_GRAZED_SHARE = 1e-3  # of all pixels of all pictures
 GRAZING_ROUNDING = 2**-22  # GeometryError.h
 REFERENCE = ("reference", "ray-cast", {"MaximumError": 0, "Precision": 2, "Integration": 1})
 
@@ -248,7 +265,7 @@ def measure_scene(name, data, nodes, arguments):
         colors, statistics = scene.render(method, values)
         parts = statistics["error"]
         errors = numpy.abs(colors - exact).max(axis=1)
-        grazed = change > parts["estimate"]
+        grazed = (change > parts["estimate"]) & (parts["geometry"] > 0)
         error = errors[~grazed].max()
         yield {
             "scene": name,
@@ -268,14 +285,16 @@ def measure_scene(name, data, nodes, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--output", required=True)
+    parser.add_argument("--output")
     parser.add_argument("--tool", default="build/bin/tetralux")
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--scene", default="")
     parser.add_argument("--setting", default="")
+    parser.add_argument("--quick", action="store_true")
     arguments = parser.parse_args()
     rows = []
-    for mesh, make, functions in list_meshes(arguments.tool):
+    meshes = list_quick_meshes if arguments.quick else list_meshes
+    for mesh, make, functions in meshes(arguments.tool):
         names = [f for f in functions if arguments.scene in f"{mesh}-{f}-"]
         if mesh.endswith("-cells"):
             names = [f for f in functions if arguments.scene in f"{mesh}-"]
@@ -290,13 +309,17 @@ def main():
                     f"{row['largest_error_grazed']:9.2e}  {row['parts']}",
                     flush=True,
                 )
-    with open(arguments.output, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, rows[0].keys())
-        writer.writeheader()
-        writer.writerows(rows)
+    if arguments.output:
+        with open(arguments.output, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, rows[0].keys())
+            writer.writeheader()
+            writer.writerows(rows)
     missed = [row for row in rows if row["ratio"] < 1]
     print(f"{len(rows)} pictures, {len(missed)} worse than estimated")
-    return 1 if missed else 0
+    # Exceptions are to be few.
+    pixels = sum(row["grazed"] for row in rows) / (len(rows) * arguments.size**2)
+    print(f"{pixels:.2%} of all pixels graze")
+    return 1 if missed or pixels > LARGEST_GRAZED_SHARE else 0
 
 
 if __name__ == "__main__":
