@@ -292,7 +292,8 @@ public:
    * the estimate where the ray moves across by 2^-22 of the mesh's radius. Their rays touch the boundary,
    * or a face between cells of different constant scalars, or a surface along which the transfer
    * function jumps; some ten of a million. Not covered either: interpolation between rays more than a
-   * pixel apart, PerspectiveInterpolation off, and isosurfaces, which rays meet or miss.
+   * pixel apart, PerspectiveInterpolation off, isosurfaces, which rays meet or miss, and nodes of the transfer
+   * function that are nearer to each other than 1e-6 of its range: they are rounded to 6e-8 of it.
    */
   double GetErrorEstimate();
 
