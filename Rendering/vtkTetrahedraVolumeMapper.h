@@ -77,8 +77,8 @@ public:
    * Error aimed at, of each premultiplied colour channel and of the opacity, absolute, 0..1.
    * Default 1e-4. Rays end where what is behind can't matter, arithmetic is single or double
    * precision, and colour functions that are not piecewise linear are subdivided, each as far as
-   * this allows. Where a frame's GetErrorEstimate() is above it, one warning for each cause has both
-   * numbers; below 1e-6 there is none, since the single precision of the result is the limit.
+   * this allows. Where a frame's GetErrorEstimate() is above it, one warning for each cause has
+   * both numbers; below 1e-6 there is none, since the single precision of the result is the limit.
    */
   vtkSetClampMacro(MaximumError, double, 0.0, 1.0);
   vtkGetMacro(MaximumError, double);
@@ -283,16 +283,18 @@ public:
 
   /**
    * Estimated largest error of a channel in the last frame, absolute, 0..1. The sum of what
-   * GetStatistics() has below "error": ending rays early, the integrals, adding segments up in single
-   * precision or in the colour buffer, tables, rounding coordinates and scalars ("geometry"), a wrong
-   * order of cells, and colour functions that were subdivided.
+   * GetStatistics() has below "error": ending rays early, the integrals, adding segments up in
+   * single precision or in the colour buffer, tables, rounding coordinates and scalars
+   * ("geometry"), a wrong order of cells, and colour functions that were subdivided.
    *
-   * Tables and "geometry" are measured on some thousand rays through the mesh. Where "geometry" is not
-   * 0, pixels that graze are not covered: those in which the exact picture itself changes by more than
-   * the estimate where the ray moves across by 2^-22 of the mesh's radius. Their rays touch the boundary,
-   * or a face between cells of different constant scalars, or a surface along which the transfer
-   * function jumps; some ten of a million. Not covered either: interpolation between rays more than a
-   * pixel apart, PerspectiveInterpolation off, isosurfaces, which rays meet or miss, and nodes of the transfer
+   * Tables and "geometry" are measured on some thousand rays through the mesh. Where "geometry" is
+   * not 0, pixels that graze are not covered: those in which the exact picture itself changes by
+   * more than the estimate where the ray moves across by 2^-22 of the mesh's radius. Their rays
+   * touch the boundary, a face between cells of different constant scalars, or a surface along
+   * which the transfer function jumps. They are some forty of a million.
+   *
+   * Not covered either: interpolation between rays more than a pixel apart,
+   * PerspectiveInterpolation off, isosurfaces, which rays meet or miss, and nodes of the transfer
    * function that are nearer to each other than 1e-6 of its range: they are rounded to 6e-8 of it.
    */
   double GetErrorEstimate();

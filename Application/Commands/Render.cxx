@@ -219,9 +219,9 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   return property;
 }
 
-/// Renders the volume of an input once. Returns VTK's first error, empty where there was none; warnings
-/// are printed then. mayChange: another method is taken if this one's error is too large, which is
-/// returned as an error.
+/// Renders the volume of an input once. Returns VTK's first error, empty where there was none;
+/// warnings are printed then. mayChange: another method is taken if this one's error is too large,
+/// which is returned as an error.
 std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
   vtkRenderWindow* window, bool mayChange)
 {

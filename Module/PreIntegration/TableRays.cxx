@@ -14,8 +14,8 @@ namespace tetralux
 namespace
 {
 
-/// Nodes within the scalars of a sample, and the middles between them, where tables on the nodes are
-/// most wrong; a part of them, evenly, where they are many.
+/// Nodes within the scalars of a sample, and the middles between them, where tables on the nodes
+/// are most wrong; a part of them, evenly, where they are many.
 std::vector<double> FindNodes(
   const TransferFunction& function, const double range[2], std::size_t most)
 {
@@ -45,9 +45,10 @@ std::vector<double> FindNodes(
 }
 
 /// Those rays of a sample that come nearest to running along a node of the function, moved onto it:
-/// the scalars of a segment get the node in their middle, at their lower end, or at their upper end, by
-/// turns. Tables are most wrong next to bends and steps, along which the worst rays of a picture run,
-/// and none of a sample by chance. A step is wrong by different parts of its height on both sides.
+/// the scalars of a segment get the node in their middle, at their lower end, or at their upper
+/// end, by turns. Tables are most wrong next to bends and steps, along which the worst rays of a
+/// picture run, and none of a sample by chance. A step is wrong by different parts of its height on
+/// both sides.
 std::vector<std::vector<RaySegment>> MoveOntoNodes(
   const TransferFunction& function, const RaySample& sample)
 {

@@ -16,11 +16,11 @@
 //
 // The error of a picture is estimated as WorstOfPicture times what one ray in a thousand exceeds.
 //
-// No estimate covers rays that graze a face where the attenuation jumps. Rays within a distance d of
-// touching a surface are as frequent as d, and are wrong by the inverse root of d: errors above e are as
-// frequent as 1 / e^2, and the largest one grows with the number of pixels without a bound. Such
-// pixels are found by the exact picture: it changes there by more than the estimate where the ray
-// moves across by GrazingRounding.
+// No estimate covers rays that graze a face where the attenuation jumps. Rays within a distance d
+// of touching a surface are as frequent as d, and are wrong by the inverse root of d: errors above
+// e are as frequent as 1 / e^2, and the largest one grows with the number of pixels without a
+// bound. Such pixels are found by the exact picture: it changes there by more than the estimate
+// where the ray moves across by GrazingRounding.
 
 #include "Integral/RaySegments.h"
 #include "Optics/TransferFunction.h"
@@ -39,7 +39,8 @@ struct GeometryRounding
 /// Coordinates and scalars in the tables of WalkMesh are rounded to 2^-24 of the largest.
 constexpr GeometryRounding SingleRounding = { 1. / (1 << 24), 1. / (1 << 24) };
 
-/// How much worse the worst ray of a picture is than one in a thousand: Documentation/Benchmarks.md.
+/// How much worse the worst ray of a picture is than one in a thousand:
+/// Documentation/Benchmarks.md.
 constexpr double WorstOfPicture = 2.5;
 
 /// No mapper rounds coordinates across a ray by more: radii of the mesh.
@@ -53,8 +54,9 @@ struct RayUnits
   double Scalar; ///< largest absolute mapped scalar, in units of the scalars
 };
 
-/// Estimated largest error of a channel of a picture by rounding. rays: DrawMeshRays. absorbs: false
-/// for OpticalModel::EmissionOnly. Cost: some 10 ms of one thread for 100,000 segments; parallel.
+/// Estimated largest error of a channel of a picture by rounding. rays: DrawMeshRays. absorbs:
+/// false for OpticalModel::EmissionOnly. Cost: some 10 ms of one thread for 100,000 segments;
+/// parallel.
 TETRALUXCORE_EXPORT double EstimateRoundingError(const RaySample& rays, const RayUnits& units,
   const TransferFunction& function, bool absorbs, const GeometryRounding& rounding);
 

@@ -134,7 +134,7 @@ void VolumeScene::Invalidate()
 {
   this->CellValuesValid = this->VisibleCellsValid = this->VisibleTablesValid = this->PlanValid =
     false;
-  this->GeometryError = -1;
+  this->GeometryError = this->OrderError = -1;
 }
 
 void VolumeScene::SetTable(std::shared_ptr<const PreIntegrationTable> table, double pictureError)
@@ -505,8 +505,14 @@ double VolumeScene::EstimateOrderError(double worldRadius)
   {
     return 0;
   }
-  const auto [rays, length] = this->GetAnyRays(worldRadius);
-  return tetralux::EstimateOrderError(rays, length, this->Function);
+  const double radius = static_cast<float>(worldRadius);
+  if (this->OrderError < 0 || radius != this->OrderErrorRadius)
+  {
+    const auto [rays, length] = this->GetAnyRays(radius);
+    this->OrderError = tetralux::EstimateOrderError(rays, length, this->Function);
+    this->OrderErrorRadius = radius;
+  }
+  return this->OrderError;
 }
 
 } // namespace tetralux

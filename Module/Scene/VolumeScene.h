@@ -150,11 +150,12 @@ public:
   double GetWorldRadius(const RayGrid& grid) const;
 
   /// Estimated error of a channel by rounding coordinates and scalars, see GeometryError.h; of
-  /// isosurfaces 0. Infinite where the mesh is so small or so large that distances in it leave the range
-  /// of single precision. worldRadius: GetWorldRadius. Measured once for what it depends on.
+  /// isosurfaces 0. Infinite where the mesh is so small or so large that distances in it leave the
+  /// range of single precision. worldRadius: GetWorldRadius. Measured once for what it depends on.
   double EstimateGeometryError(double worldRadius, const GeometryRounding& rounding);
 
   /// EstimateOrderError of emission and absorption; 0 of other models. worldRadius: GetWorldRadius.
+  /// Measured once.
   double EstimateOrderError(double worldRadius);
 
 private:
@@ -193,6 +194,8 @@ private:
   double GeometryError = -1; ///< negative: not measured yet
   double GeometryErrorRadius = 0;
   GeometryRounding GeometryErrorRounding = { 0, 0 };
+  double OrderError = -1; ///< negative: not measured yet
+  double OrderErrorRadius = 0;
   std::uint64_t PointsVersion = 0;
   std::uint64_t TableVersion = 0;
   std::uint64_t CellValuesVersion = 0;

@@ -24,8 +24,8 @@ struct Corner
 
 double Det(const Corner& a, const Corner& b) { return a.X * b.Y - a.Y * b.X; }
 
-/// The walk of RayCastKernel.inl for one line: by the sides on which it passes the edges. Nothing is
-/// done about lines exactly through edges, which are not drawn at random.
+/// The walk of RayCastKernel.inl for one line: by the sides on which it passes the edges. Nothing
+/// is done about lines exactly through edges, which are not drawn at random.
 class MeshLine
 {
 public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What rounding is estimated to do to pictures, against rays cast in single and in double precision.
+// What rounding is estimated to do to pictures, against rays cast in single and in double
+// precision.
 
 #include "Scene/GeometryError.h"
 
@@ -25,8 +26,8 @@ using namespace tetralux;
 
 constexpr int ImageSize = 128;
 
-/// Pixels that graze, of those that see the mesh: three in a thousand where a wall of constant density
-/// is seen from its edge all around, next to none elsewhere.
+/// Pixels that graze, of those that see the mesh: three in a thousand where a wall of constant
+/// density is seen from its edge all around, next to none elsewhere.
 constexpr double LargestGrazedShare = 4e-3;
 
 struct Case
