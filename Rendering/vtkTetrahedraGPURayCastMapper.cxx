@@ -8,6 +8,7 @@
 #include "Frame/MapperFrame.h"
 #include "GpuIntegral/GpuLighting.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
+#include "GpuIntegral/ShaderError.h"
 #include "GpuRayCast/GpuRayCaster.h"
 #include "GpuRayCast/GpuRayLimits.h"
 #include "GpuRayCast/PixelProjection.h"
@@ -101,8 +102,8 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
   const tetralux::RayLimits limits = frame.MakeLimits(rays);
   const double stretch = tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
-  const double geometryError =
-    scene.EstimateGeometryError(scene.Mesh.GetMesh()->GetRadius() * stretch);
+  const double geometryError = scene.EstimateGeometryError(
+    scene.Mesh.GetMesh()->GetRadius() * stretch, tetralux::RayShaderRounding);
   if (!std::isfinite(geometryError))
   {
     throw std::invalid_argument(

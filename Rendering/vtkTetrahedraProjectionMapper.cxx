@@ -7,6 +7,7 @@
 #include "Frame/ImageCompositor.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/OpaqueDepth.h"
+#include "GpuIntegral/ShaderError.h"
 #include "GpuProjection/ProjectionPicture.h"
 #include "Integral/SegmentWeightError.h"
 #include "Projection/ScreenFrame.h"
@@ -418,15 +419,20 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   }
   frame.Sections.emplace_back("projection", section);
 
+  const double worldRadius = volume.Mesh.GetMesh()->GetRadius() *
+    tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest;
+  const bool isOrderWrong = this->Sorted &&
+    (this->Method == VisibilityMethod::CentroidDistance ||
+      this->Method == VisibilityMethod::MeshedNonConvex ||
+      this->Sorter->GetCycles().GetNumberOfCycles() > 0);
   const Integrator integrator = frame.Integration;
   frame.Budget = tetralux::MakeErrorBudget(
     frame.MaximumError, { false, IsTabulated(integrator), scene.Format != ChannelFormat::Float });
   frame.Errors = { { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
     { "summation", EstimateSummationError(volume, scene.Format) },
     { "table", IsTabulated(integrator) ? volume.Optics.GetTableError() : 0 },
-    { "geometry",
-      volume.EstimateGeometryError(volume.Mesh.GetMesh()->GetRadius() *
-        tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest) } };
+    { "geometry", volume.EstimateGeometryError(worldRadius, tetralux::CellShaderRounding) },
+    { "order", isOrderWrong ? volume.EstimateOrderError(worldRadius) : 0 } };
 
   frame.ReportOmission(!this->Sorted, "order", "what cells add commutes");
   frame.ReportOmission(scene.Planes.empty(), "near and far plane", "they cut nothing");

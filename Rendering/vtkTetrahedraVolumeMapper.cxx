@@ -43,6 +43,9 @@ using tetralux::MapperFrame;
 namespace
 {
 
+/// No picture in single precision is expected to be better: the header says so.
+constexpr double SmallestMaximumError = 1e-6;
+
 /// Frames that are to take less than this belong to an interaction, seconds.
 constexpr double InteractiveSeconds = 1;
 
@@ -97,6 +100,9 @@ public:
 private:
   tetralux::MapperSettings MakeSettings() const;
   void WriteStatistics(MapperFrame& frame, double seconds);
+  void WarnOfError(const MapperFrame& frame);
+
+  tetralux::OnceWarning ErrorWarning;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -278,6 +284,24 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   statistics["error"] = error;
   statistics["left_out"] = frame.LeftOut;
   this->Statistics = statistics.dump(2);
+  this->WarnOfError(frame);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::Internals::WarnOfError(const MapperFrame& frame)
+{
+  const double asked = this->Self->MaximumError;
+  if (frame.Aborted || asked < SmallestMaximumError || this->ErrorEstimate <= asked)
+  {
+    this->ErrorWarning.Update(this->Self, "");
+    return;
+  }
+  const auto largest = std::max_element(frame.Errors.begin(), frame.Errors.end(),
+    [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::ostringstream warning;
+  warning << "the estimated error " << this->ErrorEstimate << " is above the MaximumError " << asked
+          << ": " << largest->second << " of it by '" << largest->first << "'";
+  this->ErrorWarning.Update(this->Self, warning.str(), largest->first);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -217,9 +217,10 @@ void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutpu
 }
 
 /// Renders the volume of an input once. Returns VTK's first error. Without an error, returns an
-/// empty text and prints the warnings.
-std::string Draw(
-  const std::string& input, vtkTetrahedraVolumeMapper* mapper, vtkRenderWindow* window)
+/// empty text and prints the warnings. mayChange: another method is taken if this one's error is too
+/// large, which is returned as an error.
+std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
+  vtkRenderWindow* window, bool mayChange)
 {
   const MessageCapture messages;
   ProgressLine progress("rendering");
@@ -229,6 +230,10 @@ std::string Draw(
   if (messages.GetError().empty())
   {
     CheckRendered(input, nlohmann::ordered_json::parse(mapper->GetStatistics()));
+    if (mayChange && !KeepsMaximumError(mapper))
+    {
+      return "its error is estimated to be larger than MaximumError";
+    }
     messages.PrintWarnings();
   }
   return messages.GetError();
@@ -273,15 +278,16 @@ void RenderPicture(const RenderOptions& options)
   volume->SetMapper(mapper);
   ShowVolume(options, input, volume, window);
 
-  std::string error = Draw(options.Scene.Input, mapper, window);
-  if (!error.empty() && options.Method == "auto" && method.Method != "ray-cast")
+  const bool mayChange = options.Method == "auto" && method.Method != "ray-cast";
+  std::string error = Draw(options.Scene.Input, mapper, window, mayChange);
+  if (mayChange && !error.empty())
   {
-    // The graphics card may lack room for the mesh; the processor has it.
+    // No room for the mesh, or too few digits, say: a processor has both.
     method = { "ray-cast", method.Method + " failed: " + error };
     mapper = MakeConfiguredMapper(method.Method, options);
     SetInput(input, mapper);
     volume->SetMapper(mapper);
-    error = Draw(options.Scene.Input, mapper, window);
+    error = Draw(options.Scene.Input, mapper, window, false);
   }
   if (!error.empty())
   {

@@ -54,7 +54,7 @@ TETRALUXCORE_EXPORT PreIntegrationError EstimatePreIntegrationError(
 TETRALUXCORE_EXPORT double GetPictureError(
   const PreIntegrationError& error, double pathLength, double segments);
 
-/// What pictures by lookups in a table are expected to be wrong by, at most: three times the
+/// What pictures by lookups in a table are expected to be wrong by, at most: four times the
 /// largest error of a channel that a camera anywhere on the rays sees. A sample has a thousandth of
 /// the rays of a picture, and the worst of it is seldom the worst. Some of its rays are measured
 /// once more with scalars that run along a node of the function, where tables are most wrong: next

@@ -20,7 +20,7 @@ namespace tetralux
 
 /// How much worse the worst of the rays of a picture is than the worst of a sample, at most in
 /// nearly all scenes (Documentation/Benchmarks.md).
-constexpr double WorseInPictures = 3;
+constexpr double WorseInPictures = 4;
 
 /// What a camera anywhere on a ray sees of it, by table: back to front, so that each segment may be
 /// the first one.

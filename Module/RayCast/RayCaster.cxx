@@ -107,7 +107,9 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
     MakeErrorBudget(options.MaximumError, { EndsEarly(choices.Method), tabulated, false });
   choices.WorldRadius =
     scene.Mesh.GetMesh()->GetRadius() * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
-  const double geometryError = scene.EstimateGeometryError(choices.WorldRadius);
+  const double geometryError = options.Arithmetic == Precision::Double
+    ? 0
+    : scene.EstimateGeometryError(choices.WorldRadius, SingleRounding);
   choices.DoublePrecision = options.Arithmetic == Precision::Double ||
     !std::isfinite(geometryError) ||
     (options.Arithmetic == Precision::Automatic && geometryError > budget.Geometry);

@@ -36,8 +36,8 @@ struct RayCastStatistics
   double IntegralError = 0;          ///< at most, by the weights of segments
   double SummationError = 0;         ///< estimated, by adding segments up; of a path of mean length
   double TableError = 0;             ///< estimated, by interpolation in a table
-  double GeometryError = 0;          ///< estimated, by rounding coordinates and scalars; not that
-                                     ///< of pixels where a ray grazes a surface or a step
+  double GeometryError = 0; ///< estimated, by rounding coordinates and scalars; not that of
+                            ///< pixels that graze, see GeometryError.h
 };
 
 /// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of rays,

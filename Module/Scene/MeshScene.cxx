@@ -126,10 +126,30 @@ void MeshScene::PreparePointGradients()
 
 std::shared_ptr<const RaySample> MeshScene::DrawRays(double scale)
 {
-  this->Rays.Update(CacheKey::Of(this->PointsVersion, this->ScalarsVersion, scale),
+  this->Rays.Update(CacheKey::Of(this->PointsVersion, this->ScalarsVersion),
+    [this]
+    {
+      return std::make_shared<const RaySample>(
+        DrawMeshRays(*this->Mesh, this->Scalars, 1, this->ScalarsOfCells));
+    });
+  if (scale == 1)
+  {
+    return this->Rays.Get();
+  }
+  this->ScaledRays.Update(CacheKey::Of(this->Rays.GetVersion(), scale),
     [&]
-    { return std::make_shared<const RaySample>(DrawMeshRays(*this->Mesh, this->Scalars, scale)); });
-  return this->Rays.Get();
+    {
+      auto scaled = std::make_shared<RaySample>(*this->Rays.Get());
+      for (std::vector<RaySegment>& ray : scaled->Rays)
+      {
+        for (RaySegment& segment : ray)
+        {
+          segment.Length *= scale;
+        }
+      }
+      return std::shared_ptr<const RaySample>(std::move(scaled));
+    });
+  return this->ScaledRays.Get();
 }
 
 } // namespace tetralux

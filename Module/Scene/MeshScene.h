@@ -71,7 +71,8 @@ public:
   /// radius and of half of the scalars' range. After PreparePointGradients.
   const std::vector<PointGradient>& GetPointGradients() const { return this->Gradients.Get(); }
 
-  /// DrawMeshRays, of scalars at points; the same until the mesh, the scalars or the scale change.
+  /// DrawMeshRays; the same until the mesh, the scalars or the scale change. scale: world units of a
+  /// length in the mesh.
   std::shared_ptr<const RaySample> DrawRays(double scale);
 
 private:
@@ -88,7 +89,8 @@ private:
   std::uint64_t ScalarsVersion = 0;
   Cached<double> LongestEdge;
   Cached<std::vector<PointGradient>> Gradients;
-  Cached<std::shared_ptr<const RaySample>> Rays;
+  Cached<std::shared_ptr<const RaySample>> Rays; ///< lengths as in the mesh
+  Cached<std::shared_ptr<const RaySample>> ScaledRays;
 };
 
 } // namespace tetralux

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/VolumeScene.h"
 
+#include "Scene/OrderError.h"
 #include "Scene/VisibleCells.h"
 
 #include <algorithm>
@@ -26,20 +27,6 @@ constexpr double EntryCost = 4;
 /// as do their products with attenuations that make them visible.
 constexpr double SmallestSingleRadius = 1e-30;
 constexpr double LargestSingleRadius = 1e30;
-
-double EstimateEmissionAbsorptionError(
-  const IntervalTable& table, double worldRadius, double largestScalar)
-{
-  constexpr double FaceRounding = 1. / (1 << 23);
-  constexpr double ScalarRounding = 1. / (1 << 24);
-  const double faces = FaceRounding * (table.MaximumAttenuation + table.AttenuationVariation);
-  // Scalars do not matter to a constant, however large they are.
-  const double scalars = table.AttenuationVariation > 0
-    ? ScalarRounding * largestScalar * table.AttenuationVariation
-    : 0;
-  const double error = faces + scalars;
-  return error > 0 ? worldRadius * error : 0;
-}
 
 } // namespace
 
@@ -259,7 +246,7 @@ void VolumeScene::PrepareVisibleTables()
   this->VisiblePointsVersion = this->Mesh.GetPointsVersion();
 }
 
-double VolumeScene::EstimateGeometryError(double worldRadius) const
+double VolumeScene::EstimateGeometryError(double worldRadius, const GeometryRounding& rounding)
 {
   if (!(SmallestSingleRadius <= worldRadius && worldRadius <= LargestSingleRadius))
   {
@@ -277,9 +264,44 @@ double VolumeScene::EstimateGeometryError(double worldRadius) const
         FindSteepestColor(this->Optics.GetIntervalTable());
     }
     default:
-      return EstimateEmissionAbsorptionError(
-        this->Optics.GetIntervalTable(), worldRadius, this->GetLargestMappedScalar());
+      return this->EstimateRounding(worldRadius, rounding);
   }
+}
+
+double VolumeScene::EstimateRounding(double worldRadius, const GeometryRounding& rounding)
+{
+  // Rounded, so that a volume which is only turned keeps its estimate.
+  const double radius = static_cast<float>(worldRadius);
+  const bool absorbs = this->Optics.GetModel() != OpticalModel::EmissionOnly;
+  this->GeometryError.Update(
+    CacheKey::Of(this->Mesh.GetPointsVersion(), this->Mesh.GetScalarsVersion(),
+      this->Optics.GetFunctionVersion(), absorbs, radius, rounding.Across, rounding.Scalar),
+    [&]
+    {
+      const RayUnits units{ radius / this->Mesh.GetMesh()->GetRadius(), radius,
+        this->GetLargestMappedScalar() * this->GetScalarMap().Scale };
+      return EstimateRoundingError(
+        *this->Mesh.DrawRays(1), units, this->Optics.GetTransferFunction(), absorbs, rounding);
+    });
+  return this->GeometryError.Get();
+}
+
+double VolumeScene::EstimateOrderError(double worldRadius)
+{
+  if (this->Optics.GetModel() != OpticalModel::EmissionAbsorption)
+  {
+    return 0;
+  }
+  const double radius = static_cast<float>(worldRadius);
+  this->OrderError.Update(
+    CacheKey::Of(this->Mesh.GetPointsVersion(), this->Mesh.GetScalarsVersion(),
+      this->Optics.GetFunctionVersion(), radius),
+    [&]
+    {
+      return tetralux::EstimateOrderError(*this->Mesh.DrawRays(1),
+        radius / this->Mesh.GetMesh()->GetRadius(), this->Optics.GetTransferFunction());
+    });
+  return this->OrderError.Get();
 }
 
 } // namespace tetralux

@@ -4,6 +4,7 @@
 
 #include "Base/Cached.h"
 #include "Integral/IntegrationPlan.h"
+#include "Scene/GeometryError.h"
 #include "Scene/MeshScene.h"
 #include "Scene/SceneOptics.h"
 #include "TetraluxCoreModule.h"
@@ -90,12 +91,14 @@ public:
   std::uint64_t GetVisibleTablesVersion() const { return this->VisibleTopology.GetVersion(); }
   ///@}
 
-  /// Estimated error of a channel by single precision coordinates and scalars: their rounding moves
-  /// every face along a ray by about worldRadius 2^-23 and every scalar by its largest value 2^-24,
-  /// which matters as far as the attenuation changes over that. Infinite if the mesh is so small or
-  /// so large that distances in it leave the range of single precision.
-  /// worldRadius: of the mesh, world units.
-  double EstimateGeometryError(double worldRadius) const;
+  /// Estimated error of a channel by rounding coordinates and scalars, see GeometryError.h; of
+  /// isosurfaces 0. Infinite if the mesh is so small or so large that distances in it leave the
+  /// range of single precision. worldRadius: of the mesh, world units. Measured once for what it
+  /// depends on, on a sample of the mesh's rays. After Prepare.
+  double EstimateGeometryError(double worldRadius, const GeometryRounding& rounding);
+
+  /// EstimateOrderError of emission and absorption; 0 of other models. Measured once, as above.
+  double EstimateOrderError(double worldRadius);
 
 private:
   struct VisibleCellFlags
@@ -111,6 +114,7 @@ private:
   void PrepareVisibleCells();
   void PrepareVisibleTables();
   double GetLargestMappedScalar() const;
+  double EstimateRounding(double worldRadius, const GeometryRounding& rounding);
 
   Cached<IntegrationPlan> Plan;
   Cached<std::vector<CellValue>> CellValues;
@@ -118,6 +122,8 @@ private:
   Cached<VisibleCellFlags> Visible;
   WalkTables VisibleTables; ///< empty: rays are walked through all cells
   CacheStamp VisibleTopology;
+  Cached<double> GeometryError;
+  Cached<double> OrderError;
   std::uint64_t VisiblePointsVersion = 0; ///< of the mesh that the boxes of VisibleTables are of
 };
 

@@ -30,11 +30,12 @@ class MeshLine
 {
 public:
   /// point and direction, of length 1, as the tables of the mesh have them.
-  MeshLine(
-    const WalkMesh& mesh, Span<const double> scalars, const Vector& point, const Vector& direction)
+  MeshLine(const WalkMesh& mesh, Span<const double> scalars, bool ofCells, const Vector& point,
+    const Vector& direction)
     : Mesh(mesh)
     , Points(mesh.GetPoints<float>())
     , Scalars(scalars)
+    , ScalarsOfCells(ofCells)
     , Origin(point)
     , Along(direction)
   {
@@ -48,9 +49,11 @@ public:
   }
 
   /// The segments of all cells that the line goes through; lengths times scale.
-  std::vector<RaySegment> Walk(double scale) const
+  /// density: how likely it is drawn through a place in one of the cells, in any unit.
+  std::vector<RaySegment> Walk(double scale, double& density) const
   {
     std::vector<RaySegment> segments;
+    density = 0;
     std::vector<Crossing> crossings = this->FindCrossings();
     for (std::size_t k = 0; k < crossings.size(); ++k)
     {
@@ -58,7 +61,7 @@ public:
       {
         continue;
       }
-      const std::int32_t exit = this->WalkFrom(crossings[k].Entry, scale, segments);
+      const std::int32_t exit = this->WalkFrom(crossings[k].Entry, scale, segments, density);
       for (std::size_t i = k + 1; i < crossings.size(); ++i)
       {
         crossings[i].Entry = crossings[i].Entry == exit ? -1 : crossings[i].Entry;
@@ -75,10 +78,11 @@ private:
     std::int32_t Entry; ///< -1 where it leaves
   };
 
-  /// A triangle that the line goes through: where, and the scalar there.
+  /// A triangle that the line goes through: where, the scalar there, and the tangent of the angle
+  /// between the line and its normal.
   struct Place
   {
-    double Z, S;
+    double Z, S, Slope;
   };
 
   Corner See(std::int32_t id) const
@@ -86,14 +90,43 @@ private:
     const WalkPoint<float>& p = this->Points[id];
     const Vector d = { p.X - this->Origin[0], p.Y - this->Origin[1], p.Z - this->Origin[2] };
     const auto dot = [&d](const Vector& v) { return d[0] * v[0] + d[1] * v[1] + d[2] * v[2]; };
-    return { dot(this->AcrossX), dot(this->AcrossY), dot(this->Along), this->Scalars[id], id };
+    return { dot(this->AcrossX), dot(this->AcrossY), dot(this->Along),
+      this->ScalarsOfCells ? 0 : this->Scalars[id], id };
   }
 
   static Place Interpolate(const Corner& a, const Corner& b, const Corner& c)
   {
     const double wa = Det(b, c), wb = Det(c, a), wc = Det(a, b);
     const double sum = wa + wb + wc;
-    return { (wa * a.Z + wb * b.Z + wc * c.Z) / sum, (wa * a.S + wb * b.S + wc * c.S) / sum };
+    // The normal is (x, y, sum), as long as the triangle is large.
+    const double x = (b.Y - a.Y) * (c.Z - a.Z) - (b.Z - a.Z) * (c.Y - a.Y);
+    const double y = (b.Z - a.Z) * (c.X - a.X) - (b.X - a.X) * (c.Z - a.Z);
+    return { (wa * a.Z + wb * b.Z + wc * c.Z) / sum, (wa * a.S + wb * b.S + wc * c.S) / sum,
+      std::hypot(x, y) / std::abs(sum) };
+  }
+
+  /// Of the cell of four corners: its volume times six, and how the scalar changes across the line.
+  struct CellShape
+  {
+    double Volume, Gradient;
+  };
+
+  static CellShape FindShape(const Corner& a, const Corner& b, const Corner& c, const Corner& d)
+  {
+    const Corner e[3] = { { b.X - a.X, b.Y - a.Y, b.Z - a.Z, b.S - a.S, 0 },
+      { c.X - a.X, c.Y - a.Y, c.Z - a.Z, c.S - a.S, 0 },
+      { d.X - a.X, d.Y - a.Y, d.Z - a.Z, d.S - a.S, 0 } };
+    double x = 0, y = 0, volume = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Corner& p = e[(i + 1) % 3];
+      const Corner& q = e[(i + 2) % 3];
+      x += e[i].S * (p.Y * q.Z - p.Z * q.Y);
+      y += e[i].S * (p.Z * q.X - p.X * q.Z);
+      volume += e[i].Z * Det(p, q);
+    }
+    const double gradient = std::hypot(x, y) / std::abs(volume);
+    return { std::abs(volume), std::isfinite(gradient) ? gradient : 0 };
   }
 
   static bool IsInside(const Corner& a, const Corner& b, const Corner& c)
@@ -148,7 +181,8 @@ private:
   }
 
   /// From an entry to where the line leaves the mesh: which boundary face that is.
-  std::int32_t WalkFrom(std::int32_t entryId, double scale, std::vector<RaySegment>& segments) const
+  std::int32_t WalkFrom(
+    std::int32_t entryId, double scale, std::vector<RaySegment>& segments, double& density) const
   {
     const WalkEntry& entry = this->Mesh.GetEntries()[entryId];
     Corner a = this->See(entry.Points[0]), b = this->See(entry.Points[1]),
@@ -158,6 +192,7 @@ private:
       std::swap(b, c); // counter-clockwise from here on
     }
     Place place = Interpolate(a, b, c);
+    bool first = true;
     WalkFace behind = { entry.Cell, entry.Opposite };
     // No walk visits a cell twice.
     for (std::int32_t steps = this->Mesh.GetNumberOfCells(); behind.Cell >= 0 && steps > 0; --steps)
@@ -167,17 +202,27 @@ private:
       // The exit face is opposite to the corner that p replaces.
       Corner& replaced = bSide && !cSide ? a : cSide && !aSide ? b : c;
       const std::int32_t dropped = replaced.Id;
+      const CellShape shape = FindShape(a, b, c, p);
       replaced = p;
       const int face = (dropped > a.Id) + (dropped > b.Id) + (dropped > c.Id);
-      behind = this->Mesh.GetFaces()[4 * static_cast<std::size_t>(behind.Cell) + face];
+      const std::int32_t cell = behind.Cell;
+      behind = this->Mesh.GetFaces()[4 * static_cast<std::size_t>(cell) + face];
 
       const Place next = Interpolate(a, b, c);
       const double length = scale * std::abs(next.Z - place.Z); // also of inverted cells
-      if (length > 0 && std::isfinite(place.S) && std::isfinite(next.S))
+      const double front = this->ScalarsOfCells ? this->Scalars[cell] : place.S;
+      const double back = this->ScalarsOfCells ? this->Scalars[cell] : next.S;
+      if (length > 0 && std::isfinite(front) && std::isfinite(back))
       {
-        segments.push_back({ place.S, next.S, length });
+        segments.push_back(
+          { front, back, length, shape.Gradient, place.Slope, next.Slope, first, behind.Cell < 0 });
+      }
+      if (shape.Volume > 0)
+      {
+        density += std::abs(next.Z - place.Z) / shape.Volume;
       }
       place = next;
+      first = false;
     }
     return ~behind.Cell;
   }
@@ -185,6 +230,7 @@ private:
   const WalkMesh& Mesh;
   const WalkPoint<float>* Points;
   Span<const double> Scalars;
+  bool ScalarsOfCells;
   Vector Origin, Along, AcrossX, AcrossY;
 };
 
@@ -195,7 +241,7 @@ constexpr std::size_t MostRays = 1024;
 
 } // namespace
 
-RaySample DrawMeshRays(const WalkMesh& mesh, Span<const double> scalars, double scale)
+RaySample DrawMeshRays(const WalkMesh& mesh, Span<const double> scalars, double scale, bool ofCells)
 {
   RaySample sample;
   const std::int32_t numberOfCells = mesh.GetNumberOfCells();
@@ -236,12 +282,15 @@ RaySample DrawMeshRays(const WalkMesh& mesh, Span<const double> scalars, double 
     std::generate(lines.begin(), lines.end(), draw);
     const std::size_t first = sample.Rays.size();
     sample.Rays.resize(first + count);
+    sample.Weights.resize(first + count);
     const auto n = static_cast<std::ptrdiff_t>(count);
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::ptrdiff_t i = 0; i < n; ++i)
     {
-      const MeshLine line(mesh, scalars, lines[i].first, lines[i].second);
-      sample.Rays[first + i] = line.Walk(scale * mesh.GetRadius());
+      const MeshLine line(mesh, scalars, ofCells, lines[i].first, lines[i].second);
+      double density;
+      sample.Rays[first + i] = line.Walk(scale * mesh.GetRadius(), density);
+      sample.Weights[first + i] = density > 0 ? 1 / density : 0;
     }
   };
   walk(FewestRays);

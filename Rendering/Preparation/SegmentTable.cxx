@@ -24,7 +24,9 @@ constexpr std::size_t RaysForCoarse = 64;
 RaySample TakeFew(const RaySample& sample)
 {
   const auto end = static_cast<std::ptrdiff_t>(std::min(RaysForCoarse, sample.Rays.size()));
-  return { { sample.Rays.begin(), sample.Rays.begin() + end } };
+  RaySample few;
+  few.Rays.assign(sample.Rays.begin(), sample.Rays.begin() + end);
+  return few;
 }
 
 bool operator==(const TransferFunction::Value& a, const TransferFunction::Value& b)

@@ -17,11 +17,17 @@ public:
   /// warning: one line, empty where all is well. source: who gives it.
   void Update(vtkObject* source, const std::string& warning)
   {
-    if (warning == this->Last)
+    this->Update(source, warning, warning);
+  }
+
+  /// cause: what the warning is about, where its words have numbers that differ from frame to frame.
+  void Update(vtkObject* source, const std::string& warning, const std::string& cause)
+  {
+    if (cause == this->Last)
     {
       return;
     }
-    this->Last = warning;
+    this->Last = cause;
     if (!warning.empty())
     {
       vtkWarningWithObjectMacro(source, << warning);
