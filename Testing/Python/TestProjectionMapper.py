@@ -53,6 +53,25 @@ assert statistics["projection"]["color_buffer"] == "8-bit"
 assert statistics["projection"]["alpha_dithering"]
 assert numpy.abs(rgba[20:60, 40:80] - expected[None]).mean() < 2 / 255
 
+# More than MaximumError, which one warning says, of as many frames as there are.
+warnings = []
+mapper.AddObserver("WarningEvent", lambda *_: warnings.append(mapper.GetErrorEstimate()))
+mapper.SetMaximumError(1e-3)
+scene.render()
+assert mapper.GetErrorEstimate() > mapper.GetMaximumError() and not warnings
+mapper.SetColorBufferToFloat()
+scene.render()
+assert mapper.GetErrorEstimate() <= mapper.GetMaximumError() and not warnings
+mapper.SetColorBufferToUNorm8()
+scene.render()
+scene.render()
+assert len(warnings) == 1
+mapper.SetMaximumError(1e-7)  # nothing is as good as that
+scene.render()
+mapper.SetMaximumError(1e-4)
+scene.render()
+assert len(warnings) == 2
+
 for name, value in (
     ("PerspectiveInterpolation", 0),
     ("ColorBuffer", mapper.HALF_BUFFER),
