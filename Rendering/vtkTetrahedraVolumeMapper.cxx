@@ -291,7 +291,7 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
 void vtkTetrahedraVolumeMapper::Internals::WarnOfError(const MapperFrame& frame)
 {
   const double asked = this->Self->MaximumError;
-  if (frame.Aborted || asked < SmallestMaximumError || this->ErrorEstimate <= asked)
+  if (frame.Aborted || this->Self->IsMaximumErrorKept())
   {
     this->ErrorWarning.Update(this->Self, "");
     return;
@@ -440,6 +440,13 @@ std::string vtkTetrahedraVolumeMapper::GetStatistics() { return this->Private->S
 
 //------------------------------------------------------------------------------------------------
 double vtkTetrahedraVolumeMapper::GetErrorEstimate() { return this->Private->ErrorEstimate; }
+
+//------------------------------------------------------------------------------------------------
+bool vtkTetrahedraVolumeMapper::IsMaximumErrorKept()
+{
+  return this->MaximumError < SmallestMaximumError ||
+    this->Private->ErrorEstimate <= this->MaximumError;
+}
 
 //------------------------------------------------------------------------------------------------
 vtkIdType vtkTetrahedraVolumeMapper::GetNumberOfSkippedCells()

@@ -402,6 +402,12 @@ public:
    */
   double GetErrorEstimate();
 
+  /**
+   * Return whether GetErrorEstimate() is at most MaximumError; true if MaximumError is below 1e-6,
+   * which single precision does not reach.
+   */
+  bool IsMaximumErrorKept();
+
   ///@{
   /**
    * Of the last mesh: cells of types that can't be rendered; tetrahedra taken out because they are

@@ -217,8 +217,8 @@ void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutpu
 }
 
 /// Renders the volume of an input once. Returns VTK's first error. Without an error, returns an
-/// empty text and prints the warnings. mayChange: another method is taken if this one's error is too
-/// large, which is returned as an error.
+/// empty text and prints the warnings. mayChange: another method is taken if this one's error is
+/// too large, which is returned as an error.
 std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
   vtkRenderWindow* window, bool mayChange)
 {
@@ -230,7 +230,7 @@ std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
   if (messages.GetError().empty())
   {
     CheckRendered(input, nlohmann::ordered_json::parse(mapper->GetStatistics()));
-    if (mayChange && !KeepsMaximumError(mapper))
+    if (mayChange && !mapper->IsMaximumErrorKept())
     {
       return "its error is estimated to be larger than MaximumError";
     }

@@ -176,10 +176,3 @@ MethodChoice ChooseMethod(const std::string& method, vtkRenderWindow* window, in
   const bool supported = mapper->IsSupported(window);
   return { supported ? "gpu-ray-cast" : "ray-cast", mapper->GetSupportReason() };
 }
-
-bool KeepsMaximumError(vtkTetrahedraVolumeMapper* mapper)
-{
-  constexpr double Smallest = 1e-6; // see vtkTetrahedraVolumeMapper
-  return mapper->GetMaximumError() < Smallest ||
-    mapper->GetErrorEstimate() <= mapper->GetMaximumError();
-}

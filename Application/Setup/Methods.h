@@ -34,8 +34,4 @@ struct MethodChoice
 MethodChoice ChooseMethod(const std::string& method, vtkRenderWindow* window, int numberOfThreads,
   const std::vector<std::string>& settings);
 
-/// Whether the last frame of a mapper is within its MaximumError, as far as it estimates and single
-/// precision allows.
-bool KeepsMaximumError(vtkTetrahedraVolumeMapper* mapper);
-
 #endif

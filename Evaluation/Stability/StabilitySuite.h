@@ -3,8 +3,8 @@
 #define tetralux_StabilitySuite_h
 
 #include "Base/Span.h"
-#include "Stability/StabilityForms.h"
 #include "Stability/StabilityCases.h"
+#include "Stability/StabilityForms.h"
 
 #include <string>
 #include <vector>

@@ -71,8 +71,8 @@ public:
   /// radius and of half of the scalars' range. After PreparePointGradients.
   const std::vector<PointGradient>& GetPointGradients() const { return this->Gradients.Get(); }
 
-  /// DrawMeshRays; the same until the mesh, the scalars or the scale change. scale: world units of a
-  /// length in the mesh.
+  /// DrawMeshRays; the same until the mesh, the scalars or the scale change. scale: world units of
+  /// a length in the mesh.
   std::shared_ptr<const RaySample> DrawRays(double scale);
 
 private:

@@ -20,7 +20,7 @@ public:
     this->Update(source, warning, warning);
   }
 
-  /// cause: what the warning is about, where its words have numbers that differ from frame to frame.
+  /// cause: what the warning is about, if its numbers differ from frame to frame.
   void Update(vtkObject* source, const std::string& warning, const std::string& cause)
   {
     if (cause == this->Last)

@@ -284,7 +284,7 @@ class Commands(ToolTest):
             options = [text for setting in settings for text in ("--set", setting)]
             self.succeed(
                 "render", "ball.vtu", "--size", "20,20", "--method", method, *options,
-                "--stats", "s.json", "--output", "out.png",
+                "--max-error", 1, "--stats", "s.json", "--output", "out.png",
             )
             with open(self.path("s.json"), encoding="utf-8") as file:
                 return json.load(file)

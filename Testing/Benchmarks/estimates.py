@@ -6,13 +6,14 @@
         python3 Testing/Benchmarks/estimates.py [--output FILE.csv] [--tool build/bin/tetralux] \
         [--size 256] [--scene WORD] [--setting NAME,NAME] [--quick]
 
-Renders each scene by each mapper and setting, and compares with ray casting in double precision, in
-closed form and to the end of each ray. Prints a line for each picture: scene, setting, largest error of
-a channel, GetErrorEstimate(), and the estimate over the error, which should never be below 1. Pixels
-that graze are left out and counted: those in which the exact picture itself changes by more than the
-estimate where all rays move across by 2^-22 of the mesh's radius. --scene chooses the scenes whose names
-contain the word, --setting the settings of a list, --quick small meshes. The blunt fin and the can take
-part where TETRALUX_DATA names the folder with their files. Fails where an estimate is below the error.
+Renders each scene by each mapper and setting, and compares with ray casting in double precision,
+in closed form and to the end of each ray. Prints a line for each picture: scene, setting, largest
+error of a channel, GetErrorEstimate(), and the estimate over the error, which should never be below
+1. Pixels that graze are left out and counted: those in which the exact picture itself changes by
+more than the estimate where all rays move across by 2^-22 of the mesh's radius. --scene chooses the
+scenes whose names contain the word, --setting the settings of a list, --quick small meshes. The
+blunt fin and the can take part if TETRALUX_DATA names the folder with their files. Fails if an
+estimate is below the error.
 """
 
 import argparse
@@ -218,8 +219,8 @@ class Scene:
         self.size = size
 
     def render(self, method, values, right=0, up=0):
-        """The picture's channels, and the statistics. right, up: how far the camera is moved, radii of
-        the mesh."""
+        """The picture's channels, and the statistics. right, up: how far the camera is moved, radii
+        of the mesh."""
         mapper = MAPPERS[method]()
         if method == "ray-cast":
             mapper.AutoAdjustSampleDistancesOff()

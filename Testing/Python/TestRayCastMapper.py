@@ -38,7 +38,7 @@ def check(thickness):
     assert (rgba[~inside] == 0).all()
     assert numpy.abs(depth[inside] - 3).max() < 1e-5
     assert (depth[~inside] == -1).all()
-    assert statistics["error"]["estimate"] == float(f"{mapper.GetErrorEstimate():.9g}")
+    assert statistics["error"]["estimate"] == mapper.GetErrorEstimate()
     assert mapper.GetErrorEstimate() <= mapper.GetMaximumError()
     return statistics
 
