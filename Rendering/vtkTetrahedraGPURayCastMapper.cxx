@@ -135,8 +135,8 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   this->Limits.Update(frame.Window, rays, grid, limits, frame.Opaque,
     scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
   const Integrator integrator = this->Integral.GetIntegrator();
-  frame.Budget = tetralux::MakeErrorBudget(
-    frame.MaximumError, { EndsEarly(integrator), IsTabulated(integrator), false });
+  frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError,
+    { EndsEarly(integrator), IsTabulated(integrator), false, scene.Optics.GetFunctionError() > 0 });
   tetralux::GpuRayCastOptions options;
   options.Reentry = reentry;
   const tetralux::PixelProjection projection(

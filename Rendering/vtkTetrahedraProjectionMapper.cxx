@@ -305,7 +305,7 @@ ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(const Mappe
       return ChannelFormat::UNorm8;
     default:
       return EstimateSummationError(*frame.Scene, ChannelFormat::Half) <=
-          tetralux::MakeErrorBudget(frame.MaximumError, { false, false, true }).Buffer
+          tetralux::MakeErrorBudget(frame.MaximumError, { false, false, true, false }).Buffer
         ? ChannelFormat::Half
         : ChannelFormat::Float;
   }
@@ -426,8 +426,9 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
       this->Method == VisibilityMethod::MeshedNonConvex ||
       this->Sorter->GetCycles().GetNumberOfCycles() > 0);
   const Integrator integrator = frame.Integration;
-  frame.Budget = tetralux::MakeErrorBudget(
-    frame.MaximumError, { false, IsTabulated(integrator), scene.Format != ChannelFormat::Float });
+  frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError,
+    { false, IsTabulated(integrator), scene.Format != ChannelFormat::Float,
+      volume.Optics.GetFunctionError() > 0 });
   frame.Errors = { { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
     { "summation", EstimateSummationError(volume, scene.Format) },
     { "table", IsTabulated(integrator) ? volume.Optics.GetTableError() : 0 },

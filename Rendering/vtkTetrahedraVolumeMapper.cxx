@@ -227,7 +227,7 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   }
   times["frame"] = seconds;
 
-  frame.Errors.emplace_back("transfer_function", this->Preparation.GetFunctionError());
+  frame.Errors.emplace_back("transfer_function", frame.Scene->Optics.GetFunctionError());
   this->ErrorEstimate = 0;
   for (const auto& [name, value] : frame.Errors)
   {
@@ -253,7 +253,7 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   frame.ReportOmission(frame.Settings.ClippingPlanes.empty(), "clipping planes", "there are none");
   frame.ReportOmission(!frame.Settings.Cropping, "cropping", "it is off");
   frame.ReportOmission(!frame.Opaque, "opaque geometry", "nothing opaque was drawn before");
-  frame.ReportOmission(this->Preparation.GetFunctionError() == 0, "subdivided transfer function",
+  frame.ReportOmission(frame.Scene->Optics.GetFunctionError() == 0, "subdivided transfer function",
     "it is piecewise linear");
   frame.ReportOmission(cellData, "scalars varying in cells", "the array is of cells");
   frame.ReportOmission(!cellData, "constant cells", "the array is of points");

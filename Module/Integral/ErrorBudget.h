@@ -8,9 +8,10 @@ namespace tetralux
 /// What a frame spends of the error that is allowed, on top of what every frame spends.
 struct ErrorSpending
 {
-  bool EndsEarly = false; ///< rays end where little is left to see
-  bool Tabulated = false; ///< segments are looked up in a table
-  bool Buffered = false;  ///< colours are composited in a buffer of less than single precision
+  bool EndsEarly = false;    ///< rays end where little is left to see
+  bool Tabulated = false;    ///< segments are looked up in a table
+  bool Buffered = false;     ///< colours are composited in a buffer of less than single precision
+  bool Approximated = false; ///< functions of the property are not piecewise linear
 };
 
 /// How MaximumError is divided: the shares add up to it. Each choice that trades error for time
@@ -18,11 +19,11 @@ struct ErrorSpending
 struct ErrorBudget
 {
   // Of every frame.
-  double Functions = 0; ///< approximating functions of the property that are not piecewise linear
-  double Geometry = 0;  ///< single precision coordinates and scalars; more takes double precision
-  double Rounding = 0;  ///< weights of segments, and adding them up
+  double Geometry = 0; ///< single precision coordinates and scalars; more takes double precision
+  double Rounding = 0; ///< weights of segments, and adding them up
 
   // Of frames that spend it, else 0.
+  double Functions = 0;   ///< approximating functions that are not piecewise linear
   double Termination = 0; ///< ending rays early
   double Table = 0;       ///< looking segments up
   double Buffer = 0;      ///< rounding what is in the frame buffer
@@ -34,15 +35,15 @@ struct ErrorBudget
   }
 };
 
-/// Functions take an eighth, geometry a quarter and rounding an eighth. Of the other half a table
-/// and a buffer take a quarter each, and ending rays early takes what they leave. What nobody
-/// spends is not given away, so that a table's share does not depend on what else is chosen.
+/// Rounding takes an eighth, geometry a quarter and functions an eighth, which geometry takes where
+/// they are exact. Of the other half a table and a buffer take a quarter of all each, and ending rays
+/// early takes what they leave.
 inline ErrorBudget MakeErrorBudget(double maximumError, const ErrorSpending& spending)
 {
   ErrorBudget budget;
-  budget.Functions = 0.125 * maximumError;
-  budget.Geometry = 0.25 * maximumError;
   budget.Rounding = 0.125 * maximumError;
+  budget.Functions = spending.Approximated ? 0.125 * maximumError : 0;
+  budget.Geometry = 0.375 * maximumError - budget.Functions;
   budget.Table = spending.Tabulated ? 0.25 * maximumError : 0;
   budget.Buffer = spending.Buffered ? 0.25 * maximumError : 0;
   budget.Termination = spending.EndsEarly ? 0.5 * maximumError - budget.Table - budget.Buffer : 0;

@@ -103,8 +103,8 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
   choices.CellData = scene.Mesh.HasCellScalars();
   choices.Method = ChooseIntegrator(scene, options.Shaded);
   const bool tabulated = IsTabulated(choices.Method);
-  const ErrorBudget budget =
-    MakeErrorBudget(options.MaximumError, { EndsEarly(choices.Method), tabulated, false });
+  const ErrorBudget budget = MakeErrorBudget(options.MaximumError,
+    { EndsEarly(choices.Method), tabulated, false, scene.Optics.GetFunctionError() > 0 });
   choices.WorldRadius =
     scene.Mesh.GetMesh()->GetRadius() * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
   const double geometryError = options.Arithmetic == Precision::Double

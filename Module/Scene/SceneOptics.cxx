@@ -32,10 +32,11 @@ std::vector<float> ConvertTexels(const PreIntegrationTable& table)
 
 } // namespace
 
-void SceneOptics::SetTransferFunction(const TransferFunction& function)
+void SceneOptics::SetTransferFunction(const TransferFunction& function, double error)
 {
   this->Intervals = MakeIntervalTable(function);
   this->Function = function;
+  this->FunctionError = error;
   this->FunctionVersion = MakeVersion();
   this->SetTable(nullptr, 0);
 }

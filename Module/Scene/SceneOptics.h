@@ -25,9 +25,11 @@ public:
   void SetModel(OpticalModel model) { this->Model = model; }
   OpticalModel GetModel() const { return this->Model; }
 
-  /// Replaces the function, and removes the table. Throws std::invalid_argument as
-  /// MakeIntervalTable does. Isosurfaces need no function.
-  void SetTransferFunction(const TransferFunction& function);
+  /// Replaces the function, and removes the table. error: of a channel, if the function approximates
+  /// another one. Throws std::invalid_argument as MakeIntervalTable does. Isosurfaces need no
+  /// function.
+  void SetTransferFunction(const TransferFunction& function, double error = 0);
+  double GetFunctionError() const { return this->FunctionError; }
   const TransferFunction& GetTransferFunction() const { return this->Function; }
   const IntervalTable& GetIntervalTable() const { return this->Intervals; }
 
@@ -64,6 +66,7 @@ private:
   std::vector<Isosurface> Surfaces;
   std::shared_ptr<const PreIntegrationTable> Table;
   double TableError = 0;
+  double FunctionError = 0;
   std::uint64_t FunctionVersion = 0;
   std::uint64_t SurfacesVersion = 0;
   std::uint64_t TableVersion = 0;

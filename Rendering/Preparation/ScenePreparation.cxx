@@ -205,8 +205,10 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   // A power of two, so that a path which grows a little changes nothing.
   const double longestPath = std::exp2(std::ceil(
     std::log2(2 * this->Scene.Mesh.GetMesh()->GetRadius() * GetLargestScale(input.Matrix))));
+  ErrorSpending spending;
+  spending.Approximated = true;
   const double maximumError =
-    std::max(MakeErrorBudget(settings.MaximumError, {}).Functions, SmallestFunctionError);
+    std::max(MakeErrorBudget(settings.MaximumError, spending).Functions, SmallestFunctionError);
   CacheKey exactKey = GetPropertyKey(input.Property);
   exactKey.Add(settings.Model);
   CacheKey key = exactKey;
@@ -231,8 +233,7 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   {
     this->Scene.Optics.SetIsosurfaces(GetIsosurfaces(input.Property, function.Function));
   }
-  this->Scene.Optics.SetTransferFunction(function.Function);
-  this->FunctionError = function.Error;
+  this->Scene.Optics.SetTransferFunction(function.Function, function.Error);
   this->FunctionIsExact = function.Error == 0;
   this->Function.Set(this->FunctionIsExact ? exactKey : key);
   this->Last.FunctionSeconds = stopwatch.GetSeconds();

@@ -53,9 +53,6 @@ public:
   /// scalars at points have a gradient.
   bool IsShaded(vtkVolumeProperty* property) const;
 
-  /// Error of a channel by approximating the property's functions.
-  double GetFunctionError() const { return this->FunctionError; }
-
   const std::string& GetArrayName() const { return this->ArrayName; }
   const SegmentTable& GetTable() const { return this->Table; }
   TableUse GetTableUse() const { return this->Use; }
@@ -92,7 +89,6 @@ private:
   bool FunctionIsExact = false; ///< so it does not depend on the error that is allowed
 
   std::string ArrayName;
-  double FunctionError = 0;
   SegmentTable Table;
   TableUse Use = TableUse::Automatic;
   std::uint64_t TableOfFunction = 0; ///< version of the function that the scene has Table for

@@ -20,8 +20,8 @@ namespace
 /// Per channel, absolute.
 constexpr double ColorTolerance = 1e-4;
 
-/// Of a channel: an estimate holds for cameras anywhere, so it may be twice what a picture needs.
-constexpr double LargestEstimate = 2 * ColorTolerance;
+/// Of a channel: an estimate holds for cameras anywhere, so it may be more than a picture needs.
+constexpr double LargestEstimate = 4 * ColorTolerance;
 
 /// Of a distance, in sizes of the box: where a ray enters is found in single precision.
 constexpr double DepthTolerance = 1e-5;
