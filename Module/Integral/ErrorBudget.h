@@ -27,17 +27,11 @@ struct ErrorBudget
   double Termination = 0; ///< ending rays early
   double Table = 0;       ///< looking segments up
   double Buffer = 0;      ///< rounding what is in the frame buffer
-
-  double GetSum() const
-  {
-    return this->Functions + this->Geometry + this->Rounding + this->Termination + this->Table +
-      this->Buffer;
-  }
 };
 
 /// Rounding takes an eighth, geometry a quarter and functions an eighth, which geometry takes where
-/// they are exact. Of the other half a table and a buffer take a quarter of all each, and ending rays
-/// early takes what they leave.
+/// they are exact. Of the other half a table and a buffer take a quarter of all each, and ending
+/// rays early takes what they leave.
 inline ErrorBudget MakeErrorBudget(double maximumError, const ErrorSpending& spending)
 {
   ErrorBudget budget;

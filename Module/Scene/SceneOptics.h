@@ -25,9 +25,9 @@ public:
   void SetModel(OpticalModel model) { this->Model = model; }
   OpticalModel GetModel() const { return this->Model; }
 
-  /// Replaces the function, and removes the table. error: of a channel, if the function approximates
-  /// another one. Throws std::invalid_argument as MakeIntervalTable does. Isosurfaces need no
-  /// function.
+  /// Replaces the function, and removes the table. error: of a channel, if the function
+  /// approximates another one. Throws std::invalid_argument as MakeIntervalTable does. Isosurfaces
+  /// need no function.
   void SetTransferFunction(const TransferFunction& function, double error = 0);
   double GetFunctionError() const { return this->FunctionError; }
   const TransferFunction& GetTransferFunction() const { return this->Function; }

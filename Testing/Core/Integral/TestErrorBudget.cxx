@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Integral/ErrorBudget.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Calls check(spending, shares, sum) for all that frames may spend error on.
+template <class Check>
+void ForEachSpending(const Check& check)
+{
+  constexpr double MaximumError = 1e-3;
+  for (int bits = 0; bits < 16; ++bits)
+  {
+    const ErrorSpending spending{ (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0,
+      (bits & 8) != 0 };
+    const ErrorBudget budget = MakeErrorBudget(MaximumError, spending);
+    check(spending, budget,
+      (budget.Functions + budget.Geometry + budget.Rounding + budget.Termination + budget.Table +
+        budget.Buffer) /
+        MaximumError);
+  }
+}
+
+TEST(ErrorBudget, SharesAddUpToWhatIsAllowed)
+{
+  ForEachSpending(
+    [](const ErrorSpending& spending, const ErrorBudget& budget, double sum)
+    {
+      EXPECT_LE(sum, 1 + 1e-15);
+      if (spending.EndsEarly)
+      {
+        EXPECT_DOUBLE_EQ(sum, 1) << "what nobody else takes, rays that end early take";
+      }
+      EXPECT_GE(std::min({ budget.Functions, budget.Termination, budget.Table, budget.Buffer }), 0);
+      EXPECT_GT(std::min(budget.Geometry, budget.Rounding), 0);
+    });
+}
+
+TEST(ErrorBudget, WhatIsNotSpentHasNoShare)
+{
+  ForEachSpending(
+    [](const ErrorSpending& spending, const ErrorBudget& budget, double)
+    {
+      EXPECT_EQ(budget.Table > 0, spending.Tabulated);
+      EXPECT_EQ(budget.Buffer > 0, spending.Buffered);
+      EXPECT_EQ(budget.Functions > 0, spending.Approximated);
+      EXPECT_TRUE(spending.EndsEarly || budget.Termination == 0);
+    });
+}
+
+TEST(ErrorBudget, ChoicesDoNotChangeTheSharesOfTablesAndFunctions)
+{
+  ForEachSpending(
+    [](const ErrorSpending& spending, const ErrorBudget& budget, double)
+    {
+      const ErrorBudget table = MakeErrorBudget(1e-3, { false, true, false, false });
+      const ErrorBudget functions = MakeErrorBudget(1e-3, { false, false, false, true });
+      EXPECT_TRUE(!spending.Tabulated || budget.Table == table.Table);
+      EXPECT_TRUE(!spending.Approximated || budget.Functions == functions.Functions);
+    });
+}
+
+} // namespace
+} // namespace tetralux
