@@ -137,6 +137,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   const Integrator integrator = this->Integral.GetIntegrator();
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError,
     { EndsEarly(integrator), IsTabulated(integrator), false, scene.Optics.GetFunctionError() > 0 });
+  frame.Budget.CoverGeometry(geometryError);
   tetralux::GpuRayCastOptions options;
   options.Reentry = reentry;
   const tetralux::PixelProjection projection(

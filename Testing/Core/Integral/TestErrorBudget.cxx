@@ -66,5 +66,19 @@ TEST(ErrorBudget, ChoicesDoNotChangeTheSharesOfTablesAndFunctions)
     });
 }
 
+TEST(ErrorBudget, RaysGoOnLongerWhereGeometryTakesMore)
+{
+  const ErrorBudget whole = MakeErrorBudget(1, { true, false, false, false });
+  ErrorBudget budget = whole;
+  budget.CoverGeometry(0.5 * whole.Geometry);
+  EXPECT_EQ(budget.Termination, whole.Termination);
+  budget.CoverGeometry(whole.Geometry + 0.125);
+  EXPECT_EQ(budget.Geometry, whole.Geometry + 0.125);
+  EXPECT_EQ(budget.Termination, whole.Termination - 0.125);
+  budget.CoverGeometry(100);
+  EXPECT_GT(budget.Termination, 0) << "rays have to end";
+  EXPECT_DOUBLE_EQ(budget.Geometry + budget.Termination, whole.Geometry + whole.Termination);
+}
+
 } // namespace
 } // namespace tetralux
