@@ -41,11 +41,9 @@ int Fail(const std::string& message, ExitStatus status)
   return status;
 }
 
-} // namespace
-
-int main(int argc, char* argv[])
+/// Runs the command line. Throws what the commands throw, and CLI11's errors.
+void Run(CLI::App& app, int argc, char* argv[])
 {
-  CLI::App app("Volume rendering of unstructured grids with a known error", "tetralux");
   app.set_version_flag("--version", TETRALUX_VERSION);
   app.require_subcommand(1);
   app.footer("tetralux COMMAND --help prints the options of a command.\n"
@@ -54,10 +52,18 @@ int main(int argc, char* argv[])
   AddInfoCommand(app);
   AddGenerateCommand(app);
   AddBenchCommand(app);
+  app.parse(argc, argv);
+}
 
+} // namespace
+
+int main(int argc, char* argv[])
+try
+{
+  CLI::App app("Volume rendering of unstructured grids with a known error", "tetralux");
   try
   {
-    app.parse(argc, argv);
+    Run(app, argc, argv);
     return Done;
   }
   catch (const CLI::Success& success) // help and version
@@ -68,20 +74,20 @@ int main(int argc, char* argv[])
   {
     return Fail(Describe(error, app), WrongUsage);
   }
-  catch (const UsageError& error)
-  {
-    return Fail(error.what(), WrongUsage);
-  }
-  catch (const WorkError& error)
-  {
-    return Fail(error.what(), WorkFailed);
-  }
-  catch (const std::bad_alloc&)
-  {
-    return Fail("there is not enough memory", WorkFailed);
-  }
-  catch (const std::exception& error)
-  {
-    return Fail(error.what(), WorkFailed);
-  }
+}
+catch (const UsageError& error)
+{
+  return Fail(error.what(), WrongUsage);
+}
+catch (const WorkError& error)
+{
+  return Fail(error.what(), WorkFailed);
+}
+catch (const std::bad_alloc&)
+{
+  return Fail("there is not enough memory", WorkFailed);
+}
+catch (const std::exception& error)
+{
+  return Fail(error.what(), WorkFailed);
 }

@@ -203,6 +203,7 @@ struct vtkTetrahedraRayIntegrator::Optics
         " components, a volume property describes at most " + std::to_string(VTK_MAX_VRCOMP));
     }
     std::vector<TransferFunction> functions;
+    functions.reserve(components);
     for (int i = 0; i < components; ++i)
     {
       functions.push_back(tetralux::TransferFunctionFromProperty(

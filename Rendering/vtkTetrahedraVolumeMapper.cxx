@@ -520,6 +520,7 @@ void vtkTetrahedraVolumeMapper::SetCroppingRegionPlanes(const double planes[6])
 void vtkTetrahedraVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   // Not the superclass's, which prints BlendMode as a number.
+  // NOLINTNEXTLINE(bugprone-parent-virtual-call)
   this->vtkAbstractVolumeMapper::PrintSelf(os, indent);
   this->PrintProperties(os, indent);
   this->PrintResults(os, indent);

@@ -178,6 +178,7 @@ void RunBench(const BenchOptions& given)
   AtomicOutput folder(options.Output, CsvFile);
   folder.AddFolder("pictures");
   std::vector<BenchSceneResult> results;
+  results.reserve(makers.size());
   const vtkSmartPointer<vtkHeadlessRenderWindow> window = MakeBenchWindow(options.Scene);
   for (const BenchSceneMaker& maker : makers)
   {

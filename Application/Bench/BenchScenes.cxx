@@ -259,7 +259,7 @@ std::vector<BenchSceneMaker> ListAllScenes(const BenchOptions& options)
 
 std::vector<BenchSceneMaker> ListScenes(const BenchOptions& options)
 {
-  const std::vector<BenchSceneMaker> all = ListAllScenes(options);
+  std::vector<BenchSceneMaker> all = ListAllScenes(options);
   if (options.Scenes.empty())
   {
     return all;
@@ -272,6 +272,7 @@ std::vector<BenchSceneMaker> ListScenes(const BenchOptions& options)
     if (found == all.end())
     {
       std::vector<std::string> names;
+      names.reserve(all.size());
       for (const BenchSceneMaker& maker : all)
       {
         names.push_back(maker.Name);

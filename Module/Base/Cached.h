@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cstdint>
 #include <cstring>
-#include <initializer_list>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -40,12 +39,19 @@ public:
   template <class Input>
   void Add(const Input& input)
   {
-    static_assert(std::is_arithmetic_v<Input> || std::is_enum_v<Input> || std::is_pointer_v<Input>,
-      "a key is made of numbers and addresses");
-    static_assert(sizeof(Input) <= sizeof(std::uint64_t), "a number has at most 64 bits");
-    std::uint64_t word = 0;
-    std::memcpy(&word, &input, sizeof(Input));
-    this->Words.push_back(word);
+    if constexpr (std::is_pointer_v<Input>)
+    {
+      this->Words.push_back(reinterpret_cast<std::uintptr_t>(input));
+    }
+    else
+    {
+      static_assert(std::is_arithmetic_v<Input> || std::is_enum_v<Input>,
+        "a key is made of numbers and addresses");
+      static_assert(sizeof(Input) <= sizeof(std::uint64_t), "a number has at most 64 bits");
+      std::uint64_t word = 0;
+      std::memcpy(&word, &input, sizeof(Input));
+      this->Words.push_back(word);
+    }
   }
 
   bool operator==(const CacheKey& other) const { return this->Words == other.Words; }

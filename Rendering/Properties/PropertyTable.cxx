@@ -257,7 +257,7 @@ const NamedValue* FindNamedValue(const std::vector<NamedValue>& values, const st
 
 std::string DescribeValues(const MapperProperty& property, unsigned kinds)
 {
-  const std::string names = DescribeValues(GetNamedValues(property, kinds));
+  std::string names = DescribeValues(GetNamedValues(property, kinds));
   switch (property.Type)
   {
     case PropertyType::Boolean:
