@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Preparation/InputSignature.h"
 
-#include "Intake/DataSetBlocks.h"
 #include "vtkContourValues.h"
 
 #include "vtkAbstractArray.h"
@@ -132,20 +131,20 @@ private:
 
 } // namespace
 
-CacheKey GetCellsKey(vtkDataObject* input)
+CacheKey GetCellsKey(const std::vector<DataSetBlock>& blocks)
 {
   CacheKey key;
-  for (const DataSetBlock& block : CollectDataSets(input))
+  for (const DataSetBlock& block : blocks)
   {
     AddCells(key, block.DataSet);
   }
   return key;
 }
 
-CacheKey GetPointsKey(vtkDataObject* input)
+CacheKey GetPointsKey(const std::vector<DataSetBlock>& blocks)
 {
   CacheKey key;
-  for (const DataSetBlock& block : CollectDataSets(input))
+  for (const DataSetBlock& block : blocks)
   {
     if (auto* grid = vtkPointSet::SafeDownCast(block.DataSet))
     {
@@ -167,10 +166,10 @@ CacheKey GetPointsKey(vtkDataObject* input)
   return key;
 }
 
-CellsDigest DigestCells(vtkDataObject* input)
+CellsDigest DigestCells(const std::vector<DataSetBlock>& blocks)
 {
   Digester digester;
-  for (const DataSetBlock& block : CollectDataSets(input))
+  for (const DataSetBlock& block : blocks)
   {
     vtkDataSet* dataSet = block.DataSet;
     digester.Add(static_cast<std::uint64_t>(dataSet->GetDataObjectType()));
@@ -207,13 +206,13 @@ CellsDigest DigestCells(vtkDataObject* input)
   return digester.Get();
 }
 
-CacheKey GetScalarsKey(vtkDataObject* input, const ScalarSelection& selection)
+CacheKey GetScalarsKey(const std::vector<DataSetBlock>& blocks, const ScalarSelection& selection)
 {
   CacheKey key;
   key.Add(selection.ScalarMode);
   key.Add(selection.VectorMode);
   key.Add(selection.VectorComponent);
-  for (const DataSetBlock& block : CollectDataSets(input))
+  for (const DataSetBlock& block : blocks)
   {
     int ofCells = 0;
     Add(key,

@@ -3,12 +3,13 @@
 #define tetralux_InputSignature_h
 
 #include "Base/Cached.h"
+#include "Intake/DataSetBlocks.h"
 #include "Intake/ScalarExtraction.h"
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
-class vtkDataObject;
 class vtkVolumeProperty;
 
 namespace tetralux
@@ -19,18 +20,18 @@ namespace tetralux
 
 /// Of the cells that tetrahedra are made of: cells and ghost flags of each data set, but neither
 /// points nor any other array. Data sets that are none of VTK's grids are changed by anything.
-CacheKey GetCellsKey(vtkDataObject* input);
+CacheKey GetCellsKey(const std::vector<DataSetBlock>& blocks);
 
 /// Of the coordinates of the points.
-CacheKey GetPointsKey(vtkDataObject* input);
+CacheKey GetPointsKey(const std::vector<DataSetBlock>& blocks);
 
 /// 128 bits of what GetCellsKey is of, by content: a reader of a time series makes new arrays of
 /// the same cells in every step. Linear time, some five milliseconds a million tetrahedra.
 using CellsDigest = std::array<std::uint64_t, 2>;
-CellsDigest DigestCells(vtkDataObject* input);
+CellsDigest DigestCells(const std::vector<DataSetBlock>& blocks);
 
 /// Of all that scalars depend on beside the mesh: the selected array of each data set.
-CacheKey GetScalarsKey(vtkDataObject* input, const ScalarSelection& selection);
+CacheKey GetScalarsKey(const std::vector<DataSetBlock>& blocks, const ScalarSelection& selection);
 
 /// Of all that TransferFunctionFromProperty reads, and of the values of isosurfaces.
 CacheKey GetPropertyKey(vtkVolumeProperty* property);

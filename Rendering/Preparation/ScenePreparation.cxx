@@ -84,11 +84,12 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
   {
     throw std::invalid_argument("there is no input");
   }
-  if (!this->PrepareMesh(input.Data, progress))
+  const std::vector<DataSetBlock> blocks = CollectDataSets(input.Data);
+  if (!this->PrepareMesh(input.Data, blocks, progress))
   {
     return false;
   }
-  this->PrepareScalars(input.Data, settings.Scalars);
+  this->PrepareScalars(input.Data, blocks, settings.Scalars);
   this->PrepareFunction(settings, input);
   this->WarnOfShade(input.Property);
   this->Scene.Prepare({});
@@ -96,11 +97,11 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
   return true;
 }
 
-bool ScenePreparation::PrepareMesh(
-  vtkDataObject* input, const std::function<bool(double)>& progress)
+bool ScenePreparation::PrepareMesh(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
+  const std::function<bool(double)>& progress)
 {
-  CacheKey cellsKey = GetCellsKey(input);
-  CacheKey pointsKey = GetPointsKey(input);
+  CacheKey cellsKey = GetCellsKey(blocks);
+  CacheKey pointsKey = GetPointsKey(blocks);
   const bool hasMesh = this->Scene.Mesh.GetMesh() != nullptr;
   const bool sameCells = hasMesh && cellsKey == this->CellsKey;
   if (sameCells && pointsKey == this->PointsKey)
@@ -108,7 +109,7 @@ bool ScenePreparation::PrepareMesh(
     return true;
   }
   const Stopwatch intakeStopwatch;
-  const CellsDigest digest = sameCells ? this->Cells : DigestCells(input);
+  const CellsDigest digest = sameCells ? this->Cells : DigestCells(blocks);
   if (hasMesh && digest == this->Cells && this->MovePoints(input))
   {
     this->CellsKey = std::move(cellsKey);
@@ -163,9 +164,10 @@ bool ScenePreparation::MovePoints(vtkDataObject* input)
   return true;
 }
 
-void ScenePreparation::PrepareScalars(vtkDataObject* input, const ScalarSelection& selection)
+void ScenePreparation::PrepareScalars(
+  vtkDataObject* input, const std::vector<DataSetBlock>& blocks, const ScalarSelection& selection)
 {
-  CacheKey key = GetScalarsKey(input, selection);
+  CacheKey key = GetScalarsKey(blocks, selection);
   if (this->Scalars.Has(key))
   {
     return;

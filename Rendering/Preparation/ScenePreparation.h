@@ -70,9 +70,11 @@ public:
   const Record& GetLast() const { return this->Last; }
 
 private:
-  bool PrepareMesh(vtkDataObject* input, const std::function<bool(double)>& progress);
+  bool PrepareMesh(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
+    const std::function<bool(double)>& progress);
   bool MovePoints(vtkDataObject* input);
-  void PrepareScalars(vtkDataObject* input, const ScalarSelection& selection);
+  void PrepareScalars(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
+    const ScalarSelection& selection);
   void PrepareFunction(const MapperSettings& settings, const SceneInput& input);
   void PrepareTable(const MapperSettings& settings, const SceneInput& input);
   void WarnOfMesh();
