@@ -230,6 +230,7 @@ vtkHeadlessRenderWindow::vtkHeadlessRenderWindow()
   this->SetIsDirect(1);
   this->SetOwnContext(0);
   this->SetFrameBlitModeToNoBlit();
+  this->DeviceIndex = -1;
 }
 
 //------------------------------------------------------------------------------------------------

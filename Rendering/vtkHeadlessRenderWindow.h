@@ -7,6 +7,9 @@
  * vtkWindowToImageFilter reads. The context is made on the first call that needs it: on a GPU
  * where a driver offers one, else by Mesa in software. Any number of windows may live at once.
  *
+ * DeviceIndex is the device of EGL that renders, counted from 0 in EGL's order. Default -1: the
+ * first hardware device that works, else Mesa in software. Takes effect when the context is made.
+ *
  * If no context can be made, one error says what to install, and Render() does nothing;
  * SupportsOpenGL() asks beforehand.
  *
@@ -32,15 +35,6 @@ public:
   static vtkHeadlessRenderWindow* New();
   vtkTypeMacro(vtkHeadlessRenderWindow, vtkGenericOpenGLRenderWindow);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /**
-   * Set the device of EGL that renders, counted from 0 in EGL's order. Default -1: the first
-   * hardware device that works, else Mesa in software. Takes effect when the context is made.
-   */
-  vtkSetClampMacro(DeviceIndex, int, -1, VTK_INT_MAX);
-  vtkGetMacro(DeviceIndex, int);
-  ///@}
 
   ///@{
   /**
@@ -78,8 +72,6 @@ public:
 protected:
   vtkHeadlessRenderWindow();
   ~vtkHeadlessRenderWindow() override;
-
-  int DeviceIndex = -1;
 
 private:
   vtkHeadlessRenderWindow(const vtkHeadlessRenderWindow&) = delete;

@@ -87,9 +87,10 @@ check_text() {
 }
 
 # All that was compiled but what the build made itself. Testing/.clang-tidy has a shorter list.
+# The build's -Werror is taken back, since it makes errors of warnings in VTK's own headers, too.
 check_statically() {
   sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' build/compile_commands.json | grep -v "^$PWD/build" |
-    sort -u | xargs -P 2 -n 1 clang-tidy -p build --quiet
+    sort -u | xargs -P 2 -n 1 clang-tidy -p build --quiet --extra-arg=-Wno-error
 }
 
 require "setup" Examples/setup.sh test

@@ -4,6 +4,7 @@
 #include "OpenGL/ScreenProgram.h"
 #include "ProjectedCellFS.h"
 #include "ProjectedCellVS.h"
+#include "ProjectedCellVaryingsDec.h"
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -110,6 +111,9 @@ vtkShaderProgram* ProjectedCellDrawer::Use(vtkOpenGLRenderWindow* window, const 
   vtkShaderProgram::Substitute(vertex, "//VTK::Projection::Dec", shader.Projection);
   std::string fragment = ProjectedCellFS;
   vtkShaderProgram::Substitute(fragment, "//VTK::Projection::Dec", shader.Projection);
+  const std::string varyings = ProjectedCellVaryingsDec;
+  vtkShaderProgram::Substitute(vertex, "//VTK::Varyings::Dec", "#define VARYING out\n" + varyings);
+  vtkShaderProgram::Substitute(fragment, "//VTK::Varyings::Dec", "#define VARYING in\n" + varyings);
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Dec", shader.Segment);
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Impl", shader.Output);
   vtkShaderProgram::Substitute(fragment, "//VTK::Dither::Impl", shader.Dither);

@@ -9,9 +9,8 @@
 //   NUMBER_OF_LIMITS    kept on the positive side of so many planes
 //   OPAQUE              not behind opaque geometry
 //   CROPPED             in some of 27 regions only
-//   LINEAR            a perspective, but without PERSPECTIVE: what is linear comes interpolated;
-//   what
-//                     limits rays has 1 / depth
+//   LINEAR            a perspective, but without PERSPECTIVE: what is linear comes interpolated,
+//                     and what limits rays has 1 / depth
 //   GATHER            of vec4 before and added, two parts of a ray in the same cell: what both add;
 //                     where CROPPED
 //   NOTHING           what adds nothing to that
@@ -24,30 +23,7 @@
 
 out vec4 fragOutput0; // gl_FragData[0]
 
-#ifdef LINEAR
-noperspective in vec4 values; // scalar and faces
-noperspective in vec2 depths; // on the base; world length of a unit of depth
-flat in vec4 properties;      // slope of the scalar, code, smallest and largest scalar
-flat in vec2 reference;
-flat in vec2 cellData;
-#else
-flat in vec4 base;   // on the least steep face, and the slope of the scalar behind it
-flat in vec4 face0;  // the three others, and the smallest and largest scalar
-flat in vec4 face1;
-flat in vec3 face2;
-flat in vec3 scalar;
-flat in vec3 place;  // reference, code
-flat in vec3 cellData;
-#endif
-#ifdef SHADED
-flat in vec3 gradient0; // ProjectedGradient
-flat in vec3 gradient1;
-flat in vec3 gradient2;
-flat in vec3 gradient3;
-#endif
-#ifdef SURFACES
-flat in int faces; // the first of the cell's four in faceScalars
-#endif
+//VTK::Varyings::Dec
 
 #ifndef LINEAR
 uniform float depthUnit; // world length of rayDirection where it has length 1

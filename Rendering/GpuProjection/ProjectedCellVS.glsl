@@ -30,15 +30,9 @@ in vec3 cellGradient0;
 in vec3 cellGradient1;
 in vec3 cellGradient2;
 in vec3 cellGradient3;
-flat out vec3 gradient0;
-flat out vec3 gradient1;
-flat out vec3 gradient2;
-flat out vec3 gradient3;
 #endif
 
-#ifdef SURFACES
-flat out int faces; // the first of the cell's four in faceScalars
-#endif
+//VTK::Varyings::Dec
 
 uniform vec2 pictureSize; // pixels
 
@@ -47,19 +41,6 @@ uniform vec3 rayDirection; // of the pixel in the lower left, and its change fro
 uniform vec3 rayStepX;
 uniform vec3 rayStepY;
 uniform float depthUnit; // world length of rayDirection where it has length 1
-noperspective out vec4 values;    // scalar and faces
-noperspective out vec2 depths;    // on the base; world length of a unit of depth
-flat out vec4 properties;         // slope of the scalar, code, smallest and largest scalar
-flat out vec2 reference;
-flat out vec2 cellData;
-#else
-flat out vec4 base;   // on the least steep face, and the slope of the scalar behind it
-flat out vec4 face0;  // the three others, and the smallest and largest scalar
-flat out vec4 face1;
-flat out vec3 face2;
-flat out vec3 scalar;
-flat out vec3 place;  // reference, code
-flat out vec3 cellData;
 #endif
 
 void main()

@@ -7,9 +7,8 @@
 //   their coordinates: whole numbers, the same whichever cell asks. Where the language has a word
 //   for it (precise), it is told so; all of them are projected by the same function.
 // * The determinant of two of them is exact, but for one rounding of the result, which leaves its
-// sign.
-//   It is put together from products of halves, all of which, and their sums, are whole numbers up
-//   to 2^24, which single precision holds, in whatever order or fusion they are computed.
+//   sign. It is put together from products of halves. They and their sums are whole numbers up to
+//   2^24, which single precision holds, in whatever order or fusion they are computed.
 // * Zero, a ray through an edge or a vertex, is decided as if the ray were displaced by (e, e^2), e
 //   infinitely small; where two points are in the same place, by their ids.
 
