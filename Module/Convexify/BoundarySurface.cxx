@@ -156,6 +156,16 @@ std::vector<std::uint8_t> OrientCells(const TetrahedralMesh& mesh, const FaceNei
   return turns;
 }
 
+Obstacle DescribeContact(
+  const TetrahedralMesh& mesh, std::int32_t cell, std::int32_t other, std::int32_t point)
+{
+  Obstacle contact;
+  contact.Reason = "cells touch without sharing points";
+  contact.Cells = { cell, other };
+  std::copy_n(&mesh.Points[3 * static_cast<std::size_t>(point)], 3, contact.Point.begin());
+  return contact;
+}
+
 /// Refuses boundary triangles that, by points at the same place, are also between two cells.
 void RefuseCoveredFaces(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors,
   const std::vector<std::int32_t>& first, const std::vector<Triangle>& triangles,
@@ -274,6 +284,12 @@ BoundarySurface FindBoundarySurface(
         if (isKept[order[j]] && !RunAlike(triangles[order[i]], triangles[order[j]]))
         {
           isKept[order[i]] = isKept[order[j]] = false;
+          const std::int32_t faces[2] = { neighbors.BoundaryFaces[order[i]],
+            neighbors.BoundaryFaces[order[j]] };
+          if (faces[0] / 4 != faces[1] / 4 && surface.Contact.Reason.empty())
+          {
+            surface.Contact = DescribeContact(mesh, faces[0] / 4, faces[1] / 4, key[0]);
+          }
         }
       }
     }
@@ -314,7 +330,13 @@ BoundarySurface FindBoundarySurface(
     }
     const auto [a, b, c] = triangles[i];
     surface.Triangles.push_back({ local[a], local[b], local[c] });
-    surface.Faces.push_back(neighbors.BoundaryFaces[i]);
+    const std::int32_t face = neighbors.BoundaryFaces[i];
+    surface.Faces.push_back(face);
+    if (surface.Seam.Reason.empty() &&
+      GetFace(mesh, face / 4, face % 4, turns[face / 4] != 0) != triangles[i])
+    {
+      surface.Seam = DescribeContact(mesh, face / 4, -1, a);
+    }
     if (obstacle.Reason.empty() && points.FindProjection(local[a], local[b], local[c]) < 0)
     {
       obstacle.Reason = "a boundary face has no area";

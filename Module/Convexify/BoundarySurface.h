@@ -45,6 +45,14 @@ struct BoundarySurface
   /// one that no boundary face has.
   std::vector<std::int32_t> MergedIds;
 
+  /// Two boundary faces at the same place, of different cells: a walk does not go on from one to
+  /// the other, though the triangles tell nothing of it.
+  Obstacle Contact;
+
+  /// A triangle that has other ids in the mesh: cells that are put on it share no face with the
+  /// mesh.
+  Obstacle Seam;
+
   /// Whether a cell is turned against the others of its part, to rounding: it overlaps with them.
   bool HasInvertedCells = false;
 

@@ -145,19 +145,7 @@ public:
     this->Fill(obstacle);
     if (!obstacle.Reason.empty())
     {
-      std::ostringstream line;
-      line.precision(10);
-      line << obstacle.Reason << ", near (" << obstacle.Point[0] << ", " << obstacle.Point[1]
-           << ", " << obstacle.Point[2] << ")";
-      if (obstacle.Cells[0] >= 0)
-      {
-        line << ", cell " << this->GetOriginalCell(obstacle.Cells[0]);
-      }
-      if (obstacle.Cells[1] >= 0)
-      {
-        line << " and cell " << this->GetOriginalCell(obstacle.Cells[1]);
-      }
-      this->Result.Refusal = line.str();
+      this->Result.Refusal = this->Describe(obstacle);
       this->Result.RefusalPoint = obstacle.Point;
       this->Result.RefusalCells = obstacle.Cells;
     }
@@ -165,6 +153,23 @@ public:
   }
 
 private:
+  std::string Describe(const Obstacle& obstacle) const
+  {
+    std::ostringstream line;
+    line.precision(10);
+    line << obstacle.Reason << ", near (" << obstacle.Point[0] << ", " << obstacle.Point[1] << ", "
+         << obstacle.Point[2] << ")";
+    if (obstacle.Cells[0] >= 0)
+    {
+      line << ", cell " << this->GetOriginalCell(obstacle.Cells[0]);
+    }
+    if (obstacle.Cells[1] >= 0)
+    {
+      line << " and cell " << this->GetOriginalCell(obstacle.Cells[1]);
+    }
+    return line.str();
+  }
+
   std::int64_t GetOriginalCell(std::int32_t cell) const
   {
     return this->Mesh.OriginalCells.empty() ? cell : this->Mesh.OriginalCells[cell];
@@ -180,7 +185,12 @@ private:
   {
     Stopwatch watch;
     const BoundarySurface surface = FindBoundarySurface(this->Mesh, this->Neighbors, obstacle);
-    this->Result.Convex = obstacle.Reason.empty() &&
+    const bool touches = !surface.Contact.Reason.empty();
+    if (touches)
+    {
+      this->Result.Contact = this->Describe(surface.Contact);
+    }
+    this->Result.Convex = obstacle.Reason.empty() && !touches &&
       IsConvexSurface(ExactPoints(surface.Coordinates.data()), surface.Triangles);
     this->Result.ConvexTestSeconds = watch.Lap();
     if (!obstacle.Reason.empty() || this->Result.Convex || !this->Continue(0.1))
@@ -249,6 +259,10 @@ private:
       this->Result.HullVolume = MeasureEnclosedVolume(coordinates, hull);
       this->Result.ImaginaryVolume = MeasureCells(coordinates, cells);
       this->Collect(surface, coordinates, cells);
+      if (!touches && !cells.empty() && !surface.Seam.Reason.empty())
+      {
+        this->Result.Contact = this->Describe(surface.Seam);
+      }
       if (surface.HasInvertedCells)
       {
         this->FindOverlap(surface.MergedIds, obstacle);
@@ -326,7 +340,7 @@ bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors)
 {
   Obstacle obstacle;
   const BoundarySurface surface = FindBoundarySurface(mesh, neighbors, obstacle);
-  return obstacle.Reason.empty() &&
+  return obstacle.Reason.empty() && surface.Contact.Reason.empty() &&
     IsConvexSurface(ExactPoints(surface.Coordinates.data()), surface.Triangles);
 }
 

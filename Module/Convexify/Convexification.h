@@ -28,8 +28,8 @@ struct Convexification
   /// points (exactly: the sign is that of the coordinates as given).
   std::vector<std::int32_t> Cells;
 
-  /// The boundary is its own convex hull: nothing was added, and nothing more was measured than
-  /// BoundaryFaces and the test's time.
+  /// The boundary is its own convex hull, and no cells touch without sharing points: nothing was
+  /// added, and nothing more was measured than BoundaryFaces and the test's time.
   bool Convex = false;
 
   /// Empty where the space was filled and the result verified; else one line that says why not and
@@ -40,6 +40,10 @@ struct Convexification
   /// boundary faces meet there, -1 where there is none or only one.
   std::array<double, 3> RefusalPoint = { 0, 0, 0 };
   std::array<std::int32_t, 2> RefusalCells = { -1, -1 };
+
+  /// Empty where every cell shares its faces, by the ids of their points, with all cells that touch
+  /// it there; else one line that says where not. No walk from cell to cell crosses such a place.
+  std::string Contact;
 
   /// The caller's progress returned false.
   bool Aborted = false;

@@ -57,10 +57,11 @@ struct Plane
   double GetDistance(const Vector& point) const { return Dot(this->Normal, point) - this->Offset; }
 };
 
-/// A triangle that planes cut: each adds one corner at most.
+/// A triangle that planes cut, at most four times. A cut adds one corner; but where rounding decides
+/// the sides of corners, they may alternate, so that 4, 6, 9, 13 corners come of it.
 struct Polygon
 {
-  std::array<Vector, 7> Corners;
+  std::array<Vector, 13> Corners;
   int Size = 0;
 
   /// Keeps what has at least that distance.

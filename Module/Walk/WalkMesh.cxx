@@ -164,6 +164,12 @@ void WalkMesh::MakeConvex(const std::function<bool(double)>& progress)
   {
     return;
   }
+  if (convex->Refusal.empty() && !convex->Contact.empty())
+  {
+    convex->Refusal = convex->Contact;
+    convex->Cells.clear();
+    convex->SteinerPoints.clear();
+  }
   if (!convex->Cells.empty())
   {
     // As all cells of the tables: ascending point ids.

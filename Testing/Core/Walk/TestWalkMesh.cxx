@@ -252,4 +252,49 @@ TEST(WalkMesh, Convexity)
   EXPECT_FALSE(pipe.IsConvex());
 }
 
+/// Two boxes side by side with points of their own, as pieces of a file come.
+TetrahedralMesh MakeTwoBoxes(int cellsOfSecond)
+{
+  TetrahedralMesh mesh = tetralux::MakeBox(2, 2, 2, { 0, 0, 0 }, { 1, 1, 1 });
+  const TetrahedralMesh second =
+    tetralux::MakeBox(cellsOfSecond, cellsOfSecond, cellsOfSecond, { 1, 0, 0 }, { 2, 1, 1 });
+  const auto shift = static_cast<std::int32_t>(mesh.GetNumberOfPoints());
+  mesh.Points.insert(mesh.Points.end(), second.Points.begin(), second.Points.end());
+  for (const std::int32_t point : second.Cells)
+  {
+    mesh.Cells.push_back(point + shift);
+  }
+  return mesh;
+}
+
+TEST(WalkMesh, PartsThatTouchAreNotConvex)
+{
+  // Faces that coincide, and others that only touch.
+  for (const int cells : { 2, 3 })
+  {
+    WalkMesh mesh(MakeTwoBoxes(cells));
+    EXPECT_FALSE(mesh.IsConvex());
+    mesh.MakeConvex();
+    EXPECT_FALSE(mesh.IsConvex());
+    EXPECT_FALSE(mesh.GetConvexification()->Refusal.empty());
+    EXPECT_TRUE(mesh.GetConvexTables().Faces.empty());
+  }
+}
+
+TEST(WalkMesh, ImaginaryCellsShareFacesOrAreNone)
+{
+  // A pyramid of four cells around an edge whose ends come twice, a seam; and a cell on its side,
+  // so that there is space to fill.
+  TetrahedralMesh mesh;
+  mesh.Points = { 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 3, 3, 0.5, 0, 0, 0, 0, 0,
+    1 };
+  mesh.Cells = { 0, 1, 2, 3, 0, 1, 3, 4, 0, 1, 4, 5, 7, 8, 5, 2, 2, 3, 1, 6 };
+  WalkMesh walk(mesh);
+  walk.MakeConvex();
+  EXPECT_NE(walk.GetConvexification()->Refusal.find("cells touch without sharing points"),
+    std::string::npos)
+    << walk.GetConvexification()->Refusal;
+  EXPECT_TRUE(walk.GetConvexTables().Faces.empty());
+}
+
 } // namespace
