@@ -26,8 +26,8 @@ struct TetrahedraIntakeReport
   std::int64_t GhostCells = 0;            ///< vtkGhostType says DUPLICATECELL
   std::int64_t BlankedCells = 0;          ///< HIDDENCELL, REFINEDCELL, or a corner is a HIDDENPOINT
   std::int64_t LowerDimensionalCells = 0; ///< vertices, lines, faces, empty cells
-  std::int64_t InvalidCells = 0; ///< too few points for the type, or a point id that does not exist
-  std::int64_t Blocks = 0;       ///< data sets that were read
+  std::int64_t InvalidCells = 0;  ///< too few points, ids that don't exist, or nothing between them
+  std::int64_t Blocks = 0;        ///< data sets that were read
   std::int64_t SkippedBlocks = 0; ///< leaves of a composite that are no data sets, as tables
 
   /// The sum over SkippedByType.

@@ -40,7 +40,8 @@ struct TetrahedraIntake
 /// - quadratic cells: all their nodes are kept; faces are cut by a rule that depends on the face
 ///   alone, then a cone from the node in the middle or from an added point there, which has the
 ///   cell's own interpolation weights;
-/// - convex point sets: as VTK triangulates them; their faces agree among themselves only.
+/// - convex point sets: the faces of their convex hull, then as polyhedra; points inside of the
+///   hull, of a face or of an edge split the tetrahedra that they lie in.
 ///
 /// Parts of collapsed cells (a point repeated) that have no volume are left out. Cells without a
 /// tetrahedron, and why, are in the report.
