@@ -29,6 +29,7 @@ struct BlockContext
   const double* Coordinates = nullptr; ///< of the whole mesh, by its ids
   const unsigned char* CellGhosts = nullptr;
   const unsigned char* PointGhosts = nullptr;
+  bool HasRationalWeights = false; ///< whether Bezier cells are rational ones
 };
 
 /// Splits the cells of one chunk.
@@ -55,8 +56,10 @@ private:
   void SplitCell(vtkIdType cellId)
   {
     this->Source.GetCell(cellId, this->Current);
-    const int type = this->Current.Type & 0xff; // VTK keeps types in a byte
-    ++this->Output.CellsByType[type];
+    std::vector<std::int64_t>& points = this->Current.Points;
+    const int givenType = this->Current.Type & 0xff; // VTK keeps types in a byte
+    const int type = GetLinearType(givenType, points.size(), this->Context.HasRationalWeights);
+    ++this->Output.CellsByType[givenType];
 
     const unsigned char ghost = this->Context.CellGhosts ? this->Context.CellGhosts[cellId] : 0;
     if (ghost & vtkDataSetAttributes::DUPLICATECELL)
@@ -97,7 +100,6 @@ private:
           }
         });
     }
-    std::vector<std::int64_t>& points = this->Current.Points;
     if (!valid || points.size() < GetRequiredPoints(kind, type) || !this->MakeGlobal(points))
     {
       ++this->Output.InvalidCells;
@@ -115,6 +117,11 @@ private:
       return;
     }
 
+    if (kind == CellKind::Wedge && IsTurnedWedge(givenType))
+    {
+      std::swap(points[1], points[2]);
+      std::swap(points[4], points[5]);
+    }
     this->Tets.clear();
     this->SplitPoints(kind, type);
     const std::size_t before = this->Output.Parents.size();

@@ -18,7 +18,8 @@ struct TetrahedraIntakeReport
   /// Cells of the input by their type as in vtkCellType.h.
   std::map<int, std::int64_t> CellsByType;
 
-  /// Three-dimensional cells of types that can't be rendered (Lagrange, Bezier, ...), by type.
+  /// Three-dimensional cells of types that can't be rendered (Lagrange and Bezier cells of a
+  /// higher order, ...), by type.
   std::map<int, std::int64_t> SkippedByType;
 
   std::int64_t NumberOfPoints = 0;        ///< of the input, all blocks together

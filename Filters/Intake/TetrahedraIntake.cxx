@@ -13,6 +13,7 @@
 #include "vtkCellType.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
+#include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
@@ -159,6 +160,8 @@ private:
     {
       context.PointGhosts = pointGhosts->GetPointer(0);
     }
+
+    context.HasRationalWeights = block.DataSet->GetPointData()->GetRationalWeights() != nullptr;
 
     StructuredLayout layout;
     if (GetStructuredLayout(block.DataSet, layout) && layout.IsThreeDimensional())

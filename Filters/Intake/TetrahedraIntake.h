@@ -37,6 +37,8 @@ struct TetrahedraIntake
 ///   cone from the cell's smallest point id where that makes positive tetrahedra, else from an
 ///   added point in the middle. A polyhedron that can't be seen completely from either gives
 ///   overlapping tetrahedra, some inverted;
+/// - Lagrange cells of order 1, and Bezier cells of order 1 without rational weights: as the linear
+///   cells that they are;
 /// - quadratic cells: all their nodes are kept; faces are cut by a rule that depends on the face
 ///   alone, then a cone from the node in the middle or from an added point there, which has the
 ///   cell's own interpolation weights;

@@ -610,14 +610,64 @@ TEST(TetrahedraIntake, CellsThatCannotBeSplitAreNamed)
   patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 1, 1, 1);
   auto grid = patch.MakeGrid(3, KeepPosition);
   const vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
-  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
-  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
-  grid->InsertNextCell(VTK_BEZIER_TETRAHEDRON, 4, ids);
+  vtkIdType many[27] = {};
+  std::copy(std::begin(ids), std::end(ids), many);
+  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 12, many);
+  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 27, many);
+  grid->InsertNextCell(VTK_BEZIER_TETRAHEDRON, 10, many);
   const TetrahedraIntake intake = TakeInTetrahedra(grid);
   EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), 3);
   EXPECT_EQ(intake.Report.DescribeSkippedCells(), "2 vtkLagrangeHexahedron, 1 vtkBezierTetra");
   EXPECT_NEAR(GetVolume(intake.Mesh), 1, VolumeTolerance);
   EXPECT_EQ(GetCellTypeName(200), "cell type 200");
+}
+
+TEST(TetrahedraIntake, LagrangeAndBezierCellsOfOrderOneAreLinear)
+{
+  struct Case
+  {
+    int Type;
+    std::vector<CellPatch::Position> Corners;
+    double Volume;
+  };
+  const std::vector<CellPatch::Position> turnedWedge = { Wedge[0], Wedge[2], Wedge[1], Wedge[3],
+    Wedge[5], Wedge[4] };
+  const double pyramid = 1.0 / 3;
+  for (const Case& linear :
+    { Case{ VTK_LAGRANGE_TETRAHEDRON, Tetrahedron, 1.0 / 6 },
+      Case{ VTK_BEZIER_TETRAHEDRON, Tetrahedron, 1.0 / 6 }, Case{ VTK_LAGRANGE_HEXAHEDRON, Box, 1 },
+      Case{ VTK_BEZIER_HEXAHEDRON, Box, 1 }, Case{ VTK_LAGRANGE_WEDGE, turnedWedge, 0.5 },
+      Case{ VTK_BEZIER_WEDGE, turnedWedge, 0.5 }, Case{ VTK_LAGRANGE_PYRAMID, Pyramid, pyramid },
+      Case{ VTK_BEZIER_PYRAMID, Pyramid, pyramid } })
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    std::vector<vtkIdType> ids;
+    for (const CellPatch::Position& x : linear.Corners)
+    {
+      ids.push_back(points->InsertNextPoint(x.data()));
+    }
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points);
+    grid->InsertNextCell(linear.Type, static_cast<vtkIdType>(ids.size()), ids.data());
+    TetrahedraIntake intake = TakeInTetrahedra(grid);
+    std::int64_t notPositive = 0;
+    EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), linear.Volume, VolumeTolerance)
+      << "type " << linear.Type;
+    EXPECT_EQ(notPositive, 0) << "type " << linear.Type;
+    EXPECT_EQ(intake.Report.CellsByType.at(linear.Type), 1);
+    EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), 0);
+
+    // With weights, a Bezier cell's scalars are quotients.
+    vtkNew<vtkDoubleArray> weights;
+    weights->SetName("Weights");
+    weights->SetNumberOfTuples(grid->GetNumberOfPoints());
+    weights->FillValue(1);
+    grid->GetPointData()->SetRationalWeights(weights);
+    intake = TakeInTetrahedra(grid);
+    const bool isBezier = linear.Type >= VTK_BEZIER_CURVE;
+    EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), isBezier ? 1 : 0) << linear.Type;
+  }
 }
 
 TEST(TetrahedraIntake, CellsThatNamePointsThatDoNotExistAreCounted)

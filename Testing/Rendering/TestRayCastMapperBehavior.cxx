@@ -503,8 +503,8 @@ TEST(RayCastMapperBehavior, WarnsOfWhatIsLeftOut)
 {
   RayCastScene scene;
   Messages warnings(scene.Mapper, vtkCommand::WarningEvent);
-  vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
-  scene.Grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
+  const vtkIdType ids[12] = { 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3 };
+  scene.Grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 12, ids);
   scene.Volume->GetProperty()->ShadeOn();
   scene.Mapper->SetBlendModeToMaximumIntensity();
   scene.Window->Render();
