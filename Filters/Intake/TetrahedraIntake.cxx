@@ -4,6 +4,7 @@
 #include "Intake/CellSources.h"
 #include "Intake/ChunkSplitter.h"
 #include "Intake/DataSetBlocks.h"
+#include "Intake/DataSetCheck.h"
 #include "Intake/IntakeChunk.h"
 #include "Intake/PlainCopies.h"
 #include "Intake/StructuredLayout.h"
@@ -48,6 +49,12 @@ public:
     std::int64_t structuredTetrahedra = 0;
     for (const DataSetBlock& block : blocks)
     {
+      this->Result.Error = FindDamage(block.DataSet);
+      if (!this->Result.Error.empty())
+      {
+        this->Result.Error = "the input is damaged: " + this->Result.Error;
+        return;
+      }
       this->Report.NumberOfPoints += block.DataSet->GetNumberOfPoints();
       this->Report.NumberOfCells += block.DataSet->GetNumberOfCells();
       structuredTetrahedra += CountStructuredTetrahedra(block.DataSet);

@@ -21,6 +21,7 @@
 #include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
@@ -685,6 +686,38 @@ TEST(TetrahedraIntake, CellsThatNamePointsThatDoNotExistAreCounted)
   const TetrahedraIntake intake = TakeInTetrahedra(grid);
   EXPECT_EQ(intake.Report.InvalidCells, 4);
   EXPECT_EQ(intake.Mesh.GetNumberOfCells(), 12u);
+}
+
+TEST(TetrahedraIntake, DamagedGridsAreRefused)
+{
+  const auto expectError = [](vtkDataObject* input, const std::string& text)
+  {
+    const TetrahedraIntake intake = TakeInTetrahedra(input);
+    EXPECT_NE(intake.Error.find("damaged"), std::string::npos) << intake.Error;
+    EXPECT_NE(intake.Error.find(text), std::string::npos) << intake.Error;
+  };
+  vtkNew<vtkDoubleArray> three;
+  three->SetNumberOfTuples(3);
+  three->FillValue(0);
+  vtkNew<vtkRectilinearGrid> rectilinear;
+  rectilinear->SetDimensions(3, 3, 4);
+  rectilinear->SetXCoordinates(three);
+  rectilinear->SetYCoordinates(three);
+  rectilinear->SetZCoordinates(three);
+  expectError(rectilinear, "4 planes along z, but 3 coordinates");
+  rectilinear->SetExtent(VTK_INT_MAX, 5, 0, 2, 0, 2);
+  expectError(rectilinear, "extent");
+
+  vtkNew<vtkStructuredGrid> structured;
+  structured->SetDimensions(2, 2, 2);
+  structured->SetPoints(vtkNew<vtkPoints>());
+  expectError(structured, "room for 8 points, but 0");
+
+  CellPatch patch;
+  patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 2, 1, 1);
+  auto grid = patch.MakeGrid(1, KeepPosition);
+  grid->GetCellTypesArray()->SetNumberOfValues(1);
+  expectError(grid, "2 cells, but types for 1");
 }
 
 TEST(TetrahedraIntake, CollapsedHexahedronKeepsItsVolume)
