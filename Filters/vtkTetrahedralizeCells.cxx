@@ -2,6 +2,7 @@
 #include "vtkTetrahedralizeCells.h"
 
 #include "Intake/DataSetBlocks.h"
+#include "Intake/LeftOutCells.h"
 #include "Intake/TetrahedraIntake.h"
 
 #include "vtkCellArray.h"
@@ -207,10 +208,10 @@ int vtkTetrahedralizeCells::RequestData(
   {
     return 1;
   }
-  if (!this->SkippedCellTypes.empty())
+  const std::string leftOut = tetralux::DescribeLeftOutCells(intake.Report, {});
+  if (!leftOut.empty())
   {
-    vtkWarningMacro(<< "Cells of types that can't be split into tetrahedra are left out: "
-                    << this->SkippedCellTypes);
+    vtkWarningMacro(<< leftOut);
   }
 
   const tetralux::TetrahedralMesh& mesh = intake.Mesh;

@@ -6,6 +6,7 @@
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
 #include "Files/ReadMesh.h"
+#include "Intake/LeftOutCells.h"
 #include "Intake/TetrahedraIntake.h"
 #include "Mesh/CellVolumes.h"
 #include "Setup/Arrays.h"
@@ -115,14 +116,9 @@ void PrintIntake(const tetralux::TetrahedraIntakeReport& report)
   {
     PrintRow("  " + tetralux::GetCellTypeName(type), count);
   }
-  if (report.GetNumberOfSkippedCells() > 0)
-  {
-    PrintRow("cells not supported", report.DescribeSkippedCells());
-  }
   PrintCount("ghost cells", report.GhostCells);
   PrintCount("blanked cells", report.BlankedCells);
   PrintCount("cells below 3 dimensions", report.LowerDimensionalCells);
-  PrintCount("cells with missing points", report.InvalidCells);
 }
 
 void PrintBounds(const std::vector<double>& points)
@@ -224,20 +220,20 @@ void PrintInfo(const InfoOptions& options)
   PrintRow("boundary faces", walk->GetNumberOfBoundaryFaces());
   PrintRow("components", walk->GetNumberOfComponents());
 
-  const tetralux::RemovedCells& removed = walk->GetRemovedCells();
+  const std::vector<tetralux::LeftOutCells> leftOut =
+    tetralux::ListLeftOutCells(intake.Report, walk->GetRemovedCells());
   PrintRow("defects",
-    removed.Total() + volumes.NumberOfZero + volumes.NumberOfInverted +
-          walk->GetNumberOfNonManifoldFaces() ==
-        0
+    leftOut.empty() &&
+        volumes.NumberOfZero + volumes.NumberOfInverted + walk->GetNumberOfNonManifoldFaces() == 0
       ? "none"
       : "");
   PrintCount("  zero volume", volumes.NumberOfZero);
   PrintCount("  inverted", volumes.NumberOfInverted);
   PrintCount("  faces of three or more", walk->GetNumberOfNonManifoldFaces());
-  PrintCount("  removed: bad point ids", removed.InvalidPointIds);
-  PrintCount("  removed: bad coordinates", removed.NonFiniteCoordinates);
-  PrintCount("  removed: repeated points", removed.RepeatedPoints);
-  PrintCount("  removed: duplicates", removed.Duplicates);
+  for (const tetralux::LeftOutCells& cells : leftOut)
+  {
+    PrintRow("  left out: " + cells.Reason, cells.Count);
+  }
 
   PrintRow("memory of the tables", FormatMegabytes(walk->GetTableSize()));
   std::string time =

@@ -181,10 +181,9 @@ void CheckRendered(const std::string& input, const nlohmann::ordered_json& stati
 {
   if (statistics.at("tables").at("tetrahedra") == 0)
   {
-    const auto skipped = statistics.at("input").at("skipped_cell_types").get<std::string>();
+    const auto leftOut = statistics.at("input").at("left_out").get<std::string>();
     throw WorkError("'" + input + "': none of its " + statistics.at("input").at("cells").dump() +
-      " cells can be rendered as a volume" +
-      (skipped.empty() ? "" : "; not supported: " + skipped));
+      " cells can be rendered as a volume" + (leftOut.empty() ? "" : "; ") + leftOut);
   }
 }
 

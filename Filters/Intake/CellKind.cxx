@@ -8,6 +8,49 @@
 namespace tetralux
 {
 
+int GetLinearType(int cellType, std::size_t numberOfPoints, bool hasRationalWeights)
+{
+  int linear = cellType;
+  bool isBezier = false;
+  switch (cellType)
+  {
+    case VTK_BEZIER_TETRAHEDRON:
+      isBezier = true;
+      [[fallthrough]];
+    case VTK_LAGRANGE_TETRAHEDRON:
+      linear = VTK_TETRA;
+      break;
+    case VTK_BEZIER_HEXAHEDRON:
+      isBezier = true;
+      [[fallthrough]];
+    case VTK_LAGRANGE_HEXAHEDRON:
+      linear = VTK_HEXAHEDRON;
+      break;
+    case VTK_BEZIER_WEDGE:
+      isBezier = true;
+      [[fallthrough]];
+    case VTK_LAGRANGE_WEDGE:
+      linear = VTK_WEDGE;
+      break;
+    case VTK_BEZIER_PYRAMID:
+      isBezier = true;
+      [[fallthrough]];
+    case VTK_LAGRANGE_PYRAMID:
+      linear = VTK_PYRAMID;
+      break;
+    default:
+      return cellType;
+  }
+  const bool isLinear = numberOfPoints == GetRequiredPoints(ClassifyCellType(linear), linear) &&
+    !(isBezier && hasRationalWeights);
+  return isLinear ? linear : cellType;
+}
+
+bool IsTurnedWedge(int cellType)
+{
+  return cellType == VTK_LAGRANGE_WEDGE || cellType == VTK_BEZIER_WEDGE;
+}
+
 CellKind ClassifyCellType(int cellType)
 {
   switch (cellType)

@@ -4,17 +4,16 @@
 
 #include "Intake/CellKind.h"
 #include "Intake/CellSources.h"
+#include "Intake/ConvexFaces.h"
 #include "Intake/DataSetBlocks.h"
 #include "Intake/FacetedCells.h"
 #include "Intake/IntakeChunk.h"
 #include "Mesh/CellSplit.h"
 
 #include "vtkDataSetAttributes.h"
-#include "vtkGenericCell.h"
-#include "vtkPoints.h"
-#include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -30,6 +29,7 @@ struct BlockContext
   const double* Coordinates = nullptr; ///< of the whole mesh, by its ids
   const unsigned char* CellGhosts = nullptr;
   const unsigned char* PointGhosts = nullptr;
+  bool HasRationalWeights = false; ///< whether Bezier cells are rational ones
 };
 
 /// Splits the cells of one chunk.
@@ -56,8 +56,10 @@ private:
   void SplitCell(vtkIdType cellId)
   {
     this->Source.GetCell(cellId, this->Current);
-    const int type = this->Current.Type & 0xff; // VTK keeps types in a byte
-    ++this->Output.CellsByType[type];
+    std::vector<std::int64_t>& points = this->Current.Points;
+    const int givenType = this->Current.Type & 0xff; // VTK keeps types in a byte
+    const int type = GetLinearType(givenType, points.size(), this->Context.HasRationalWeights);
+    ++this->Output.CellsByType[givenType];
 
     const unsigned char ghost = this->Context.CellGhosts ? this->Context.CellGhosts[cellId] : 0;
     if (ghost & vtkDataSetAttributes::DUPLICATECELL)
@@ -98,7 +100,6 @@ private:
           }
         });
     }
-    std::vector<std::int64_t>& points = this->Current.Points;
     if (!valid || points.size() < GetRequiredPoints(kind, type) || !this->MakeGlobal(points))
     {
       ++this->Output.InvalidCells;
@@ -116,8 +117,14 @@ private:
       return;
     }
 
+    if (kind == CellKind::Wedge && IsTurnedWedge(givenType))
+    {
+      std::swap(points[1], points[2]);
+      std::swap(points[4], points[5]);
+    }
     this->Tets.clear();
-    this->SplitPoints(kind, type, cellId);
+    this->SplitPoints(kind, type);
+    const std::size_t before = this->Output.Parents.size();
     for (std::size_t i = 0; i < this->Tets.size(); i += 4)
     {
       const std::int64_t* t = &this->Tets[i];
@@ -130,6 +137,10 @@ private:
         this->Output.Tetrahedra.insert(this->Output.Tetrahedra.end(), t, t + 4);
         this->Output.Parents.push_back(cellId);
       }
+    }
+    if (this->Output.Parents.size() == before)
+    {
+      ++this->Output.InvalidCells;
     }
   }
 
@@ -147,7 +158,7 @@ private:
     return true;
   }
 
-  void SplitPoints(CellKind kind, int type, vtkIdType cellId)
+  void SplitPoints(CellKind kind, int type)
   {
     std::vector<std::int64_t>& points = this->Current.Points;
     std::int64_t tets[6 * 4];
@@ -184,7 +195,7 @@ private:
         this->SplitPolyhedron();
         return;
       case CellKind::ConvexPointSet:
-        this->SplitConvexPointSet(cellId);
+        this->SplitConvexPointSet();
         return;
       case CellKind::LowerDimensional:
       case CellKind::Unsupported:
@@ -219,6 +230,28 @@ private:
   void SplitPolyhedron()
   {
     this->Faces.OrientOutward(this->Context.Coordinates);
+    this->ConeFromCornerOrMiddle();
+  }
+
+  void SplitConvexPointSet()
+  {
+    if (!FindConvexFaces(this->Current.Points, this->Context.Coordinates, this->Hull))
+    {
+      return;
+    }
+    for (const std::vector<std::int64_t>& polygon : this->Hull.Polygons)
+    {
+      this->Faces.AddPolygon(polygon.data(), polygon.size());
+    }
+    this->ConeFromCornerOrMiddle();
+    for (std::int64_t point : this->Hull.Others)
+    {
+      this->SplitAt(point);
+    }
+  }
+
+  void ConeFromCornerOrMiddle()
+  {
     if (!this->Faces.ConeFromSmallestId(this->Context.Coordinates, this->Tets))
     {
       const std::vector<std::int64_t>& points = this->Faces.GetPoints();
@@ -227,20 +260,55 @@ private:
     }
   }
 
-  void SplitConvexPointSet(vtkIdType cellId)
+  /// Splits the tetrahedra that a point lies in: several where it lies on a face or an edge.
+  void SplitAt(std::int64_t point)
   {
-    if (!this->AnyCell)
+    // Share of a tetrahedron's volume below which the point lies on a face of it: above the
+    // rounding of coordinates in single precision.
+    const double onFace = 1e-6;
+    std::vector<std::int64_t> split;
+    for (std::size_t i = 0; i < this->Tets.size(); i += 4)
     {
-      this->AnyCell = vtkSmartPointer<vtkGenericCell>::New();
+      const std::int64_t* tet = &this->Tets[i];
+      const double volume = this->GetVolume({ tet[0], tet[1], tet[2], tet[3] });
+      std::array<bool, 4> isAbove = {};
+      bool isInside = volume > 0;
+      for (int corner = 0; corner < 4; ++corner)
+      {
+        std::array<std::int64_t, 4> part = { tet[0], tet[1], tet[2], tet[3] };
+        part[corner] = point;
+        const double share = this->GetVolume(part) / volume;
+        isInside = isInside && share > -onFace;
+        isAbove[corner] = share > onFace;
+      }
+      if (!isInside)
+      {
+        split.insert(split.end(), tet, tet + 4);
+        continue;
+      }
+      for (int corner = 0; corner < 4; ++corner)
+      {
+        if (isAbove[corner])
+        {
+          split.insert(split.end(), tet, tet + 4);
+          split[split.size() - 4 + corner] = point;
+        }
+      }
     }
-    vtkNew<vtkIdList> ids;
-    vtkNew<vtkPoints> coordinates;
-    this->Context.Block.DataSet->GetCell(cellId, this->AnyCell);
-    this->AnyCell->Triangulate(0, ids, coordinates);
-    for (vtkIdType id : *ids)
-    {
-      this->Tets.push_back(id + this->Context.Block.FirstPoint);
-    }
+    this->Tets = std::move(split);
+  }
+
+  double GetVolume(const std::array<std::int64_t, 4>& tet) const
+  {
+    return GetSignedVolume(this->GetPosition(tet[0]), this->GetPosition(tet[1]),
+      this->GetPosition(tet[2]), this->GetPosition(tet[3]));
+  }
+
+  /// Of a point of the mesh, or of one that was added here.
+  const double* GetPosition(std::int64_t point) const
+  {
+    return point >= 0 ? this->Context.Coordinates + 3 * point
+                      : &this->Output.AddedCoordinates[3 * (-1 - point)];
   }
 
   std::int64_t AddPoint(const std::vector<std::int64_t>& points, const std::vector<double>& weights)
@@ -271,7 +339,7 @@ private:
   FacetedCellSplitter Faces;
   std::vector<std::int64_t> Polygon;
   std::vector<std::int64_t> Tets;
-  vtkSmartPointer<vtkGenericCell> AnyCell;
+  ConvexFaces Hull;
 };
 
 } // namespace tetralux

@@ -84,7 +84,9 @@ FacetedCellType ReadFaces(int cellType)
   return result;
 }
 
-double SignedVolumeOf(const double* a, const double* b, const double* c, const double* d)
+} // namespace
+
+double GetSignedVolume(const double* a, const double* b, const double* c, const double* d)
 {
   const double u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
   const double v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
@@ -93,8 +95,6 @@ double SignedVolumeOf(const double* a, const double* b, const double* c, const d
            (u[0] * v[1] - u[1] * v[0]) * w[2]) /
     6;
 }
-
-} // namespace
 
 const FacetedCellType* GetFacetedCellType(int cellType)
 {
@@ -146,7 +146,7 @@ double FacetedCellSplitter::SignedVolume(const double* points) const
   for (std::size_t i = 0; i < this->Triangles.size(); i += 3)
   {
     // Seen from a corner of the cell, so that an offset of the whole mesh does not cancel.
-    volume += SignedVolumeOf(points + 3 * this->Triangles[i], points + 3 * this->Triangles[i + 2],
+    volume += GetSignedVolume(points + 3 * this->Triangles[i], points + 3 * this->Triangles[i + 2],
       points + 3 * this->Triangles[i + 1], points + 3 * this->Triangles[0]);
   }
   return volume;
@@ -186,7 +186,7 @@ bool FacetedCellSplitter::ConeFromSmallestId(
       continue;
     }
     const double volume =
-      SignedVolumeOf(points + 3 * a, points + 3 * c, points + 3 * b, points + 3 * apex);
+      GetSignedVolume(points + 3 * a, points + 3 * c, points + 3 * b, points + 3 * apex);
     if (!(volume > flatVolume)) // also where a coordinate is not a number
     {
       tets.resize(start);

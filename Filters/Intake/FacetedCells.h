@@ -8,7 +8,8 @@
 namespace tetralux
 {
 
-/// Cells that are given by their faces: prisms, quadratic cells, polyhedra. They are cut by cutting
+/// Cells that are given by their faces: prisms, quadratic cells, polyhedra,
+/// convex point sets. They are cut by cutting
 /// the faces into triangles, by a rule that both sides of a face follow, and joining the triangles
 /// with one apex.
 
@@ -37,6 +38,9 @@ struct FacetedCellType
 /// The faces of a cell type as VTK's own cell class gives them; nullptr for a type that is not
 /// among the prisms and quadratic cells. Safe to call from any thread.
 const FacetedCellType* GetFacetedCellType(int cellType);
+
+/// The volume of a tetrahedron, positive in VTK's order of its points.
+double GetSignedVolume(const double* a, const double* b, const double* c, const double* d);
 
 /// Cuts cells given by their faces. Holds scratch memory: one for each thread.
 class FacetedCellSplitter

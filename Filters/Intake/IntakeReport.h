@@ -18,7 +18,8 @@ struct TetrahedraIntakeReport
   /// Cells of the input by their type as in vtkCellType.h.
   std::map<int, std::int64_t> CellsByType;
 
-  /// Three-dimensional cells of types that can't be rendered (Lagrange, Bezier, ...), by type.
+  /// Three-dimensional cells of types that can't be rendered (Lagrange and Bezier cells of a
+  /// higher order, ...), by type.
   std::map<int, std::int64_t> SkippedByType;
 
   std::int64_t NumberOfPoints = 0;        ///< of the input, all blocks together
@@ -26,8 +27,8 @@ struct TetrahedraIntakeReport
   std::int64_t GhostCells = 0;            ///< vtkGhostType says DUPLICATECELL
   std::int64_t BlankedCells = 0;          ///< HIDDENCELL, REFINEDCELL, or a corner is a HIDDENPOINT
   std::int64_t LowerDimensionalCells = 0; ///< vertices, lines, faces, empty cells
-  std::int64_t InvalidCells = 0; ///< too few points for the type, or a point id that does not exist
-  std::int64_t Blocks = 0;       ///< data sets that were read
+  std::int64_t InvalidCells = 0;  ///< too few points, ids that don't exist, or nothing between them
+  std::int64_t Blocks = 0;        ///< data sets that were read
   std::int64_t SkippedBlocks = 0; ///< leaves of a composite that are no data sets, as tables
 
   /// The sum over SkippedByType.

@@ -4,6 +4,7 @@
 #include "Intake/CellSources.h"
 #include "Intake/ChunkSplitter.h"
 #include "Intake/DataSetBlocks.h"
+#include "Intake/DataSetCheck.h"
 #include "Intake/IntakeChunk.h"
 #include "Intake/PlainCopies.h"
 #include "Intake/StructuredLayout.h"
@@ -13,6 +14,7 @@
 #include "vtkCellType.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
+#include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
@@ -47,6 +49,12 @@ public:
     std::int64_t structuredTetrahedra = 0;
     for (const DataSetBlock& block : blocks)
     {
+      this->Result.Error = FindDamage(block.DataSet);
+      if (!this->Result.Error.empty())
+      {
+        this->Result.Error = "the input is damaged: " + this->Result.Error;
+        return;
+      }
       this->Report.NumberOfPoints += block.DataSet->GetNumberOfPoints();
       this->Report.NumberOfCells += block.DataSet->GetNumberOfCells();
       structuredTetrahedra += CountStructuredTetrahedra(block.DataSet);
@@ -159,6 +167,8 @@ private:
     {
       context.PointGhosts = pointGhosts->GetPointer(0);
     }
+
+    context.HasRationalWeights = block.DataSet->GetPointData()->GetRationalWeights() != nullptr;
 
     StructuredLayout layout;
     if (GetStructuredLayout(block.DataSet, layout) && layout.IsThreeDimensional())

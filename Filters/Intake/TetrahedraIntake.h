@@ -37,15 +37,18 @@ struct TetrahedraIntake
 ///   cone from the cell's smallest point id where that makes positive tetrahedra, else from an
 ///   added point in the middle. A polyhedron that can't be seen completely from either gives
 ///   overlapping tetrahedra, some inverted;
+/// - Lagrange cells of order 1, and Bezier cells of order 1 without rational weights: as the linear
+///   cells that they are;
 /// - quadratic cells: all their nodes are kept; faces are cut by a rule that depends on the face
 ///   alone, then a cone from the node in the middle or from an added point there, which has the
 ///   cell's own interpolation weights;
-/// - convex point sets: as VTK triangulates them; their faces agree among themselves only.
+/// - convex point sets: the faces of their convex hull, then as polyhedra; points inside of the
+///   hull, of a face or of an edge split the tetrahedra that they lie in.
 ///
 /// Parts of collapsed cells (a point repeated) that have no volume are left out. Cells without a
 /// tetrahedron, and why, are in the report.
 ///
-/// Refuses an input that is no data set, more than 2^31 - 1 points and more than 2^29 - 1
+/// Refuses an input that is no data set, one that lacks points or types of its cells, more than 2^31 - 1 points and more than 2^29 - 1
 /// tetrahedra, with a line in Error.
 ///
 /// progress, where given, is called from the calling thread with a fraction 0..1 now and then; when

@@ -2,6 +2,7 @@
 #include "Preparation/ScenePreparation.h"
 
 #include "Base/Stopwatch.h"
+#include "Intake/LeftOutCells.h"
 #include "Intake/PointExtraction.h"
 #include "Intake/ScalarExtraction.h"
 #include "Integral/ErrorBudget.h"
@@ -305,11 +306,9 @@ void ScenePreparation::WarnOfMesh()
     warning = "nothing is drawn: of the input's " + std::to_string(this->Intake.NumberOfCells) +
       " cells, none can be rendered as a volume";
   }
-  if (this->Intake.GetNumberOfSkippedCells() > 0)
-  {
-    warning += (warning.empty() ? "" : "; ") + std::string("cells that can't be rendered: ") +
-      this->Intake.DescribeSkippedCells();
-  }
+  const std::string leftOut =
+    DescribeLeftOutCells(this->Intake, this->Scene.Mesh.GetMesh()->GetRemovedCells());
+  warning += (warning.empty() || leftOut.empty() ? "" : "; ") + leftOut;
   this->MeshWarning.Update(this->Source, warning);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Preparation/SceneReport.h"
 
+#include "Intake/LeftOutCells.h"
 #include "Preparation/ScenePreparation.h"
 #include "Report/IntegratorName.h"
 
@@ -86,6 +87,8 @@ Json DescribeInput(const ScenePreparation& preparation)
   input["invalid_cells"] = intake.InvalidCells;
   input["skipped_cells"] = intake.GetNumberOfSkippedCells();
   input["skipped_cell_types"] = intake.DescribeSkippedCells();
+  input["left_out"] =
+    DescribeLeftOutCells(intake, preparation.Scene.Mesh.GetMesh()->GetRemovedCells());
   input["skipped_blocks"] = intake.SkippedBlocks;
   input["array"] = preparation.GetArrayName();
   input["array_of"] = preparation.Scene.Mesh.HasCellScalars() ? "cells" : "points";

@@ -209,7 +209,7 @@ class FailedWork(ToolTest):
         self.write_grid("nothing.vtu", VTK_TRIANGLE, 0)
         self.write_grid("nan.vtu", VTK_TRIANGLE, 3, value=float("nan"))
         self.write_grid("flat.vtu", VTK_TRIANGLE, 3)
-        self.write_grid("lagrange.vtu", VTK_LAGRANGE_HEXAHEDRON, 8)
+        self.write_grid("lagrange.vtu", VTK_LAGRANGE_HEXAHEDRON, 27)
         for name, says in [
             ("noarrays.vtu", "no arrays"),
             ("nothing.vtu", "no finite values"),

@@ -59,6 +59,16 @@ std::int64_t CellPatch::AddPoint(const Position& x)
 
 void CellPatch::AddCell(int type, const std::vector<Position>& corners)
 {
+  if (type == VTK_CONVEX_POINT_SET)
+  {
+    CellEntry entry = { type, {}, {} };
+    for (const Position& corner : corners)
+    {
+      entry.Ids.push_back(this->AddPoint(corner));
+    }
+    this->Cells.push_back(entry);
+    return;
+  }
   auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
   const auto numberOfNodes = static_cast<int>(cell->GetNumberOfPoints());
   const auto numberOfCorners = static_cast<int>(corners.size());

@@ -3,6 +3,7 @@
 
 #include "CellPatch.h"
 #include "GhostArray.h"
+#include "Intake/ScalarExtraction.h"
 #include "Mesh/FaceNeighbors.h"
 
 #include "vtkCellArray.h"
@@ -20,10 +21,14 @@
 #include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <set>
 
 using namespace tetralux;
@@ -36,6 +41,28 @@ namespace
 constexpr double VolumeTolerance = 1e-12;
 
 CellPatch::Position KeepPosition(const CellPatch::Position& x) { return x; }
+
+/// The largest error of a field of values up to 150 that is interpolated from 20 points at most.
+constexpr double FieldTolerance = 1e-12;
+
+// Corners in VTK's order.
+const std::vector<CellPatch::Position> Tetrahedron = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 },
+  { 0, 0, 1 } };
+const std::vector<CellPatch::Position> Box = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+  { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+const std::vector<CellPatch::Position> VoxelCorners = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 },
+  { 1, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 } };
+const std::vector<CellPatch::Position> Wedge = { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 },
+  { 0, 1, 1 }, { 1, 0, 1 } };
+const std::vector<CellPatch::Position> Pyramid = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 },
+  { 0, 1, 0 }, { 0.5, 0.5, 1 } };
+
+/// As a boundary layer: a millionth in one direction, turned out of the axes.
+CellPatch::Position MapFlat(const CellPatch::Position& x)
+{
+  const double z = 1e-6 * x[2];
+  return { 0.8 * x[0] - 0.6 * z, x[1], 0.6 * x[0] + 0.8 * z };
+}
 
 /// Where a point of the mesh was before the map: the same weights apply before and after.
 std::function<CellPatch::Position(std::int64_t)> MakeToBox(
@@ -145,6 +172,128 @@ INSTANTIATE_TEST_SUITE_P(Types, EveryCellType,
     CellTypeCase{ VTK_TRIQUADRATIC_PYRAMID, 6 * (8 + 4 * 6), 0 }),
   NameCase);
 
+namespace
+{
+
+/// One cell of each type that is accepted, on its corners.
+struct OneCell
+{
+  int Type;
+  std::vector<CellPatch::Position> Corners;
+};
+
+std::vector<CellPatch::Position> MakePrism(int sides)
+{
+  std::vector<CellPatch::Position> corners;
+  for (int level : { 0, 1 })
+  {
+    for (int i = 0; i < sides; ++i)
+    {
+      const double angle = 2 * std::acos(-1.0) * i / sides;
+      corners.push_back({ std::cos(angle), std::sin(angle), double(level) });
+    }
+  }
+  return corners;
+}
+
+class CellAmongOthers : public testing::TestWithParam<OneCell>
+{
+protected:
+  /// The cell with its points in order, or on points of a grid that has others, in any order,
+  /// behind a hexahedron and before a tetrahedron.
+  vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(bool amongOthers, std::uint64_t seed) const
+  {
+    CellPatch patch;
+    if (amongOthers)
+    {
+      patch.AddBoxes(VTK_HEXAHEDRON, 7, 0, 0, 1, 1, 1);
+    }
+    if (this->GetParam().Type == VTK_POLYHEDRON)
+    {
+      patch.AddBoxes(VTK_POLYHEDRON, 0, 0, 0, 1, 1, 1);
+    }
+    else
+    {
+      patch.AddCell(this->GetParam().Type, this->GetParam().Corners);
+    }
+    if (amongOthers)
+    {
+      patch.AddCell(VTK_TETRA, { { 5, 0, 0 }, { 6, 0, 0 }, { 5, 1, 0 }, { 5, 0, 1 } });
+    }
+    return patch.MakeGrid(seed, MapAffine);
+  }
+
+  /// The volume of the cell's tetrahedra.
+  static double GetCellVolume(TetrahedralMesh mesh, std::int64_t cell, std::int64_t* notPositive)
+  {
+    std::vector<std::int32_t> kept;
+    for (std::size_t i = 0; i < mesh.GetNumberOfCells(); ++i)
+    {
+      if (mesh.OriginalCells.empty() || mesh.OriginalCells[i] == cell)
+      {
+        kept.insert(kept.end(), &mesh.Cells[4 * i], &mesh.Cells[4 * i] + 4);
+      }
+    }
+    mesh.Cells = std::move(kept);
+    return GetVolume(mesh, notPositive);
+  }
+};
+
+std::string NameCell(const testing::TestParamInfo<OneCell>& info)
+{
+  return GetCellTypeName(info.param.Type);
+}
+
+/// Linear in the coordinates.
+double GetField(const double* x) { return 3 + x[0] - 2 * x[1] + 0.5 * x[2]; }
+
+} // namespace
+
+TEST_P(CellAmongOthers, HasTheVolumeAndTheScalarsThatItHasAlone)
+{
+  std::int64_t notPositive = 0;
+  const double alone =
+    GetCellVolume(TakeInTetrahedra(this->MakeGrid(false, 0)).Mesh, 0, &notPositive);
+  EXPECT_EQ(notPositive, 0);
+  EXPECT_GT(alone, 0.05);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    auto grid = this->MakeGrid(true, seed);
+    vtkNew<vtkDoubleArray> field;
+    field->SetName("Field");
+    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    {
+      field->InsertNextValue(GetField(grid->GetPoint(i)));
+    }
+    grid->GetPointData()->SetScalars(field);
+    const TetrahedraIntake intake = TakeInTetrahedra(grid);
+    EXPECT_NEAR(GetCellVolume(intake.Mesh, 1, &notPositive), alone, VolumeTolerance);
+    EXPECT_EQ(notPositive, 0);
+    EXPECT_NEAR(
+      GetCellVolume(intake.Mesh, 0, &notPositive), GetAffineDeterminant(), VolumeTolerance);
+    EXPECT_NEAR(
+      GetCellVolume(intake.Mesh, 2, &notPositive), GetAffineDeterminant() / 6, VolumeTolerance);
+    const ExtractedScalars scalars = ExtractScalars(grid, intake.Mesh, {});
+    ASSERT_EQ(scalars.Error, "");
+    for (std::size_t i = 0; i < intake.Mesh.GetNumberOfPoints(); ++i)
+    {
+      EXPECT_NEAR(scalars.Values[i], GetField(&intake.Mesh.Points[3 * i]), FieldTolerance);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, CellAmongOthers,
+  testing::Values(OneCell{ VTK_TETRA, Tetrahedron }, OneCell{ VTK_VOXEL, VoxelCorners },
+    OneCell{ VTK_HEXAHEDRON, Box }, OneCell{ VTK_WEDGE, Wedge }, OneCell{ VTK_PYRAMID, Pyramid },
+    OneCell{ VTK_PENTAGONAL_PRISM, MakePrism(5) }, OneCell{ VTK_HEXAGONAL_PRISM, MakePrism(6) },
+    OneCell{ VTK_POLYHEDRON, {} }, OneCell{ VTK_CONVEX_POINT_SET, Box },
+    OneCell{ VTK_QUADRATIC_TETRA, Tetrahedron }, OneCell{ VTK_QUADRATIC_HEXAHEDRON, Box },
+    OneCell{ VTK_TRIQUADRATIC_HEXAHEDRON, Box },
+    OneCell{ VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, Box }, OneCell{ VTK_QUADRATIC_WEDGE, Wedge },
+    OneCell{ VTK_QUADRATIC_LINEAR_WEDGE, Wedge }, OneCell{ VTK_BIQUADRATIC_QUADRATIC_WEDGE, Wedge },
+    OneCell{ VTK_QUADRATIC_PYRAMID, Pyramid }, OneCell{ VTK_TRIQUADRATIC_PYRAMID, Pyramid }),
+  NameCell);
+
 TEST(TetrahedraIntake, DifferentCellTypesAgreeOnTheirFaces)
 {
   CellPatch patch;
@@ -235,27 +384,90 @@ TEST(TetrahedraIntake, DentedPolyhedronIsConedFromItsMiddle)
   EXPECT_EQ(numbersOfPoints, (std::set<std::size_t>{ 9, 10 })) << "both ways were tried";
 }
 
-TEST(TetrahedraIntake, ConvexPointSetIsFilled)
+TEST(TetrahedraIntake, ConvexPointSetsAgreeWithAnyNeighbour)
 {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkUnstructuredGrid> grid;
-  std::vector<vtkIdType> ids;
+  CellPatch patch;
+  patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 1, 2, 2);
+  patch.AddBoxes(VTK_CONVEX_POINT_SET, 1, 0, 0, 2, 2, 2);
+  patch.AddBoxes(VTK_WEDGE, 3, 0, 0, 1, 2, 2);
+  for (const auto& map : { MapAffine, MapFlat })
+  {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed)
+    {
+      auto grid = patch.MakeGrid(seed, map);
+      const TetrahedraIntake intake = TakeInTetrahedra(grid);
+      std::int64_t notPositive = 0;
+      GetVolume(intake.Mesh, &notPositive);
+      EXPECT_EQ(notPositive, 0);
+      EXPECT_EQ(intake.Mesh.GetNumberOfPoints(), 45u);
+      EXPECT_EQ(FindConformityProblem(intake.Mesh, MakeToBox(grid, intake.Mesh), { 4, 2, 2 }), "");
+    }
+  }
+}
+
+TEST(TetrahedraIntake, PointsInsideOfAConvexPointSetSplitIt)
+{
+  // Corners of a cube, then the middle of an edge, of a face, of the diagonal that cones from a
+  // corner make inside, and a point anywhere.
+  std::vector<std::array<double, 3>> points;
   for (int i = 0; i < 8; ++i)
   {
-    ids.push_back(points->InsertNextPoint(i & 1, i >> 1 & 1, i >> 2));
+    points.push_back({ double(i & 1), double(i >> 1 & 1), double(i >> 2) });
   }
-  grid->SetPoints(points);
-  grid->InsertNextCell(VTK_CONVEX_POINT_SET, 8, ids.data());
-  const TetrahedraIntake intake = TakeInTetrahedra(grid);
-  double volume = 0;
-  for (std::size_t i = 0; i < intake.Mesh.GetNumberOfCells(); ++i)
+  points.push_back({ 0.5, 0, 1 });
+  points.push_back({ 1, 0.5, 0.5 });
+  points.push_back({ 0.5, 0.5, 0.5 });
+  points.push_back({ 0.7, 0.2, 0.6 });
+  std::mt19937_64 random(1);
+  for (int repeat = 0; repeat < 50; ++repeat)
   {
-    TetrahedralMesh one;
-    one.Points = intake.Mesh.Points;
-    one.Cells.assign(&intake.Mesh.Cells[4 * i], &intake.Mesh.Cells[4 * i] + 4);
-    volume += std::abs(GetVolume(one));
+    std::shuffle(points.begin(), points.end(), random);
+    vtkNew<vtkPoints> coordinates;
+    coordinates->SetDataTypeToDouble();
+    std::vector<vtkIdType> ids;
+    for (const auto& x : points)
+    {
+      ids.push_back(coordinates->InsertNextPoint(x.data()));
+    }
+    ids.push_back(ids[3]); // once more
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(coordinates);
+    grid->InsertNextCell(VTK_CONVEX_POINT_SET, static_cast<vtkIdType>(ids.size()), ids.data());
+    const TetrahedraIntake intake = TakeInTetrahedra(grid);
+    std::int64_t notPositive = 0;
+    EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), 1, VolumeTolerance);
+    EXPECT_EQ(notPositive, 0);
+    const std::set<std::int32_t> used(intake.Mesh.Cells.begin(), intake.Mesh.Cells.end());
+    EXPECT_EQ(used.size(), points.size());
+    const auto toBox = [&](std::int64_t point) { return points[point]; };
+    EXPECT_EQ(FindConformityProblem(intake.Mesh, toBox, { 1, 1, 1 }), "");
   }
-  EXPECT_NEAR(volume, 1, VolumeTolerance);
+}
+
+TEST(TetrahedraIntake, ConvexPointSetOfASolidIsItsHull)
+{
+  // Twenty points on a sphere of radius 1e-20, and the same points moved into a plane.
+  for (bool flat : { false, true })
+  {
+    std::mt19937_64 random(2);
+    std::normal_distribution<double> normal;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    std::vector<vtkIdType> ids;
+    for (int i = 0; i < 20; ++i)
+    {
+      double x[3] = { normal(random), normal(random), normal(random) };
+      const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / 1e-20;
+      ids.push_back(
+        points->InsertNextPoint(x[0] / length, x[1] / length, flat ? 0 : x[2] / length));
+    }
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points);
+    grid->InsertNextCell(VTK_CONVEX_POINT_SET, 20, ids.data());
+    const TetrahedraIntake intake = TakeInTetrahedra(grid);
+    EXPECT_EQ(intake.Report.InvalidCells, flat ? 1 : 0);
+    EXPECT_EQ(CountBoundaryFaces(intake.Mesh), flat ? 0u : 2u * 20 - 4); // by Euler
+  }
 }
 
 TEST(TetrahedraIntake, AllTetrahedraPassAsTheyAre)
@@ -399,14 +611,64 @@ TEST(TetrahedraIntake, CellsThatCannotBeSplitAreNamed)
   patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 1, 1, 1);
   auto grid = patch.MakeGrid(3, KeepPosition);
   const vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
-  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
-  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
-  grid->InsertNextCell(VTK_BEZIER_TETRAHEDRON, 4, ids);
+  vtkIdType many[27] = {};
+  std::copy(std::begin(ids), std::end(ids), many);
+  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 12, many);
+  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 27, many);
+  grid->InsertNextCell(VTK_BEZIER_TETRAHEDRON, 10, many);
   const TetrahedraIntake intake = TakeInTetrahedra(grid);
   EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), 3);
   EXPECT_EQ(intake.Report.DescribeSkippedCells(), "2 vtkLagrangeHexahedron, 1 vtkBezierTetra");
   EXPECT_NEAR(GetVolume(intake.Mesh), 1, VolumeTolerance);
   EXPECT_EQ(GetCellTypeName(200), "cell type 200");
+}
+
+TEST(TetrahedraIntake, LagrangeAndBezierCellsOfOrderOneAreLinear)
+{
+  struct Case
+  {
+    int Type;
+    std::vector<CellPatch::Position> Corners;
+    double Volume;
+  };
+  const std::vector<CellPatch::Position> turnedWedge = { Wedge[0], Wedge[2], Wedge[1], Wedge[3],
+    Wedge[5], Wedge[4] };
+  const double pyramid = 1.0 / 3;
+  for (const Case& linear :
+    { Case{ VTK_LAGRANGE_TETRAHEDRON, Tetrahedron, 1.0 / 6 },
+      Case{ VTK_BEZIER_TETRAHEDRON, Tetrahedron, 1.0 / 6 }, Case{ VTK_LAGRANGE_HEXAHEDRON, Box, 1 },
+      Case{ VTK_BEZIER_HEXAHEDRON, Box, 1 }, Case{ VTK_LAGRANGE_WEDGE, turnedWedge, 0.5 },
+      Case{ VTK_BEZIER_WEDGE, turnedWedge, 0.5 }, Case{ VTK_LAGRANGE_PYRAMID, Pyramid, pyramid },
+      Case{ VTK_BEZIER_PYRAMID, Pyramid, pyramid } })
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    std::vector<vtkIdType> ids;
+    for (const CellPatch::Position& x : linear.Corners)
+    {
+      ids.push_back(points->InsertNextPoint(x.data()));
+    }
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points);
+    grid->InsertNextCell(linear.Type, static_cast<vtkIdType>(ids.size()), ids.data());
+    TetrahedraIntake intake = TakeInTetrahedra(grid);
+    std::int64_t notPositive = 0;
+    EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), linear.Volume, VolumeTolerance)
+      << "type " << linear.Type;
+    EXPECT_EQ(notPositive, 0) << "type " << linear.Type;
+    EXPECT_EQ(intake.Report.CellsByType.at(linear.Type), 1);
+    EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), 0);
+
+    // With weights, a Bezier cell's scalars are quotients.
+    vtkNew<vtkDoubleArray> weights;
+    weights->SetName("Weights");
+    weights->SetNumberOfTuples(grid->GetNumberOfPoints());
+    weights->FillValue(1);
+    grid->GetPointData()->SetRationalWeights(weights);
+    intake = TakeInTetrahedra(grid);
+    const bool isBezier = linear.Type >= VTK_BEZIER_CURVE;
+    EXPECT_EQ(intake.Report.GetNumberOfSkippedCells(), isBezier ? 1 : 0) << linear.Type;
+  }
 }
 
 TEST(TetrahedraIntake, CellsThatNamePointsThatDoNotExistAreCounted)
@@ -424,6 +686,38 @@ TEST(TetrahedraIntake, CellsThatNamePointsThatDoNotExistAreCounted)
   const TetrahedraIntake intake = TakeInTetrahedra(grid);
   EXPECT_EQ(intake.Report.InvalidCells, 4);
   EXPECT_EQ(intake.Mesh.GetNumberOfCells(), 12u);
+}
+
+TEST(TetrahedraIntake, DamagedGridsAreRefused)
+{
+  const auto expectError = [](vtkDataObject* input, const std::string& text)
+  {
+    const TetrahedraIntake intake = TakeInTetrahedra(input);
+    EXPECT_NE(intake.Error.find("damaged"), std::string::npos) << intake.Error;
+    EXPECT_NE(intake.Error.find(text), std::string::npos) << intake.Error;
+  };
+  vtkNew<vtkDoubleArray> three;
+  three->SetNumberOfTuples(3);
+  three->FillValue(0);
+  vtkNew<vtkRectilinearGrid> rectilinear;
+  rectilinear->SetDimensions(3, 3, 4);
+  rectilinear->SetXCoordinates(three);
+  rectilinear->SetYCoordinates(three);
+  rectilinear->SetZCoordinates(three);
+  expectError(rectilinear, "4 planes along z, but 3 coordinates");
+  rectilinear->SetExtent(VTK_INT_MAX, 5, 0, 2, 0, 2);
+  expectError(rectilinear, "extent");
+
+  vtkNew<vtkStructuredGrid> structured;
+  structured->SetDimensions(2, 2, 2);
+  structured->SetPoints(vtkNew<vtkPoints>());
+  expectError(structured, "room for 8 points, but 0");
+
+  CellPatch patch;
+  patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 2, 1, 1);
+  auto grid = patch.MakeGrid(1, KeepPosition);
+  grid->GetCellTypesArray()->SetNumberOfValues(1);
+  expectError(grid, "2 cells, but types for 1");
 }
 
 TEST(TetrahedraIntake, CollapsedHexahedronKeepsItsVolume)

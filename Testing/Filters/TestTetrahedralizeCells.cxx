@@ -104,9 +104,9 @@ TEST(TetrahedralizeCells, OriginalIdsAreOptional)
 TEST(TetrahedralizeCells, CountsAndNamesWhatItLeavesOut)
 {
   auto grid = MakeGrid(VTK_HEXAHEDRON);
-  const vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  const vtkIdType ids[12] = { 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3 };
   const vtkIdType beyond[4] = { 0, 1, 2, 1000 };
-  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
+  grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 12, ids);
   grid->InsertNextCell(VTK_TRIANGLE, 3, ids);
   grid->InsertNextCell(VTK_TETRA, 4, beyond);
   grid->GetCellData()->AddArray(MakeGhostArray(

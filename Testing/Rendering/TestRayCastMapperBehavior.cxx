@@ -503,14 +503,22 @@ TEST(RayCastMapperBehavior, WarnsOfWhatIsLeftOut)
 {
   RayCastScene scene;
   Messages warnings(scene.Mapper, vtkCommand::WarningEvent);
-  vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
-  scene.Grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 8, ids);
+  const vtkIdType ids[12] = { 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3 };
+  scene.Grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 12, ids);
+  const vtkIdType missing[4] = { 0, 1, 2, scene.Grid->GetNumberOfPoints() };
+  scene.Grid->InsertNextCell(VTK_TETRA, 4, missing);
+  const vtkIdType repeated[4] = { 0, 1, 1, 2 };
+  scene.Grid->InsertNextCell(VTK_TETRA, 4, repeated);
   scene.Volume->GetProperty()->ShadeOn();
   scene.Mapper->SetBlendModeToMaximumIntensity();
   scene.Window->Render();
   scene.Window->Render();
   ASSERT_EQ(warnings.Texts.size(), 2u);
-  EXPECT_NE(warnings.Texts[0].find("LagrangeHexahedron"), std::string::npos) << warnings.Texts[0];
+  EXPECT_NE(
+    warnings.Texts[0].find("1 vtkLagrangeHexahedron; cells with missing or unusable points: "
+                           "1; tetrahedra with a repeated point: 1"),
+    std::string::npos)
+    << warnings.Texts[0];
   EXPECT_NE(warnings.Texts[1].find("Shade"), std::string::npos) << warnings.Texts[1];
   EXPECT_EQ(scene.Mapper->GetNumberOfSkippedCells(), 1);
 }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Intake/DataSetCheck.h"
+
+#include "Intake/StructuredLayout.h"
+
+#include "vtkDataArray.h"
+#include "vtkPoints.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace tetralux
+{
+
+namespace
+{
+
+std::string FindDamage(vtkDataSet* dataSet, const StructuredLayout& layout)
+{
+  if (*std::min_element(layout.Dimensions, layout.Dimensions + 3) < 0)
+  {
+    return "an extent of its grid is no extent";
+  }
+  if (auto rectilinear = vtkRectilinearGrid::SafeDownCast(dataSet))
+  {
+    vtkDataArray* const coordinates[3] = { rectilinear->GetXCoordinates(),
+      rectilinear->GetYCoordinates(), rectilinear->GetZCoordinates() };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const vtkIdType count = coordinates[axis] ? coordinates[axis]->GetNumberOfTuples() : 0;
+      if (count < layout.Dimensions[axis])
+      {
+        return "its grid has " + std::to_string(layout.Dimensions[axis]) + " planes along " +
+          std::string(1, "xyz"[axis]) + ", but " + std::to_string(count) + " coordinates there";
+      }
+    }
+  }
+  if (auto structured = vtkStructuredGrid::SafeDownCast(dataSet))
+  {
+    const std::int64_t count = std::int64_t(layout.Dimensions[0]) * layout.Dimensions[1] *
+      std::int64_t(layout.Dimensions[2]);
+    const vtkIdType points = structured->GetPoints() ? structured->GetNumberOfPoints() : 0;
+    if (points < count)
+    {
+      return "its grid has room for " + std::to_string(count) + " points, but " +
+        std::to_string(points) + " are there";
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+std::string FindDamage(vtkDataSet* dataSet)
+{
+  StructuredLayout layout;
+  if (GetStructuredLayout(dataSet, layout))
+  {
+    return FindDamage(dataSet, layout);
+  }
+  if (auto grid = vtkUnstructuredGrid::SafeDownCast(dataSet))
+  {
+    const vtkIdType cells = grid->GetNumberOfCells();
+    vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+    if (cells > 0 && (!types || types->GetNumberOfValues() < cells))
+    {
+      return "it has " + std::to_string(cells) + " cells, but types for " +
+        std::to_string(types ? types->GetNumberOfValues() : 0) + " of them";
+    }
+  }
+  return {};
+}
+
+} // namespace tetralux
