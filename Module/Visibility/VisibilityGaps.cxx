@@ -57,8 +57,8 @@ struct Plane
   double GetDistance(const Vector& point) const { return Dot(this->Normal, point) - this->Offset; }
 };
 
-/// A triangle that planes cut, at most four times. A cut adds one corner; but where rounding decides
-/// the sides of corners, they may alternate, so that 4, 6, 9, 13 corners come of it.
+/// A triangle that planes cut, at most four times. A cut adds one corner; but where rounding
+/// decides the sides of corners, they may alternate, so that 4, 6, 9, 13 corners come of it.
 struct Polygon
 {
   std::array<Vector, 13> Corners;
