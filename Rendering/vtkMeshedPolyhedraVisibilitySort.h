@@ -12,7 +12,9 @@
  * each face that two cells have in common, an exact sign tells which of them is in front. If the
  * mesh is not convex, imaginary cells fill the space between its boundary and its hull; they are
  * sorted with the others and not returned. Cells that occlude each other in a cycle have no right
- * order: they are counted and named, and the faces that look smallest are ignored.
+ * order: they are counted and named, and the faces that look smallest are ignored. Cells that touch
+ * without sharing points are ordered by what lies behind each boundary face. A viewer on an edge or
+ * a face of such cells, or cells a millionth as thick as wide, may close a cycle of them.
  *
  * Accepts a data set whose volumes are tetrahedra; refuses others (vtkTetrahedralizeCells makes
  * tetrahedra of them), since cells of other kinds need not have an order at all. Returns cells by
