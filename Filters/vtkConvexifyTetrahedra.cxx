@@ -212,6 +212,7 @@ int vtkConvexifyTetrahedra::RequestData(
     tetralux::RemoveUnusableCells(mesh);
     const tetralux::Convexification result =
       tetralux::Convexify(mesh, tetralux::FindFaceNeighbors(mesh.Cells, mesh.GetNumberOfPoints()),
+        tetralux::TouchingCells::Join,
         [this](double fraction)
         {
           this->UpdateProgress(fraction);

@@ -7,8 +7,9 @@
  * vtkWindowToImageFilter reads. The context is made on the first call that needs it: on a GPU
  * where a driver offers one, else by Mesa in software. Any number of windows may live at once.
  *
- * DeviceIndex is the device of EGL that renders, counted from 0 in EGL's order. Default -1: the
- * first hardware device that works, else Mesa in software. Takes effect when the context is made.
+ * DeviceIndex is the device of EGL that renders, counted from 0 in EGL's order. With a negative
+ * one, default -1, it is the first hardware device that works, else Mesa in software. It takes
+ * effect when the context is made.
  *
  * If no context can be made, one error says what to install, and Render() does nothing;
  * SupportsOpenGL() asks beforehand.

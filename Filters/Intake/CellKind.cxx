@@ -10,40 +10,27 @@ namespace tetralux
 
 int GetLinearType(int cellType, std::size_t numberOfPoints, bool hasRationalWeights)
 {
-  int linear = cellType;
-  bool isBezier = false;
-  switch (cellType)
+  struct HigherOrder
   {
-    case VTK_BEZIER_TETRAHEDRON:
-      isBezier = true;
-      [[fallthrough]];
-    case VTK_LAGRANGE_TETRAHEDRON:
-      linear = VTK_TETRA;
-      break;
-    case VTK_BEZIER_HEXAHEDRON:
-      isBezier = true;
-      [[fallthrough]];
-    case VTK_LAGRANGE_HEXAHEDRON:
-      linear = VTK_HEXAHEDRON;
-      break;
-    case VTK_BEZIER_WEDGE:
-      isBezier = true;
-      [[fallthrough]];
-    case VTK_LAGRANGE_WEDGE:
-      linear = VTK_WEDGE;
-      break;
-    case VTK_BEZIER_PYRAMID:
-      isBezier = true;
-      [[fallthrough]];
-    case VTK_LAGRANGE_PYRAMID:
-      linear = VTK_PYRAMID;
-      break;
-    default:
-      return cellType;
+    int Lagrange, Bezier, Linear;
+  };
+  constexpr HigherOrder Types[] = {
+    { VTK_LAGRANGE_TETRAHEDRON, VTK_BEZIER_TETRAHEDRON, VTK_TETRA },
+    { VTK_LAGRANGE_HEXAHEDRON, VTK_BEZIER_HEXAHEDRON, VTK_HEXAHEDRON },
+    { VTK_LAGRANGE_WEDGE, VTK_BEZIER_WEDGE, VTK_WEDGE },
+    { VTK_LAGRANGE_PYRAMID, VTK_BEZIER_PYRAMID, VTK_PYRAMID },
+  };
+  for (const HigherOrder& types : Types)
+  {
+    const bool isPolynomial =
+      cellType == types.Lagrange || (cellType == types.Bezier && !hasRationalWeights);
+    if (isPolynomial &&
+      numberOfPoints == GetRequiredPoints(ClassifyCellType(types.Linear), types.Linear))
+    {
+      return types.Linear;
+    }
   }
-  const bool isLinear = numberOfPoints == GetRequiredPoints(ClassifyCellType(linear), linear) &&
-    !(isBezier && hasRationalWeights);
-  return isLinear ? linear : cellType;
+  return cellType;
 }
 
 bool IsTurnedWedge(int cellType)

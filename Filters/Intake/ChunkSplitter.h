@@ -32,6 +32,10 @@ struct BlockContext
   bool HasRationalWeights = false; ///< whether Bezier cells are rational ones
 };
 
+/// Share of a tetrahedron's volume below which a point lies on a face of it: above the rounding of
+/// coordinates in single precision.
+constexpr double OnFace = 1e-6;
+
 /// Splits the cells of one chunk.
 template <class SourceT>
 class ChunkSplitter
@@ -263,9 +267,6 @@ private:
   /// Splits the tetrahedra that a point lies in: several where it lies on a face or an edge.
   void SplitAt(std::int64_t point)
   {
-    // Share of a tetrahedron's volume below which the point lies on a face of it: above the
-    // rounding of coordinates in single precision.
-    const double onFace = 1e-6;
     std::vector<std::int64_t> split;
     for (std::size_t i = 0; i < this->Tets.size(); i += 4)
     {
@@ -278,8 +279,8 @@ private:
         std::array<std::int64_t, 4> part = { tet[0], tet[1], tet[2], tet[3] };
         part[corner] = point;
         const double share = this->GetVolume(part) / volume;
-        isInside = isInside && share > -onFace;
-        isAbove[corner] = share > onFace;
+        isInside = isInside && share > -OnFace;
+        isAbove[corner] = share > OnFace;
       }
       if (!isInside)
       {

@@ -41,13 +41,15 @@ std::string FindDamage(vtkDataSet* dataSet, const StructuredLayout& layout)
   }
   if (auto structured = vtkStructuredGrid::SafeDownCast(dataSet))
   {
-    const std::int64_t count = std::int64_t(layout.Dimensions[0]) * layout.Dimensions[1] *
-      std::int64_t(layout.Dimensions[2]);
+    // Three extents of a damaged file may have a product beyond 64 bits.
+    const double count = static_cast<double>(layout.Dimensions[0]) *
+      static_cast<double>(layout.Dimensions[1]) * static_cast<double>(layout.Dimensions[2]);
     const vtkIdType points = structured->GetPoints() ? structured->GetNumberOfPoints() : 0;
-    if (points < count)
+    if (static_cast<double>(points) < count)
     {
-      return "its grid has room for " + std::to_string(count) + " points, but " +
-        std::to_string(points) + " are there";
+      return "its grid of " + std::to_string(layout.Dimensions[0]) + " x " +
+        std::to_string(layout.Dimensions[1]) + " x " + std::to_string(layout.Dimensions[2]) +
+        " points has " + std::to_string(points) + " of them";
     }
   }
   return {};

@@ -156,16 +156,6 @@ std::vector<std::uint8_t> OrientCells(const TetrahedralMesh& mesh, const FaceNei
   return turns;
 }
 
-Obstacle DescribeContact(
-  const TetrahedralMesh& mesh, std::int32_t cell, std::int32_t other, std::int32_t point)
-{
-  Obstacle contact;
-  contact.Reason = "cells touch without sharing points";
-  contact.Cells = { cell, other };
-  std::copy_n(&mesh.Points[3 * static_cast<std::size_t>(point)], 3, contact.Point.begin());
-  return contact;
-}
-
 /// Refuses boundary triangles that, by points at the same place, are also between two cells.
 void RefuseCoveredFaces(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors,
   const std::vector<std::int32_t>& first, const std::vector<Triangle>& triangles,
@@ -288,7 +278,10 @@ BoundarySurface FindBoundarySurface(
             neighbors.BoundaryFaces[order[j]] };
           if (faces[0] / 4 != faces[1] / 4 && surface.Contact.Reason.empty())
           {
-            surface.Contact = DescribeContact(mesh, faces[0] / 4, faces[1] / 4, key[0]);
+            surface.Contact.Reason = TouchingCellsReason;
+            surface.Contact.Cells = { faces[0] / 4, faces[1] / 4 };
+            std::copy_n(
+              &mesh.Points[3 * static_cast<std::size_t>(key[0])], 3, surface.Contact.Point.begin());
           }
         }
       }
@@ -332,10 +325,9 @@ BoundarySurface FindBoundarySurface(
     surface.Triangles.push_back({ local[a], local[b], local[c] });
     const std::int32_t face = neighbors.BoundaryFaces[i];
     surface.Faces.push_back(face);
-    if (surface.Seam.Reason.empty() &&
-      GetFace(mesh, face / 4, face % 4, turns[face / 4] != 0) != triangles[i])
+    if (GetFace(mesh, face / 4, face % 4, turns[face / 4] != 0) != triangles[i])
     {
-      surface.Seam = DescribeContact(mesh, face / 4, -1, a);
+      surface.Seams.push_back(static_cast<std::int32_t>(surface.Triangles.size() - 1));
     }
     if (obstacle.Reason.empty() && points.FindProjection(local[a], local[b], local[c]) < 0)
     {

@@ -24,6 +24,9 @@ struct Obstacle
   std::array<std::int32_t, 2> Cells = { -1, -1 }; ///< of the mesh, -1 for none
 };
 
+/// Of an obstacle where cells are at the same place and have other points there.
+constexpr const char* TouchingCellsReason = "cells touch without sharing points";
+
 /// The boundary of a mesh as one oriented surface over points of its own.
 struct BoundarySurface
 {
@@ -49,9 +52,9 @@ struct BoundarySurface
   /// the other, though the triangles tell nothing of it.
   Obstacle Contact;
 
-  /// A triangle that has other ids in the mesh: cells that are put on it share no face with the
-  /// mesh.
-  Obstacle Seam;
+  /// The triangles that have other ids in the mesh: a cell that is put on one of them shares no face
+  /// with the mesh.
+  std::vector<std::int32_t> Seams;
 
   /// Whether a cell is turned against the others of its part, to rounding: it overlaps with them.
   bool HasInvertedCells = false;

@@ -130,10 +130,11 @@ double MeasureCells(const std::vector<double>& coordinates, const std::vector<Ce
 class Convexifier
 {
 public:
-  Convexifier(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors,
+  Convexifier(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors, TouchingCells touching,
     const std::function<bool(double)>& progress)
     : Mesh(mesh)
     , Neighbors(neighbors)
+    , Touching(touching)
     , Progress(progress)
   {
     this->Result.BoundaryFaces = static_cast<std::int64_t>(neighbors.BoundaryFaces.size());
@@ -145,7 +146,19 @@ public:
     this->Fill(obstacle);
     if (!obstacle.Reason.empty())
     {
-      this->Result.Refusal = this->Describe(obstacle);
+      std::ostringstream line;
+      line.precision(10);
+      line << obstacle.Reason << ", near (" << obstacle.Point[0] << ", " << obstacle.Point[1]
+           << ", " << obstacle.Point[2] << ")";
+      if (obstacle.Cells[0] >= 0)
+      {
+        line << ", cell " << this->GetOriginalCell(obstacle.Cells[0]);
+      }
+      if (obstacle.Cells[1] >= 0)
+      {
+        line << " and cell " << this->GetOriginalCell(obstacle.Cells[1]);
+      }
+      this->Result.Refusal = line.str();
       this->Result.RefusalPoint = obstacle.Point;
       this->Result.RefusalCells = obstacle.Cells;
     }
@@ -153,23 +166,6 @@ public:
   }
 
 private:
-  std::string Describe(const Obstacle& obstacle) const
-  {
-    std::ostringstream line;
-    line.precision(10);
-    line << obstacle.Reason << ", near (" << obstacle.Point[0] << ", " << obstacle.Point[1] << ", "
-         << obstacle.Point[2] << ")";
-    if (obstacle.Cells[0] >= 0)
-    {
-      line << ", cell " << this->GetOriginalCell(obstacle.Cells[0]);
-    }
-    if (obstacle.Cells[1] >= 0)
-    {
-      line << " and cell " << this->GetOriginalCell(obstacle.Cells[1]);
-    }
-    return line.str();
-  }
-
   std::int64_t GetOriginalCell(std::int32_t cell) const
   {
     return this->Mesh.OriginalCells.empty() ? cell : this->Mesh.OriginalCells[cell];
@@ -185,12 +181,12 @@ private:
   {
     Stopwatch watch;
     const BoundarySurface surface = FindBoundarySurface(this->Mesh, this->Neighbors, obstacle);
-    const bool touches = !surface.Contact.Reason.empty();
-    if (touches)
+    const bool refusesContacts = this->Touching == TouchingCells::Refuse;
+    if (refusesContacts && obstacle.Reason.empty())
     {
-      this->Result.Contact = this->Describe(surface.Contact);
+      obstacle = surface.Contact;
     }
-    this->Result.Convex = obstacle.Reason.empty() && !touches &&
+    this->Result.Convex = obstacle.Reason.empty() &&
       IsConvexSurface(ExactPoints(surface.Coordinates.data()), surface.Triangles);
     this->Result.ConvexTestSeconds = watch.Lap();
     if (!obstacle.Reason.empty() || this->Result.Convex || !this->Continue(0.1))
@@ -259,11 +255,11 @@ private:
       this->Result.HullVolume = MeasureEnclosedVolume(coordinates, hull);
       this->Result.ImaginaryVolume = MeasureCells(coordinates, cells);
       this->Collect(surface, coordinates, cells);
-      if (!touches && !cells.empty() && !surface.Seam.Reason.empty())
+      if (refusesContacts && !surface.Seams.empty())
       {
-        this->Result.Contact = this->Describe(surface.Seam);
+        this->FindSeam(surface, obstacle);
       }
-      if (surface.HasInvertedCells)
+      if (obstacle.Reason.empty() && surface.HasInvertedCells)
       {
         this->FindOverlap(surface.MergedIds, obstacle);
       }
@@ -292,8 +288,8 @@ private:
       coordinates.end());
   }
 
-  /// Where cells fold over each other, what they have in common may count as empty, and be filled.
-  void FindOverlap(const std::vector<std::int32_t>& mergedIds, Obstacle& obstacle)
+  /// The faces of the imaginary cells.
+  FaceTable TabulateFaces() const
   {
     FaceTable faces(this->Result.Cells.size() / 2);
     for (std::size_t i = 0; i < this->Result.Cells.size(); i += 4)
@@ -304,6 +300,34 @@ private:
         faces.Set(cell[face[0]], cell[face[1]], cell[face[2]], static_cast<std::int32_t>(i / 4));
       }
     }
+    return faces;
+  }
+
+  /// Refuses imaginary cells on triangles that have other ids in the mesh.
+  void FindSeam(const BoundarySurface& surface, Obstacle& obstacle)
+  {
+    const FaceTable faces = this->TabulateFaces();
+    for (const std::int32_t seam : surface.Seams)
+    {
+      const auto [a, b, c] = surface.Triangles[seam];
+      if (faces.Find(surface.PointIds[a], surface.PointIds[b], surface.PointIds[c]) !=
+        FaceTable::None)
+      {
+        obstacle.Reason = TouchingCellsReason;
+        obstacle.Cells = { surface.Faces[seam] / 4, -1 };
+        std::copy_n(
+          &surface.Coordinates[3 * static_cast<std::size_t>(a)], 3, obstacle.Point.begin());
+        this->Result.Cells.clear();
+        this->Result.SteinerPoints.clear();
+        return;
+      }
+    }
+  }
+
+  /// Where cells fold over each other, what they have in common may count as empty, and be filled.
+  void FindOverlap(const std::vector<std::int32_t>& mergedIds, Obstacle& obstacle)
+  {
+    const FaceTable faces = this->TabulateFaces();
     for (std::size_t i = 0; i < this->Mesh.Cells.size(); ++i)
     {
       const std::int32_t* cell = &this->Mesh.Cells[i / 4 * 4];
@@ -329,6 +353,7 @@ private:
 
   const TetrahedralMesh& Mesh;
   const FaceNeighbors& Neighbors;
+  TouchingCells Touching;
   const std::function<bool(double)>& Progress;
   Convexification Result;
 };
@@ -346,9 +371,9 @@ bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors)
 
 //----------------------------------------------------------------------------
 Convexification Convexify(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors,
-  const std::function<bool(double)>& progress)
+  TouchingCells touching, const std::function<bool(double)>& progress)
 {
-  return Convexifier(mesh, neighbors, progress).Run();
+  return Convexifier(mesh, neighbors, touching, progress).Run();
 }
 
 } // namespace tetralux

@@ -28,8 +28,8 @@ struct Convexification
   /// points (exactly: the sign is that of the coordinates as given).
   std::vector<std::int32_t> Cells;
 
-  /// The boundary is its own convex hull, and no cells touch without sharing points: nothing was
-  /// added, and nothing more was measured than BoundaryFaces and the test's time.
+  /// The boundary is its own convex hull: nothing was added, and nothing more was measured than
+  /// BoundaryFaces and the test's time.
   bool Convex = false;
 
   /// Empty where the space was filled and the result verified; else one line that says why not and
@@ -40,10 +40,6 @@ struct Convexification
   /// boundary faces meet there, -1 where there is none or only one.
   std::array<double, 3> RefusalPoint = { 0, 0, 0 };
   std::array<std::int32_t, 2> RefusalCells = { -1, -1 };
-
-  /// Empty where every cell shares its faces, by the ids of their points, with all cells that touch
-  /// it there; else one line that says where not. No walk from cell to cell crosses such a place.
-  std::string Contact;
 
   /// The caller's progress returned false.
   bool Aborted = false;
@@ -88,8 +84,16 @@ struct Convexification
   }
 };
 
-/// Whether the boundary of a mesh is its whole convex hull: Convexification::Convex alone. False
-/// for meshes that Convexify refuses. Exact; takes as long as finding the boundary.
+/// What is done with cells that touch at the same place without sharing points.
+enum class TouchingCells
+{
+  Join,  ///< they count as neighbours: of a shape
+  Refuse ///< of a mesh that is walked from cell to cell by the ids of points
+};
+
+/// Whether a walk that leaves a mesh never enters it again: the boundary is its whole convex hull,
+/// and no cells touch without sharing points. False for meshes that Convexify refuses. Exact; takes
+/// as long as finding the boundary.
 TETRALUXCORE_EXPORT bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbors& neighbors);
 
 /// Fills the space between the boundary of a mesh and its convex hull with imaginary cells.
@@ -107,6 +111,7 @@ TETRALUXCORE_EXPORT bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbo
 /// - three or more cells at one face, also if their points only are at the same places;
 /// - a boundary face without area;
 /// - cells whose neighbours can't be oriented alike;
+/// - cells that touch without sharing points, if touching says so;
 /// - more cells or points than a TetrahedralMesh holds;
 /// - pockets that could not be filled within the limits of the search.
 ///
@@ -116,7 +121,8 @@ TETRALUXCORE_EXPORT bool IsConvex(const TetrahedralMesh& mesh, const FaceNeighbo
 /// Time grows as n log n in the number of boundary faces if pockets stay small. The same result for
 /// any number of threads. Uses CGAL's Triangulation_3, which is under the GPL.
 TETRALUXCORE_EXPORT Convexification Convexify(const TetrahedralMesh& mesh,
-  const FaceNeighbors& neighbors, const std::function<bool(double)>& progress = {});
+  const FaceNeighbors& neighbors, TouchingCells touching,
+  const std::function<bool(double)>& progress = {});
 
 } // namespace tetralux
 

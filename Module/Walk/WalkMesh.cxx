@@ -158,17 +158,11 @@ void WalkMesh::MakeConvex(const std::function<bool(double)>& progress)
     return;
   }
   const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
-  auto convex = std::make_unique<Convexification>(
-    Convexify(this->Mesh, FindFaceNeighbors(this->Mesh.Cells, numberOfPoints), progress));
+  auto convex = std::make_unique<Convexification>(Convexify(this->Mesh,
+    FindFaceNeighbors(this->Mesh.Cells, numberOfPoints), TouchingCells::Refuse, progress));
   if (convex->Aborted)
   {
     return;
-  }
-  if (convex->Refusal.empty() && !convex->Contact.empty())
-  {
-    convex->Refusal = convex->Contact;
-    convex->Cells.clear();
-    convex->SteinerPoints.clear();
   }
   if (!convex->Cells.empty())
   {

@@ -62,6 +62,8 @@ void AddCells(CacheKey& key, vtkDataSet* dataSet)
     Add(key, grid->GetCellTypesArray());
     Add(key, grid->GetFaces());
     Add(key, grid->GetFaceLocations());
+    // Without them, Bezier cells of order 1 are linear.
+    key.Add(grid->GetPointData()->GetRationalWeights() != nullptr);
   }
   else if (auto* structured = vtkStructuredGrid::SafeDownCast(dataSet))
   {
@@ -182,6 +184,8 @@ CellsDigest DigestCells(const std::vector<DataSetBlock>& blocks)
       digester.Add(grid->GetCellTypesArray());
       digester.Add(grid->GetFaces());
       digester.Add(grid->GetFaceLocations());
+      const bool hasWeights = grid->GetPointData()->GetRationalWeights() != nullptr;
+      digester.Add(static_cast<std::uint64_t>(hasWeights));
     }
     else if (auto* structured = vtkStructuredGrid::SafeDownCast(dataSet))
     {

@@ -48,7 +48,7 @@ Run Convexify(tetralux::TetrahedralMesh mesh)
   for (int i = 0; i < runs; ++i)
   {
     const double begin = tetralux::GetProcessorTime();
-    Convexification result = tetralux::Convexify(mesh, neighbors);
+    Convexification result = tetralux::Convexify(mesh, neighbors, tetralux::TouchingCells::Join);
     const double seconds = tetralux::GetProcessorTime() - begin;
     if (i == 0 || result.GetSeconds() < run.Result.GetSeconds())
     {

@@ -711,7 +711,9 @@ TEST(TetrahedraIntake, DamagedGridsAreRefused)
   vtkNew<vtkStructuredGrid> structured;
   structured->SetDimensions(2, 2, 2);
   structured->SetPoints(vtkNew<vtkPoints>());
-  expectError(structured, "room for 8 points, but 0");
+  expectError(structured, "2 x 2 x 2 points has 0 of them");
+  structured->SetExtent(0, VTK_INT_MAX - 1, 0, VTK_INT_MAX - 1, 0, VTK_INT_MAX - 1);
+  expectError(structured, "2147483647 x 2147483647 x 2147483647 points has 0 of them");
 
   CellPatch patch;
   patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 2, 1, 1);

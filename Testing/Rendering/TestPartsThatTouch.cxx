@@ -2,6 +2,7 @@
 // Cells that touch without sharing points give the picture of the cells that share them: each cell
 // with points of its own, as discontinuous finite elements and many exporters write it, and two
 // pieces, as those of a parallel file.
+#include "MeshParts.h"
 #include "RayCastScene.h"
 
 #include "vtkImageData.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,46 +27,31 @@ using tetralux::TetrahedralMesh;
 constexpr double RayCastTolerance = 1e-4;
 constexpr double DisplayTolerance = 1. / 255;
 
-/// Gives each part of the cells points of its own. getPart: of a cell.
-template <class GetPart>
-void Separate(RayCastScene& scene, const GetPart& getPart)
+TetrahedralMesh SeparateHalves(const TetrahedralMesh& mesh)
 {
-  const TetrahedralMesh shared = scene.Mesh;
-  TetrahedralMesh mesh;
-  std::vector<double> scalars;
-  std::map<std::pair<std::int64_t, std::int32_t>, std::int32_t> ids;
-  for (std::size_t corner = 0; corner < shared.Cells.size(); ++corner)
+  std::vector<std::int64_t> sides;
+  for (std::size_t cell = 0; cell < mesh.Cells.size(); cell += 4)
   {
-    const std::int32_t point = shared.Cells[corner];
-    const auto id = static_cast<std::int32_t>(scalars.size());
-    const auto [place, isNew] = ids.try_emplace({ getPart(shared, corner / 4), point }, id);
-    mesh.Cells.push_back(place->second);
-    if (isNew)
+    double x = 0;
+    for (std::size_t corner = cell; corner < cell + 4; ++corner)
     {
-      const double* x = &shared.Points[3 * static_cast<std::size_t>(point)];
-      mesh.Points.insert(mesh.Points.end(), x, x + 3);
-      scalars.push_back(scene.Scalars[point]);
+      x += 0.25 * mesh.Points[3 * static_cast<std::size_t>(mesh.Cells[corner])];
     }
+    sides.push_back(static_cast<std::int64_t>(x > 0.5));
   }
+  return tetralux::SeparateParts(mesh, sides);
+}
+
+void SetMesh(RayCastScene& scene, TetrahedralMesh mesh)
+{
+  std::vector<double> scalars;
+  for (const std::int64_t point : mesh.OriginalPoints)
+  {
+    scalars.push_back(scene.Scalars[point]);
+  }
+  scene.Grid = MakeGrid(mesh, scalars);
   scene.Mesh = std::move(mesh);
   scene.Scalars = std::move(scalars);
-  scene.Grid = MakeGrid(scene.Mesh, scene.Scalars);
-}
-
-std::int64_t GetCell(const TetrahedralMesh&, std::size_t cell)
-{
-  return static_cast<std::int64_t>(cell);
-}
-
-/// On which side of the middle of the box a cell is.
-std::int64_t GetSide(const TetrahedralMesh& mesh, std::size_t cell)
-{
-  double x = 0;
-  for (std::size_t corner = 4 * cell; corner < 4 * cell + 4; ++corner)
-  {
-    x += 0.25 * mesh.Points[3 * static_cast<std::size_t>(mesh.Cells[corner])];
-  }
-  return static_cast<std::int64_t>(x > 0.5);
 }
 
 void SetView(RayCastScene& scene, int view)
@@ -111,8 +96,7 @@ void ExpectSamePicture(const std::vector<float>& picture, const std::vector<floa
   EXPECT_LE(largest, tolerance);
 }
 
-template <class GetPart>
-void ExpectWholePicture(const GetPart& getPart)
+void ExpectWholePicture(TetrahedralMesh (*separate)(const TetrahedralMesh&))
 {
   for (int view = 0; view < 3; ++view)
   {
@@ -122,7 +106,7 @@ void ExpectWholePicture(const GetPart& getPart)
     vtkNew<vtkTetrahedraRayCastMapper> reference;
     reference->SetPrecisionToDouble();
     const std::vector<float> expected = Render(scene, reference);
-    Separate(scene, getPart);
+    SetMesh(scene, separate(scene.Mesh));
     vtkNew<vtkTetrahedraRayCastMapper> rayCast;
     vtkNew<vtkTetrahedraGPURayCastMapper> gpuRayCast;
     vtkNew<vtkTetrahedraProjectionMapper> projection;
@@ -132,8 +116,8 @@ void ExpectWholePicture(const GetPart& getPart)
   }
 }
 
-TEST(PartsThatTouch, CellsWithPointsOfTheirOwn) { ExpectWholePicture(GetCell); }
+TEST(PartsThatTouch, CellsWithPointsOfTheirOwn) { ExpectWholePicture(tetralux::SeparateCells); }
 
-TEST(PartsThatTouch, TwoPieces) { ExpectWholePicture(GetSide); }
+TEST(PartsThatTouch, TwoPieces) { ExpectWholePicture(SeparateHalves); }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "Generate/GeneratedMeshes.h"
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
+#include "MeshParts.h"
 #include "ReferenceConvexity.h"
 #include "ThreadCounts.h"
 
@@ -20,14 +21,16 @@
 namespace
 {
 
+using tetralux::AddMesh;
 using tetralux::Convexification;
 using tetralux::TetrahedralMesh;
 
 Convexification Fill(TetrahedralMesh& mesh, const std::function<bool(double)>& progress = {})
 {
   tetralux::RemoveUnusableCells(mesh);
-  return tetralux::Convexify(
-    mesh, tetralux::FindFaceNeighbors(mesh.Cells, mesh.GetNumberOfPoints()), progress);
+  return tetralux::Convexify(mesh,
+    tetralux::FindFaceNeighbors(mesh.Cells, mesh.GetNumberOfPoints()),
+    tetralux::TouchingCells::Join, progress);
 }
 
 tetralux::ConvexifiedMesh Join(const TetrahedralMesh& mesh, const Convexification& result)
@@ -73,16 +76,6 @@ void Transform(
       mesh.Points[p + a] =
         matrix[3 * a] * x + matrix[3 * a + 1] * y + matrix[3 * a + 2] * z + shift[a];
     }
-  }
-}
-
-void AddMesh(TetrahedralMesh& mesh, const TetrahedralMesh& other)
-{
-  const auto first = static_cast<std::int32_t>(mesh.GetNumberOfPoints());
-  mesh.Points.insert(mesh.Points.end(), other.Points.begin(), other.Points.end());
-  for (const std::int32_t point : other.Cells)
-  {
-    mesh.Cells.push_back(point + first);
   }
 }
 

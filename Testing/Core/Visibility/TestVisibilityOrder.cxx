@@ -6,6 +6,7 @@
 
 #include "Base/RadixSort.h"
 #include "Generate/GeneratedMeshes.h"
+#include "MeshParts.h"
 #include "ReferenceOcclusion.h"
 #include "ReferenceScenes.h"
 #include "ThreadCounts.h"
@@ -122,19 +123,6 @@ std::vector<OccludedPair> RemoveCycles(
     }
   }
   return rest;
-}
-
-/// The same cells, each with points of its own.
-TetrahedralMesh SeparateCells(const TetrahedralMesh& shared)
-{
-  TetrahedralMesh mesh;
-  for (const std::int32_t point : shared.Cells)
-  {
-    mesh.Cells.push_back(static_cast<std::int32_t>(mesh.Cells.size()));
-    const double* x = &shared.Points[3 * static_cast<std::size_t>(point)];
-    mesh.Points.insert(mesh.Points.end(), x, x + 3);
-  }
-  return mesh;
 }
 
 struct MeshCase

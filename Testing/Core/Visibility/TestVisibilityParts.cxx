@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "MeshParts.h"
 #include "Visibility/MeasureTriangle.h"
 #include "Visibility/VisibilityArrows.h"
 #include "Visibility/VisibilityCycles.h"
@@ -134,18 +135,13 @@ TetrahedralMesh MakeTwoCellsApart(double x, double y, double z)
   return mesh;
 }
 
-/// Adds a mesh that is moved along z.
-void AddMesh(TetrahedralMesh& mesh, const TetrahedralMesh& other, double z)
+TetrahedralMesh MoveAlongZ(TetrahedralMesh mesh, double z)
 {
-  const auto first = static_cast<std::int32_t>(mesh.GetNumberOfPoints());
-  for (std::size_t i = 0; i < other.Points.size(); ++i)
+  for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
   {
-    mesh.Points.push_back(other.Points[i] + (i % 3 == 2 ? z : 0));
+    mesh.Points[i] += z;
   }
-  for (const std::int32_t point : other.Cells)
-  {
-    mesh.Cells.push_back(point + first);
-  }
+  return mesh;
 }
 
 /// The place of an input's cell in the tables.
@@ -338,8 +334,9 @@ TEST(VisibilityCycles, CellsOnNoCycleAreInOrder)
 {
   // Two circles, one below the other, and a cube below them that is full of holes.
   TetrahedralMesh mesh = MakeCyclicTetrahedra(3);
-  AddMesh(mesh, MakeCyclicTetrahedra(4), -3);
-  AddMesh(mesh, GenerateMesh("random", { { "cells", 3 }, { "removed", 0.3 } }).Mesh, -6);
+  AddMesh(mesh, MoveAlongZ(MakeCyclicTetrahedra(4), -3));
+  AddMesh(
+    mesh, MoveAlongZ(GenerateMesh("random", { { "cells", 3 }, { "removed", 0.3 } }).Mesh, -6));
   const Scene scene(mesh);
   const VisibilityView view = LookAlong(0, 0, -1);
   VisibilityCycles cycles;

@@ -2,6 +2,7 @@
 #include "Walk/WalkMesh.h"
 
 #include "Generate/GeneratedMeshes.h"
+#include "MeshParts.h"
 #include "ReferenceScenes.h"
 
 #include <gtest/gtest.h>
@@ -252,27 +253,14 @@ TEST(WalkMesh, Convexity)
   EXPECT_FALSE(pipe.IsConvex());
 }
 
-/// Two boxes side by side with points of their own, as pieces of a file come.
-TetrahedralMesh MakeTwoBoxes(int cellsOfSecond)
-{
-  TetrahedralMesh mesh = tetralux::MakeBox(2, 2, 2, { 0, 0, 0 }, { 1, 1, 1 });
-  const TetrahedralMesh second =
-    tetralux::MakeBox(cellsOfSecond, cellsOfSecond, cellsOfSecond, { 1, 0, 0 }, { 2, 1, 1 });
-  const auto shift = static_cast<std::int32_t>(mesh.GetNumberOfPoints());
-  mesh.Points.insert(mesh.Points.end(), second.Points.begin(), second.Points.end());
-  for (const std::int32_t point : second.Cells)
-  {
-    mesh.Cells.push_back(point + shift);
-  }
-  return mesh;
-}
-
 TEST(WalkMesh, PartsThatTouchAreNotConvex)
 {
   // Faces that coincide, and others that only touch.
   for (const int cells : { 2, 3 })
   {
-    WalkMesh mesh(MakeTwoBoxes(cells));
+    TetrahedralMesh boxes = tetralux::MakeBox(2, 2, 2, { 0, 0, 0 }, { 1, 1, 1 });
+    tetralux::AddMesh(boxes, tetralux::MakeBox(cells, cells, cells, { 1, 0, 0 }, { 2, 1, 1 }));
+    WalkMesh mesh(std::move(boxes));
     EXPECT_FALSE(mesh.IsConvex());
     mesh.MakeConvex();
     EXPECT_FALSE(mesh.IsConvex());
