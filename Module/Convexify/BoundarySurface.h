@@ -52,8 +52,8 @@ struct BoundarySurface
   /// the other, though the triangles tell nothing of it.
   Obstacle Contact;
 
-  /// The triangles that have other ids in the mesh: a cell that is put on one of them shares no face
-  /// with the mesh.
+  /// The triangles that have other ids in the mesh: a cell that is put on one of them shares no
+  /// face with the mesh.
   std::vector<std::int32_t> Seams;
 
   /// Whether a cell is turned against the others of its part, to rounding: it overlaps with them.

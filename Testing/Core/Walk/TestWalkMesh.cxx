@@ -269,20 +269,34 @@ TEST(WalkMesh, PartsThatTouchAreNotConvex)
   }
 }
 
-TEST(WalkMesh, ImaginaryCellsShareFacesOrAreNone)
+/// A pyramid of two cells whose apex has two points, 0 and 1, and a flat cell between both, as
+/// around the axis of a structured grid; and another cell on one of its faces.
+TetrahedralMesh MakePyramidWithSeam(
+  const std::array<std::int32_t, 3>& face, const std::array<double, 3>& apex)
 {
-  // A pyramid of four cells around an edge whose ends come twice, a seam; and a cell on its side,
-  // so that there is space to fill.
   TetrahedralMesh mesh;
-  mesh.Points = { 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 3, 3, 0.5, 0, 0, 0, 0, 0,
-    1 };
-  mesh.Cells = { 0, 1, 2, 3, 0, 1, 3, 4, 0, 1, 4, 5, 7, 8, 5, 2, 2, 3, 1, 6 };
-  WalkMesh walk(mesh);
-  walk.MakeConvex();
-  EXPECT_NE(walk.GetConvexification()->Refusal.find("cells touch without sharing points"),
+  mesh.Points = { 0, 0, 2, 0, 0, 2, 0, -2, 0, 0, 2, 0, -2, 0, 0, 2, 0, 0 };
+  mesh.Points.insert(mesh.Points.end(), apex.begin(), apex.end());
+  mesh.Cells = { 0, 2, 3, 4, 1, 2, 3, 5, 0, 1, 2, 3, face[0], face[1], face[2], 6 };
+  return mesh;
+}
+
+TEST(WalkMesh, ImaginaryCellsShareFacesWithTheMesh)
+{
+  // Below: no imaginary cell is put on a face with the second point.
+  WalkMesh below(MakePyramidWithSeam({ 2, 3, 4 }, { -0.5, 0, -0.5 }));
+  EXPECT_FALSE(below.IsConvex());
+  below.MakeConvex();
+  EXPECT_EQ(below.GetConvexification()->Refusal, "");
+  EXPECT_GT(below.GetConvexification()->GetNumberOfCells(), 0);
+  EXPECT_FALSE(below.GetConvexTables().Faces.empty());
+
+  WalkMesh beside(MakePyramidWithSeam({ 1, 2, 5 }, { 3, -3, 3 }));
+  beside.MakeConvex();
+  EXPECT_NE(beside.GetConvexification()->Refusal.find("cells touch without sharing points"),
     std::string::npos)
-    << walk.GetConvexification()->Refusal;
-  EXPECT_TRUE(walk.GetConvexTables().Faces.empty());
+    << beside.GetConvexification()->Refusal;
+  EXPECT_TRUE(beside.GetConvexTables().Faces.empty());
 }
 
 } // namespace
