@@ -139,10 +139,7 @@ public:
       {
         for (std::size_t k = j + 1; k < count; ++k)
         {
-          if (!this->IsInFace({ i, j, k }))
-          {
-            this->AddFaceThrough({ i, j, k }, tolerance);
-          }
+          this->AddFaceThrough({ i, j, k }, tolerance);
         }
       }
     }
@@ -182,7 +179,8 @@ private:
       { return members[triple[0]] && members[triple[1]] && members[triple[2]]; });
   }
 
-  /// Adds the face in the plane of three points if all others are on one side of it.
+  /// Adds the face in the plane of three points if all others are on one side of it. Most triples
+  /// have points on both sides soon, so that this is asked before the faces that are there.
   void AddFaceThrough(const Triple& triple, double tolerance)
   {
     const Vector& origin = this->Positions[triple[0]];
@@ -208,7 +206,8 @@ private:
       }
     }
     const double width = high - low;
-    if (width <= SmallestWidth * length || std::min(-low, high) > tolerance * width)
+    if (width <= SmallestWidth * length || std::min(-low, high) > tolerance * width ||
+      this->IsInFace(triple))
     {
       return;
     }

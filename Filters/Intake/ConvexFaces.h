@@ -21,7 +21,8 @@ struct ConvexFaces
 
 /// Finds the faces of a few points, given by their ids. Ids and positions that are there twice
 /// count once. points: coordinates by point id. Returns false where the points enclose no volume.
-/// Time grows with the cube of the number of ids at least, and with its fourth power at most.
+/// Time grows with the cube of the number of ids, and with its fourth power if most are in one
+/// plane: meant for the tens of points that cells have.
 bool FindConvexFaces(
   const std::vector<std::int64_t>& ids, const double* points, ConvexFaces& faces);
 
