@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -109,6 +110,18 @@ void CheckWords(
         words.begin(), words.end(), [&text](const std::string& word) { return Has(text, word); }))
   {
     throw WorkError("cannot read '" + fileName + "': it is not " + format);
+  }
+}
+
+void CheckParentheses(const std::string& fileName)
+{
+  std::ifstream stream(fileName, std::ios::binary);
+  const std::string text{ std::istreambuf_iterator<char>(stream), {} };
+  const bool isBinary = text.find('\0') != std::string::npos;
+  if (!isBinary &&
+    std::count(text.begin(), text.end(), '(') != std::count(text.begin(), text.end(), ')'))
+  {
+    throw WorkError("cannot read '" + fileName + "': its end is missing");
   }
 }
 

@@ -19,6 +19,9 @@ void CheckBeginning(const std::string& fileName, const std::vector<std::string>&
 void CheckWords(
   const std::string& fileName, const std::vector<std::string>& words, const std::string& format);
 
+/// A text file, if it is one, closes as many parentheses as it opens.
+void CheckParentheses(const std::string& fileName);
+
 /// An AVS UCD file, not one of Abaqus, which has the same extension.
 void CheckUcd(const std::string& fileName);
 

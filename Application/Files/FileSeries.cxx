@@ -61,7 +61,8 @@ Steps ReadJsonSeries(const std::string& fileName)
   try
   {
     std::ifstream stream(fileName);
-    for (const nlohmann::json& file : nlohmann::json::parse(stream).at("files"))
+    const nlohmann::json list = nlohmann::json::parse(stream);
+    for (const nlohmann::json& file : list.at("files"))
     {
       steps[file.at("time").get<double>()].push_back(
         Resolve(fileName, file.at("name").get<std::string>()));
@@ -139,6 +140,7 @@ std::vector<std::string> ListPieces(const std::string& fileName)
 std::string GetFormatExtension(const std::string& fileName)
 {
   std::smatch match;
-  return std::regex_match(fileName, match, GetExodusName()) ? GetExtension(match[2].str())
-                                                            : GetExtension(fileName);
+  // A name that is nothing but an extension has none.
+  return GetExtension(
+    std::regex_match(fileName, match, GetExodusName()) ? "name" + match[2].str() : fileName);
 }

@@ -72,16 +72,30 @@ Reader MakeExodusReader(const std::string& fileName)
   return reader;
 }
 
+/// Throws WorkError if the reader itself refuses a file.
+template <class ReaderT>
+void CheckAccepted(ReaderT* reader, const std::string& fileName)
+{
+  if (!reader->CanReadFile(fileName.c_str()))
+  {
+    throw WorkError("cannot read '" + fileName + "': it is damaged, or of another format");
+  }
+}
+
 Reader MakeHdfReader(const std::string& fileName)
 {
   CheckBeginning(fileName, { HdfBeginning }, "an HDF5 file");
-  return MakeReader<vtkHDFReader>(fileName);
+  auto reader = vtkSmartPointer<vtkHDFReader>::New();
+  CheckAccepted(reader.Get(), fileName);
+  reader->SetFileName(fileName.c_str());
+  return reader;
 }
 
 Reader MakeCgnsReader(const std::string& fileName)
 {
   CheckBeginning(fileName, { "@(#)ADF Database", HdfBeginning }, "a CGNS file");
   auto reader = vtkSmartPointer<vtkCGNSReader>::New();
+  CheckAccepted(reader.Get(), fileName); // the library ends the program at some damaged files
   reader->SetFileName(fileName.c_str());
   reader->UpdateInformation();
   reader->EnableAllBases();
@@ -107,6 +121,7 @@ Reader MakeUcdReader(const std::string& fileName)
 Reader MakeFluentReader(const std::string& fileName)
 {
   CheckBeginning(fileName, { "(" }, "a case file of Fluent");
+  CheckParentheses(fileName);
   return MakeReader<vtkFLUENTReader>(fileName);
 }
 

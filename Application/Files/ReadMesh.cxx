@@ -43,9 +43,14 @@ void Guard(const std::string& fileName, const std::function<void()>& work)
   {
     throw WorkError("cannot read '" + fileName + "': it is damaged");
   }
-  if (!messages.GetError().empty())
+  const std::string error = messages.GetError();
+  if (error.compare(0, 9, "Algorithm") == 0) // the pipeline's many lines about a silent reader
   {
-    throw WorkError("cannot read '" + fileName + "': " + messages.GetError());
+    throw WorkError("cannot read '" + fileName + "': its reader fails without a reason");
+  }
+  if (!error.empty())
+  {
+    throw WorkError("cannot read '" + fileName + "': " + error);
   }
   messages.PrintWarnings();
 }
