@@ -129,6 +129,7 @@ MeshData ReadSeriesStep(const InputFile& input)
   std::vector<SeriesStep> series;
   Guard(input.Name, [&] { series = ReadSeries(input.Name); });
   std::vector<double> times;
+  times.reserve(series.size());
   for (const SeriesStep& step : series)
   {
     times.push_back(step.Time);

@@ -48,8 +48,8 @@ struct TetrahedraIntake
 /// Parts of collapsed cells (a point repeated) that have no volume are left out. Cells without a
 /// tetrahedron, and why, are in the report.
 ///
-/// Refuses an input that is no data set, one that lacks points or types of its cells, more than 2^31 - 1 points and more than 2^29 - 1
-/// tetrahedra, with a line in Error.
+/// Refuses an input that is no data set, one that lacks points or types of its cells, more than
+/// 2^31 - 1 points and more than 2^29 - 1 tetrahedra, with a line in Error.
 ///
 /// progress, where given, is called from the calling thread with a fraction 0..1 now and then; when
 /// it returns false the work ends with Aborted set. Linear time, parallel through vtkSMPTools, the

@@ -2,6 +2,8 @@
 """Every format that the tool reads, as a cube of volume 1 whose field is 4 x + 2 y + z; time steps,
 pieces and series; what damaged files and files of other formats get."""
 
+import os
+
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA, vtkUnstructuredGrid
 from vtkmodules.vtkIOExodus import vtkExodusIIWriter
@@ -111,6 +113,53 @@ class Formats(ToolTest):
             with self.subTest(name=name):
                 self.expect_cube(name)
 
+    def test_fluent(self):
+        quads = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"]
+        self.write(
+            "a.cas",
+            '(0 "cube")\n(2 3)\n(10 (0 1 8 0 3))\n(10 (1 1 8 1 3)(\n'
+            + lines(CORNERS)
+            + "))\n(12 (0 1 1 0))\n(12 (2 1 1 1 4))\n(13 (0 1 6 0))\n(13 (3 1 6 3 4)(\n"
+            + "".join(f"{quad} 1 0\n" for quad in quads)
+            + "))\n(45 (2 fluid fluid)())\n",
+        )
+        self.expect_failure(1, "info", "a.cas", says="a.dat")
+        self.write("a.dat", '(0 "nothing")\n')
+        self.assertEqual(self.info("a.cas")["volume"], "1")
+
+    def write_foam(self, name, kind, text):
+        path = self.path(name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        self.write(
+            name,
+            f"FoamFile {{ version 2.0; format ascii; class {kind}; "
+            f"object {os.path.basename(name)}; }}\n{text}\n",
+        )
+
+    def test_open_foam(self):
+        self.write("a.foam", "")
+        self.write_foam("system/controlDict", "dictionary", "startFrom startTime; startTime 0; "
+                        "endTime 1; deltaT 1; writeControl timeStep; writeInterval 1;")
+        mesh = "constant/polyMesh/"
+        corners = "".join(f"({x} {y} {z})\n" for x, y, z in CORNERS)
+        self.write_foam(mesh + "points", "vectorField", f"8\n(\n{corners})")
+        quads = ["0 2 3 1", "4 5 7 6", "0 1 5 4", "2 6 7 3", "0 4 6 2", "1 3 7 5"]
+        faces = "".join(f"4({quad})\n" for quad in quads)
+        self.write_foam(mesh + "faces", "faceList", f"6\n(\n{faces})")
+        self.write_foam(mesh + "owner", "labelList", "6\n(\n0\n0\n0\n0\n0\n0\n)")
+        self.write_foam(mesh + "neighbour", "labelList", "0\n(\n)")
+        self.write_foam(mesh + "boundary", "polyBoundaryMesh",
+                        "1\n(\nwall { type wall; nFaces 6; startFace 0; }\n)")
+        for time, value in ((0, 5), (1, 6)):
+            self.write_foam(f"{time}/T", "volScalarField",
+                            "dimensions [0 0 0 1 0 0 0];\n"
+                            f"internalField uniform {value};\n"
+                            "boundaryField { wall { type zeroGradient; } }")
+        rows = self.info("a.foam", "--time-step", 1)
+        self.assertEqual(rows["volume"], "1", rows)
+        self.assertEqual(rows["time steps"], "2: 0, 1", rows)
+        self.assertTrue(rows["cell array T"].endswith("6 .. 6"), rows)
+
     def write_series(self):
         for i in range(3):
             self.write_cube(f"a{i}.vtu", make_cube(i, i + 1))
@@ -211,10 +260,8 @@ class Formats(ToolTest):
                 '<Block level="5"><DataSet index="7" file="a.vti"/></Block>',
             ):
                 with self.subTest(kind=kind, content=content):
-                    self.write(
-                        "a.vtm",
-                        f'<VTKFile type="{kind}" version="0.1"><{kind}>{content}</{kind}></VTKFile>',
-                    )
+                    element = f"<{kind}>{content}</{kind}>"
+                    self.write("a.vtm", f'<VTKFile type="{kind}" version="0.1">{element}</VTKFile>')
                     for command in (("info",), ("render", "--output", "out.png")):
                         self.expect_failure(1, *command, "a.vtm", says=["'a.vtm'", "level"])
 
