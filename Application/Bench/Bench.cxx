@@ -40,16 +40,17 @@ constexpr int QuickFrames = 2;
 void CheckOptions(const BenchOptions& options)
 {
   const SceneOptions& scene = options.Scene;
-  const bool ofFile = !scene.Plot3dSolution.empty() || !scene.Array.empty() ||
-    !scene.Component.empty() || !scene.TransferFile.empty() || scene.OpacityUnitDistance ||
-    scene.CameraPosition || scene.CameraFocalPoint || scene.CameraViewUp || scene.CameraViewAngle ||
+  const bool ofFile = !scene.Input.Plot3dSolution.empty() || scene.Input.Time ||
+    scene.Input.TimeStep || !scene.Array.empty() || !scene.Component.empty() ||
+    !scene.TransferFile.empty() || scene.OpacityUnitDistance || scene.CameraPosition ||
+    scene.CameraFocalPoint || scene.CameraViewUp || scene.CameraViewAngle ||
     scene.CameraParallelScale;
-  if (scene.Input.empty() && ofFile)
+  if (scene.Input.Name.empty() && ofFile)
   {
     throw UsageError("bench: arrays, transfer functions and cameras are those of a FILE, and none "
                      "is given");
   }
-  if (!scene.Input.empty() && !options.DataFolder.empty())
+  if (!scene.Input.Name.empty() && !options.DataFolder.empty())
   {
     throw UsageError("--data: with a FILE, only that is rendered");
   }
@@ -60,7 +61,7 @@ void CheckOptions(const BenchOptions& options)
 BenchOptions Complete(BenchOptions options)
 {
   const char* folder = std::getenv("TETRALUX_DATA");
-  if (options.Scene.Input.empty() && options.DataFolder.empty() && folder)
+  if (options.Scene.Input.Name.empty() && options.DataFolder.empty() && folder)
   {
     options.DataFolder = folder;
   }
@@ -79,7 +80,7 @@ BenchOptions Complete(BenchOptions options)
 std::string DescribeCommand(const BenchOptions& options)
 {
   std::string command = "tetralux bench";
-  command += options.Scene.Input.empty() ? "" : " FILE";
+  command += options.Scene.Input.Name.empty() ? "" : " FILE";
   command += options.DataFolder.empty() || options.Quick ? "" : " --data FOLDER";
   command += options.Quick ? " --quick" : "";
   command += options.Features ? " --features" : "";

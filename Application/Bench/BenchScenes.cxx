@@ -175,7 +175,7 @@ BenchSceneMaker MakeFileMaker(const std::string& name, const std::string& title,
     {
       BenchScene scene;
       scene.Name = name;
-      SetMesh(scene, ReadMesh(fileName, solution), array, "");
+      SetMesh(scene, ReadMesh({ fileName, solution, {}, {} }).Data, array, "");
       scene.Description = DescribeMesh(title + ", " + array, scene) + "; " +
         GetBenchTransferFunction(function).Description;
       SetTransferFunction(scene, function);
@@ -185,14 +185,15 @@ BenchSceneMaker MakeFileMaker(const std::string& name, const std::string& title,
 
 BenchSceneMaker MakeUserMaker(const SceneOptions& options)
 {
-  const std::string name = std::filesystem::path(options.Input).stem().string();
+  const std::string name = std::filesystem::path(options.Input.Name).stem().string();
   return { name,
     [options, name]
     {
       BenchScene scene;
       scene.Name = name;
-      SetMesh(
-        scene, ReadMesh(options.Input, options.Plot3dSolution), options.Array, options.Component);
+      const MeshData mesh = ReadMesh(options.Input);
+      NoteTimeSteps(options.Input, mesh);
+      SetMesh(scene, mesh.Data, options.Array, options.Component);
       ColorAndOpacity functions;
       if (options.TransferFile.empty())
       {
@@ -230,7 +231,7 @@ std::vector<BenchSceneMaker> ListDataScenes(const std::string& folder)
 
 std::vector<BenchSceneMaker> ListAllScenes(const BenchOptions& options)
 {
-  if (!options.Scene.Input.empty())
+  if (!options.Scene.Input.Name.empty())
   {
     return { MakeUserMaker(options.Scene) };
   }

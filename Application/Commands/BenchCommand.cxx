@@ -7,7 +7,7 @@
 #include "CommandLine/CommandOption.h"
 #include "CommandLine/OptionValues.h"
 #include "Commands/StabilityCommand.h"
-#include "Files/ReadMesh.h"
+#include "Files/MeshFormats.h"
 #include "Setup/SceneOptionGroups.h"
 
 #include <functional>
@@ -22,7 +22,7 @@ constexpr int MaximumFrames = 10000;
 void AddSceneOptions(CLI::App* command, BenchOptions& options)
 {
   SceneOptions& scene = options.Scene;
-  AddInputOptions(command, scene.Input, scene.Plot3dSolution)
+  AddInputOptions(command, scene.Input)
     ->description("File to measure with, in place of the scenes there are: " + GetInputHelp());
   scene.Width = scene.Height = 0; // left to the run
   AddScalarOptions(command, scene);

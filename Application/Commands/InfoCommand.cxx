@@ -172,15 +172,27 @@ void PrintConvexification(tetralux::WalkMesh& walk)
       std::to_string(convex.GetNumberOfSteinerPoints()) + " Steiner points, " + seconds);
 }
 
-struct InfoOptions
+/// The steps are on one line, as there may be thousands.
+void PrintTimeSteps(const MeshData& mesh)
 {
-  std::string Input;
-  std::string Plot3dSolution;
-};
+  if (mesh.Times.empty())
+  {
+    return;
+  }
+  std::string text;
+  for (double time : mesh.Times)
+  {
+    text += (text.empty() ? "" : ", ") + FormatNumber(time);
+  }
+  PrintRow("time steps", std::to_string(mesh.Times.size()) + ": " + text);
+  PrintRow("time step read",
+    std::to_string(mesh.TimeStep) + ", time " + FormatNumber(mesh.Times[mesh.TimeStep]));
+}
 
-void PrintInfo(const InfoOptions& options)
+void PrintInfo(const InputFile& input)
 {
-  const vtkSmartPointer<vtkDataObject> data = ReadMesh(options.Input, options.Plot3dSolution);
+  const MeshData mesh = ReadMesh(input);
+  vtkDataObject* data = mesh.Data;
 
   tetralux::TetrahedraIntake intake;
   const double splitSeconds = MeasureSeconds(
@@ -196,11 +208,12 @@ void PrintInfo(const InfoOptions& options)
     });
   if (!intake.Error.empty())
   {
-    throw WorkError("'" + options.Input + "': " + intake.Error);
+    throw WorkError("'" + input.Name + "': " + intake.Error);
   }
 
-  PrintRow("file", options.Input);
+  PrintRow("file", input.Name);
   PrintRow("type", data->GetClassName());
+  PrintTimeSteps(mesh);
   PrintIntake(intake.Report);
   PrintBounds(intake.Mesh.Points);
   PrintArrays(data);
@@ -254,7 +267,7 @@ void AddInfoCommand(CLI::App& app)
 {
   CLI::App* command =
     app.add_subcommand("info", "Print what is in a file, its defects, and what it takes to render");
-  const auto options = std::make_shared<InfoOptions>();
-  AddInputOptions(command, options->Input, options->Plot3dSolution)->required();
-  command->final_callback([options] { PrintInfo(*options); });
+  const auto input = std::make_shared<InputFile>();
+  AddInputOptions(command, *input)->required();
+  command->final_callback([input] { PrintInfo(*input); });
 }

@@ -108,7 +108,9 @@ RenderInput ReadInput(const SceneOptions& options)
   {
     ReadTransferFunction(options.TransferFile, input.Functions);
   }
-  input.Data = ReadMesh(options.Input, options.Plot3dSolution);
+  const MeshData mesh = ReadMesh(options.Input);
+  NoteTimeSteps(options.Input, mesh);
+  input.Data = mesh.Data;
   input.Scalars = ChooseArray(input.Data, options.Array, options.Component);
   if (options.TransferFile.empty())
   {
@@ -154,7 +156,7 @@ void ShowVolume(const RenderOptions& options, const RenderInput& input, vtkVolum
   volume->GetMapper()->GetBounds(bounds);
   if (!vtkBoundingBox(bounds).IsValid())
   {
-    throw WorkError("'" + options.Scene.Input + "': it has no points");
+    throw WorkError("'" + options.Scene.Input.Name + "': it has no points");
   }
   volume->SetProperty(MakeProperty(options, input.Functions, bounds));
   vtkNew<vtkRenderer> renderer;
@@ -278,7 +280,7 @@ void RenderPicture(const RenderOptions& options)
   ShowVolume(options, input, volume, window);
 
   const bool mayChange = options.Method == "auto" && method.Method != "ray-cast";
-  std::string error = Draw(options.Scene.Input, mapper, window, mayChange);
+  std::string error = Draw(options.Scene.Input.Name, mapper, window, mayChange);
   if (mayChange && !error.empty())
   {
     // No room for the mesh, or too few digits, say: a processor has both.
@@ -286,11 +288,11 @@ void RenderPicture(const RenderOptions& options)
     mapper = MakeConfiguredMapper(method.Method, options);
     SetInput(input, mapper);
     volume->SetMapper(mapper);
-    error = Draw(options.Scene.Input, mapper, window, false);
+    error = Draw(options.Scene.Input.Name, mapper, window, false);
   }
   if (!error.empty())
   {
-    throw WorkError("'" + options.Scene.Input + "': " + error);
+    throw WorkError("'" + options.Scene.Input.Name + "': " + error);
   }
   const nlohmann::ordered_json statistics = ReadStatistics(mapper, method);
   vtkImageData* image = mapper->GetOutputImage();

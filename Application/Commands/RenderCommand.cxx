@@ -102,7 +102,7 @@ void AddRenderCommand(CLI::App& app)
   CLI::App* command = app.add_subcommand("render", "Render a file to a picture");
   const auto options = std::make_shared<RenderOptions>();
   SceneOptions& scene = options->Scene;
-  AddInputOptions(command, scene.Input, scene.Plot3dSolution)->required();
+  AddInputOptions(command, scene.Input)->required();
   AddScalarOptions(command, scene);
   command->add_option("--method", options->Method, "How to render: " + JoinNames(GetMethodNames()))
     ->capture_default_str()

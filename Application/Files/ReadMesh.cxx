@@ -3,209 +3,165 @@
 
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/MessageCapture.h"
-#include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
+#include "Files/FileChecks.h"
+#include "Files/FileSeries.h"
+#include "Files/MeshFormats.h"
+#include "Files/TimeSteps.h"
+#include "Intake/DataSetBlocks.h"
+#include "Intake/DataSetCheck.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkCommand.h"
-#include "vtkExodusIIReader.h"
-#include "vtkGenericDataObjectReader.h"
-#include "vtkMultiBlockPLOT3DReader.h"
-#include "vtkNew.h"
-#include "vtkNrrdReader.h"
-#include "vtkSLCReader.h"
-#include "vtkXMLGenericDataObjectReader.h"
+#include "vtkDataSet.h"
+#include "vtkInformation.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <vector>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <string>
 
 namespace
 {
 
-using Reader = vtkSmartPointer<vtkAlgorithm>;
-
-template <class ReaderT>
-Reader MakeReader(const std::string& fileName)
+/// Runs a reader's work on a file. Throws WorkError for VTK's first error, prints its warnings.
+void Guard(const std::string& fileName, const std::function<void()>& work)
 {
-  auto reader = vtkSmartPointer<ReaderT>::New();
-  reader->SetFileName(fileName.c_str());
-  return reader;
-}
-
-Reader MakeLegacyReader(const std::string& fileName)
-{
-  auto reader = vtkSmartPointer<vtkGenericDataObjectReader>::New();
-  reader->SetFileName(fileName.c_str());
-  reader->ReadAllScalarsOn();
-  reader->ReadAllVectorsOn();
-  reader->ReadAllNormalsOn();
-  reader->ReadAllTensorsOn();
-  reader->ReadAllFieldsOn();
-  return reader;
-}
-
-Reader MakeExodusReader(const std::string& fileName)
-{
-  // Exodus files are NetCDF, in its classic form or over HDF5. For any other file, the library
-  // prints many lines of its own.
-  char magic[4] = {};
-  std::ifstream(fileName, std::ios::binary).read(magic, sizeof(magic));
-  const std::string begin(magic, sizeof(magic));
-  if (begin.compare(0, 3, "CDF") != 0 && begin != "\x89HDF")
+  const MessageCapture messages;
+  try
   {
-    throw WorkError("cannot read '" + fileName + "': it is no Exodus file");
+    work();
   }
-  auto reader = vtkSmartPointer<vtkExodusIIReader>::New();
-  reader->SetFileName(fileName.c_str());
-  reader->UpdateInformation();
-  for (int type : { vtkExodusIIReader::NODAL, vtkExodusIIReader::ELEM_BLOCK })
+  catch (const std::bad_alloc&)
   {
-    reader->SetAllArrayStatus(type, 1);
+    throw WorkError("cannot read '" + fileName + "': there is not enough memory, or it is damaged");
   }
-  return reader;
-}
-
-struct Format
-{
-  std::vector<std::string> Extensions;
-  std::string Description;
-  std::function<Reader(const std::string&)> Make;
-};
-
-const std::vector<Format>& GetFormats()
-{
-  static const std::vector<Format> formats = {
-    { { ".vtu", ".pvtu", ".vti", ".pvti", ".vts", ".pvts", ".vtr", ".pvtr", ".vtm", ".vtmb" },
-      "VTK XML", MakeReader<vtkXMLGenericDataObjectReader> },
-    { { ".vtk" }, "VTK legacy", MakeLegacyReader },
-    { { ".ex2", ".e", ".exo", ".exii" }, "Exodus II", MakeExodusReader },
-    { { ".slc" }, "SLC volume", MakeReader<vtkSLCReader> },
-    { { ".nrrd", ".nhdr" }, "NRRD volume", MakeReader<vtkNrrdReader> },
-  };
-  return formats;
-}
-
-const std::vector<std::string>& GetPlot3dExtensions()
-{
-  static const std::vector<std::string> extensions = { ".bin", ".xyz", ".x", ".p3d" };
-  return extensions;
-}
-
-bool Contains(const std::vector<std::string>& names, const std::string& name)
-{
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-void CheckReadable(const std::string& fileName)
-{
-  if (std::filesystem::is_directory(fileName))
+  catch (const std::length_error&)
   {
-    throw WorkError("cannot read '" + fileName + "': it is a folder");
+    throw WorkError("cannot read '" + fileName + "': it is damaged");
   }
-  if (!std::ifstream(fileName))
+  const std::string error = messages.GetError();
+  if (error.compare(0, 9, "Algorithm") == 0) // the pipeline's many lines about a silent reader
   {
-    throw WorkError("cannot read '" + fileName + "': " + std::strerror(errno));
+    throw WorkError("cannot read '" + fileName + "': its reader fails without a reason");
   }
+  if (!error.empty())
+  {
+    throw WorkError("cannot read '" + fileName + "': " + error);
+  }
+  messages.PrintWarnings();
 }
 
-Reader MakePlot3dReader(const std::string& coordinates, const std::string& solution)
+void CheckData(const std::string& fileName, vtkDataObject* data)
 {
-  auto reader = vtkSmartPointer<vtkMultiBlockPLOT3DReader>::New();
-  reader->SetXYZFileName(coordinates.c_str());
-  reader->AutoDetectFormatOn();
-  if (!solution.empty())
+  if (!data)
   {
-    CheckReadable(solution);
-    reader->SetQFileName(solution.c_str());
-    // Density, stagnation energy and momentum are in the file. These are computed: pressure,
-    // temperature, velocity.
-    for (int function : { 110, 120, 200 })
+    throw WorkError("cannot read '" + fileName + "': there is nothing in it");
+  }
+  for (const tetralux::DataSetBlock& block : tetralux::CollectDataSets(data))
+  {
+    const std::string damage = tetralux::FindDamage(block.DataSet);
+    if (!damage.empty())
     {
-      reader->AddFunction(function);
+      throw WorkError("cannot read '" + fileName + "': " + damage);
     }
   }
-  return reader;
 }
 
-Reader MakeReaderOf(const std::string& fileName, const std::string& solution)
+/// Reads one file by its reader, at the time step that input asks for.
+MeshData ReadFile(const std::string& fileName, const InputFile& input)
 {
-  const std::string extension = GetExtension(fileName);
-  if (!solution.empty() || Contains(GetPlot3dExtensions(), extension))
-  {
-    return MakePlot3dReader(fileName, solution);
-  }
-  for (const Format& format : GetFormats())
-  {
-    if (Contains(format.Extensions, extension))
+  MeshData mesh;
+  Guard(fileName,
+    [&]
     {
-      return format.Make(fileName);
-    }
+      const vtkSmartPointer<vtkAlgorithm> reader = MakeMeshReader(fileName, input.Plot3dSolution);
+      ProgressLine progress("reading " + fileName);
+      progress.Observe(reader, vtkCommand::ProgressEvent);
+      reader->UpdateInformation();
+      vtkInformation* information = reader->GetOutputInformation(0);
+      auto* timesKey = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
+      if (information->Has(timesKey))
+      {
+        const double* times = information->Get(timesKey);
+        mesh.Times.assign(times, times + information->Length(timesKey));
+      }
+      mesh.TimeStep = ChooseTimeStep(input, mesh.Times);
+      if (mesh.Times.empty())
+      {
+        reader->Update();
+      }
+      else
+      {
+        reader->UpdateTimeStep(mesh.Times[mesh.TimeStep]);
+      }
+      mesh.Data = reader->GetOutputDataObject(0);
+    });
+  CheckData(fileName, mesh.Data);
+  return mesh;
+}
+
+/// Reads the parts of one time step into one data object.
+MeshData ReadParts(const std::vector<std::string>& files, const InputFile& input)
+{
+  if (files.size() == 1)
+  {
+    return ReadFile(files[0], input);
   }
-  throw WorkError("cannot read '" + fileName + "': its extension is none of " + GetInputHelp());
+  MeshData mesh;
+  auto parts = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (const std::string& file : files)
+  {
+    const MeshData part = ReadFile(file, input);
+    parts->SetBlock(parts->GetNumberOfBlocks(), part.Data);
+    mesh.Times = part.Times;
+    mesh.TimeStep = part.TimeStep;
+  }
+  mesh.Data = parts;
+  return mesh;
+}
+
+MeshData ReadSeriesStep(const InputFile& input)
+{
+  std::vector<SeriesStep> series;
+  Guard(input.Name, [&] { series = ReadSeries(input.Name); });
+  std::vector<double> times;
+  times.reserve(series.size());
+  for (const SeriesStep& step : series)
+  {
+    times.push_back(step.Time);
+  }
+  const std::size_t timeStep = ChooseTimeStep(input, times);
+  MeshData mesh = ReadParts(series[timeStep].Files, {}); // the files have their own times, or none
+  mesh.Times = times;
+  mesh.TimeStep = timeStep;
+  return mesh;
 }
 
 } // namespace
 
-std::string GetInputHelp()
+MeshData ReadMesh(const InputFile& input)
 {
-  std::string text;
-  const auto append = [&text](const std::vector<std::string>& extensions, const std::string& name)
+  InputFile file = input;
+  const std::size_t comma = input.Name.find(',');
+  if (input.Plot3dSolution.empty() && comma != std::string::npos &&
+    !std::filesystem::exists(input.Name))
   {
-    for (const std::string& extension : extensions)
-    {
-      text += extension + " ";
-    }
-    text += "(" + name + ")";
-  };
-  for (const Format& format : GetFormats())
-  {
-    append(format.Extensions, format.Description);
-    text += ", ";
+    file.Name = input.Name.substr(0, comma);
+    file.Plot3dSolution = input.Name.substr(comma + 1);
   }
-  append(GetPlot3dExtensions(), "PLOT3D coordinates");
-  return text;
+  CheckReadable(file.Name);
+  return IsSeries(file.Name) ? ReadSeriesStep(file) : ReadParts(ListPieces(file.Name), file);
 }
 
-vtkSmartPointer<vtkDataObject> ReadMesh(
-  const std::string& fileName, const std::string& plot3dSolution)
+void NoteTimeSteps(const InputFile& input, const MeshData& mesh)
 {
-  std::string name = fileName;
-  std::string solution = plot3dSolution;
-  const std::size_t comma = fileName.find(',');
-  if (solution.empty() && comma != std::string::npos && !std::filesystem::exists(fileName))
+  if (mesh.Times.size() > 1 && !input.Time && !input.TimeStep)
   {
-    name = fileName.substr(0, comma);
-    solution = fileName.substr(comma + 1);
+    std::cerr << "tetralux: note: '" << input.Name << "' has " << DescribeTimeSteps(mesh.Times)
+              << "; this is the first, --time or --time-step chooses another\n";
   }
-  CheckReadable(name);
-
-  const MessageCapture messages;
-  vtkSmartPointer<vtkDataObject> data;
-  try
-  {
-    const Reader reader = MakeReaderOf(name, solution);
-    ProgressLine progress("reading " + name);
-    progress.Observe(reader, vtkCommand::ProgressEvent);
-    reader->Update();
-    data = reader->GetOutputDataObject(0);
-  }
-  catch (const std::bad_alloc&)
-  {
-    throw WorkError("cannot read '" + name + "': there is not enough memory, or it is damaged");
-  }
-  if (!messages.GetError().empty())
-  {
-    throw WorkError("cannot read '" + name + "': " + messages.GetError());
-  }
-  if (!data)
-  {
-    throw WorkError("cannot read '" + name + "': there is nothing in it");
-  }
-  messages.PrintWarnings();
-  return data;
 }

@@ -2,20 +2,28 @@
 #ifndef ReadMesh_h
 #define ReadMesh_h
 
+#include "Files/InputFile.h"
+
 #include "vtkDataObject.h"
 #include "vtkSmartPointer.h"
 
-#include <string>
+#include <cstddef>
+#include <vector>
 
-/// Reads a file. Its extension chooses the reader; see GetInputHelp. Reads all arrays, and of a
-/// time series the first step. Throws WorkError with the file's name.
-///
-/// A PLOT3D grid is one file with the coordinates and one with the solution. fileName may be both
-/// with a comma between, or plot3dSolution is the second; it is empty for all other files.
-vtkSmartPointer<vtkDataObject> ReadMesh(
-  const std::string& fileName, const std::string& plot3dSolution);
+/// What was read.
+struct MeshData
+{
+  vtkSmartPointer<vtkDataObject> Data;
+  std::vector<double> Times; ///< of all time steps of the file; empty: it has no time
+  std::size_t TimeStep = 0;  ///< which of them Data is
+};
 
-/// Lists the extensions and formats that can be read, for the help texts.
-std::string GetInputHelp();
+/// Reads a file with all its arrays. Its extension chooses the reader; see GetInputHelp. Files in
+/// pieces become one composite data set. Throws WorkError with the file's name, also where the data
+/// lack what they say they have.
+MeshData ReadMesh(const InputFile& input);
+
+/// Says in one line on standard error that a file has more time steps, if no option chose one.
+void NoteTimeSteps(const InputFile& input, const MeshData& mesh);
 
 #endif

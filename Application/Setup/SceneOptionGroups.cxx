@@ -4,7 +4,8 @@
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/CommandOption.h"
 #include "CommandLine/OptionValues.h"
-#include "Files/ReadMesh.h"
+#include "Files/InputFile.h"
+#include "Files/MeshFormats.h"
 #include "Setup/SceneOptions.h"
 
 #include <algorithm>
@@ -20,6 +21,9 @@ constexpr int MaximumSize = 16384;
 
 /// Largest number that --component takes; arrays have far fewer components.
 constexpr int MaximumComponent = 1 << 30;
+
+/// Largest number that --time-step takes; files have fewer steps.
+constexpr int MaximumTimeStep = 1 << 30;
 
 constexpr int MaximumThreads = 1024;
 
@@ -51,15 +55,26 @@ void CheckComponent(const std::string& option, const std::string& text)
 
 } // namespace
 
-CLI::Option* AddInputOptions(CLI::App* command, std::string& input, std::string& plot3dSolution)
+CLI::Option* AddInputOptions(CLI::App* command, InputFile& input)
 {
   CLI::Option* option =
-    command->add_option("IN", input, "File to read: " + GetInputHelp())->type_name("");
+    command->add_option("IN", input.Name, "File to read: " + GetInputHelp())->type_name("");
   command
-    ->add_option("--plot3d-q", plot3dSolution,
+    ->add_option("--plot3d-q", input.Plot3dSolution,
       "Solution file of the PLOT3D coordinates IN; as well, IN may be both with a comma between: "
       "xyz.bin,q.bin")
     ->type_name("FILE");
+  CLI::Option* time = AddOption(command, "--time",
+    "Time step nearest to this time of a file that has several, in the file's units; info lists "
+    "them; default: the first step",
+    [&input](const std::string& name, const std::string& text) {
+      input.Time = ParseNumber(name, text);
+    })->type_name("T");
+  AddOption(command, "--time-step", "The same by its number, counted from 0",
+    [&input](const std::string& name, const std::string& text)
+    { input.TimeStep = ParseInteger(name, text, 0, MaximumTimeStep); })
+    ->type_name("N")
+    ->excludes(time);
   return option;
 }
 

@@ -4,6 +4,7 @@
 
 #include <string>
 
+struct InputFile;
 struct SceneOptions;
 namespace CLI
 {
@@ -14,8 +15,8 @@ class Option;
 /// Groups of options that several commands share. Each function adds a group to a command. The
 /// second argument receives what is given and must live as long as the command.
 ///@{
-/// The file to read, IN, and --plot3d-q. Returns IN.
-CLI::Option* AddInputOptions(CLI::App* command, std::string& input, std::string& plot3dSolution);
+/// The file to read, IN, --plot3d-q, --time and --time-step. Returns IN.
+CLI::Option* AddInputOptions(CLI::App* command, InputFile& input);
 
 /// --array, --component, --transfer, --opacity-unit-distance.
 void AddScalarOptions(CLI::App* command, SceneOptions& options);

@@ -2,6 +2,8 @@
 #ifndef SceneOptions_h
 #define SceneOptions_h
 
+#include "Files/InputFile.h"
+
 #include <array>
 #include <optional>
 #include <string>
@@ -12,8 +14,7 @@ struct SceneOptions
 {
   using Vector = std::array<double, 3>;
 
-  std::string Input;
-  std::string Plot3dSolution;
+  InputFile Input;
   std::string Array;
   std::string Component; ///< "magnitude" or a number counted from 0
   std::string TransferFile;
