@@ -101,15 +101,11 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
   const tetralux::RayLimits limits = frame.MakeLimits(rays);
-  const double stretch = tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
-  const double geometryError = scene.EstimateGeometryError(
-    scene.Mesh.GetMesh()->GetRadius() * stretch, tetralux::RayShaderRounding);
-  if (!std::isfinite(geometryError))
-  {
-    throw std::invalid_argument(
-      "the mesh is too small or too large, in world units, for the single "
-      "precision of a graphics card");
-  }
+  const double worldRadius =
+    scene.Mesh.GetMesh()->GetRadius() * tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+  tetralux::VolumeScene::CheckWorldRadius(worldRadius);
+  const double geometryError =
+    scene.EstimateGeometryError(worldRadius, tetralux::RayShaderRounding);
 
   if (this->Window && this->Window != frame.Window)
   {

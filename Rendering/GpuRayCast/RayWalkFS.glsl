@@ -210,7 +210,7 @@ void main()
       }
 #else
 #ifdef CELL_DATA
-      vec4 segment = IntegrateCell(cellBefore, to - from);
+      vec4 segment = IntegrateCell(cellBefore, (to - from) * rayLengthUnit);
 #else
 #ifdef LIT
       vec4 segment = vec4(0.0);
@@ -237,12 +237,12 @@ void main()
         vec3 toGradient = fromGradient;
 #endif
         float nearest = frame.Start - ray.Distance;
-        segment = IntegrateShadedSegment(fromScalar, toScalar, to - from, fromGradient, toGradient,
-          ray.Point + (nearest + from) * ray.Direction, ray.Point + (nearest + to) * ray.Direction,
-          ray.Direction);
+        segment = IntegrateShadedSegment(fromScalar, toScalar, (to - from) * rayLengthUnit,
+          fromGradient, toGradient, ray.Point + (nearest + from) * ray.Direction,
+          ray.Point + (nearest + to) * ray.Direction, ray.Direction);
       }
 #else
-      vec4 segment = IntegrateSegment(fromScalar, toScalar, to - from);
+      vec4 segment = IntegrateSegment(fromScalar, toScalar, (to - from) * rayLengthUnit);
 #endif
 #endif
       gathered += (1.0 - gathered.a) * segment;
