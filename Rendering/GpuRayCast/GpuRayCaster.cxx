@@ -287,7 +287,7 @@ private:
     const bool lit = this->Options.Lighting != nullptr;
     define(lit, "LIT");
     define(lit && this->Options.SmoothGradients, "SMOOTH_GRADIENTS");
-    define(lit && this->Integral.GetIntegrator() == Integrator::Isosurfaces, "ISOSURFACES");
+    define(this->Integral.GetIntegrator() == Integrator::Isosurfaces, "ISOSURFACES");
     return names;
   }
 

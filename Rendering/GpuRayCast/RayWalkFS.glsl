@@ -12,8 +12,9 @@
 // CELL_DATA: scalars are constant in each cell. GATHER_LARGEST: the largest scalar along the ray is
 // looked for; else segments are composited. IMAGINARY_CELLS: cells from numberOfCells on fill the
 // space between the mesh and its hull and contribute nothing. REENTRY: a ray that left the mesh may
-// come in again. LIT: lights shine on segments, by the gradients of cells or, SMOOTH_GRADIENTS, of
-// points; of isosurfaces, ISOSURFACES, only where there is one.
+// come in again. ISOSURFACES: surfaces of constant scalar are looked for. LIT: lights shine on
+// segments, by the gradients of cells or, SMOOTH_GRADIENTS, of points; of isosurfaces only where
+// there is one.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
@@ -53,6 +54,13 @@ void Interpolate(vec3 weights, Corner a, Corner b, Corner c, out float along, ou
   along = a.Along + shares.x * (b.Along - a.Along) + shares.y * (c.Along - a.Along);
   scalar = a.Scalar + shares.x * (b.Scalar - a.Scalar) + shares.y * (c.Scalar - a.Scalar);
 }
+
+#ifdef ISOSURFACES
+// Next to a vertex or an edge a ray passes several faces at nearly one distance, and rounding makes
+// the scalar go back and forth there. Cells are joined to a segment of at least this length, so
+// that a surface through a vertex is crossed once: units, sixteen grid points across.
+const float JoinedLength = 3.814697265625e-06; // 2^-18
+#endif
 
 #ifdef LIT
 #ifdef SMOOTH_GRADIENTS
@@ -132,7 +140,14 @@ void main()
   walking = walking && along <= limits.y;
   bool partEnded = !walking;
 
+#ifdef ISOSURFACES
+  bool joins = false; // the last cells to the next one
+  float joinedAlong = 0.0;
+  float joinedScalar = 0.0;
+  for (; walking && (steps < stepsOfPass || joins); ++steps)
+#else
   for (; walking && steps < stepsOfPass; ++steps)
+#endif
   {
     // To the face that the fourth point makes with two of the triangle's.
     Corner p = LoadCorner(frame, behind.y);
@@ -174,6 +189,21 @@ void main()
     float along0 = along;
     float scalar0 = scalar;
     Interpolate(weights, a, b, c, along, scalar);
+#ifdef IMAGINARY_CELLS
+    bool real = cellBefore < numberOfCells;
+    bool leaves = cell < 0 || cell >= numberOfCells;
+#else
+    bool real = true;
+    bool leaves = cell < 0;
+#endif
+#ifdef ISOSURFACES
+    along0 = joins ? joinedAlong : along0;
+    scalar0 = joins ? joinedScalar : scalar0;
+    joins = real && !leaves && along < limits.y && abs(along - along0) < JoinedLength;
+    joinedAlong = along0;
+    joinedScalar = scalar0;
+    real = real && !joins;
+#endif
 
     // An inverted cell among others is walked from its far side to its near one; it is seen as any
     // other cell. What the limits cut is left out, by shares of the cell: a slope may overflow.
@@ -187,11 +217,6 @@ void main()
     float scalarChange = (toScalar - fromScalar) / (far - near);
     toScalar = to < far ? fromScalar + (to - near) * scalarChange : toScalar;
     fromScalar = near < from ? fromScalar + (from - near) * scalarChange : fromScalar;
-#ifdef IMAGINARY_CELLS
-    bool real = cellBefore < numberOfCells;
-#else
-    bool real = true;
-#endif
     if (real && from <= to)
     {
 #ifdef GATHER_LARGEST
@@ -259,15 +284,15 @@ void main()
   // Where the part of the ray ends, the next one begins anew: by the first entry into the mesh.
   partEnded = partEnded || along >= limits.y || gathered.a >= maximumOpacity;
 #ifdef REENTRY
-  bool leaves = false;
+  bool ended = false;
 #else
-  bool leaves = outside;
+  bool ended = outside;
 #endif
   if (gathered.a >= maximumOpacity)
   {
     state.w = RayIsDone;
   }
-  else if (partEnded || leaves)
+  else if (partEnded || ended)
   {
     state.w = entry.y + 1 < NUMBER_OF_PARTS ? RayNeedsEntry : RayIsDone;
     entry.xy = ivec2(-1, entry.y + 1);
