@@ -136,9 +136,10 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   frame.Budget.CoverGeometry(geometryError);
   tetralux::GpuRayCastOptions options;
   options.Reentry = reentry;
+  options.Oriented = reentry != GpuReentry::Boundary || !this->Positive.Get().empty();
   const tetralux::PixelProjection projection(
     grid, scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
-  if (this->Self->Reentry == BOUNDARY_LAYERS_REENTRY && projection.Regular)
+  if (this->Self->Reentry == BOUNDARY_LAYERS_REENTRY && projection.Regular && options.Oriented)
   {
     options.Layers = &projection;
   }
@@ -332,12 +333,6 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   if (directed)
   {
     this->UpdateOrientation(scene);
-    if (this->Positive.Get().empty())
-    {
-      throw std::runtime_error(
-        "the cells of the mesh can't be oriented, since a ring of them comes "
-        "back mirrored: vtkTetrahedraRayCastMapper renders it all the same");
-    }
   }
   const tetralux::WalkPoint<float>* points = scene.GetPoints<float>();
   const std::size_t numberOfPoints = scene.Mesh.GetMesh()->GetNumberOfTablePoints();

@@ -12,18 +12,22 @@
 // CELL_DATA: scalars are constant in each cell. GATHER_LARGEST: the largest scalar along the ray is
 // looked for; else segments are composited. IMAGINARY_CELLS: cells from numberOfCells on fill the
 // space between the mesh and its hull and contribute nothing. REENTRY: a ray that left the mesh may
-// come in again. ISOSURFACES: surfaces of constant scalar are looked for. LIT: lights shine on
+// come in again. PAIRED: faces have no direction in which they are crossed. The crossings of a ray
+// still come in pairs, the ends of walks: a crossing is an entry where the walk from it ends behind
+// it. So rays that come in again walk twice: first to tell, then to gather. ISOSURFACES: surfaces of constant scalar are looked for. LIT: lights shine on
 // segments, by the gradients of cells or, SMOOTH_GRADIENTS, of points; of isosurfaces only where
 // there is one.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
 //VTK::RayFrame::Dec
+//VTK::BoundaryEntry::Dec
 //VTK::Lighting::Dec
 //VTK::RayIntegral::Dec
 
 // What rays have come to. States: points of the triangle, and index of the face that is crossed
-// next, or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps.
+// next, or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps,
+// whether the walk is to tell only.
 // Colors: gathered so far, or the largest scalar. Firsts: of the first segment that contributed the
 // distances of its ends from the point nearest to the centre, and the scalars there; or the
 // distance of the largest scalar.
@@ -35,7 +39,6 @@ uniform sampler2D rayFirsts;
 uniform isampler2D nextEntries; // of rays that need one; -1: there is none
 
 uniform isamplerBuffer walkFaces;
-uniform isamplerBuffer boundaryEntries;
 uniform int numberOfCells;
 uniform int stepsOfPass;
 uniform float maximumOpacity; // a ray that is this opaque ends
@@ -90,11 +93,25 @@ vec3 FindCellGradient(ivec3 ids, int point)
 #endif
 #endif
 
+#ifdef PAIRED
+// Whether the walk from an entry ended behind it, at a face of the points.
+bool EndsBehind(RayFrame frame, int entry, ivec3 ids, int face)
+{
+  int low = min(ids.x, min(ids.y, ids.z));
+  int high = max(ids.x, max(ids.y, ids.z));
+  float begin;
+  float end;
+  TestEntry(frame, entry, begin);
+  TestFace(frame, ivec3(low, ids.x + ids.y + ids.z - low - high, high), end);
+  return end > begin || (end == begin && face > GetFaceOfEntry(entry));
+}
+#endif
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   ivec4 state = texelFetch(rayStates, pixel, 0);
-  ivec3 entry = texelFetch(rayEntries, pixel, 0).xyz;
+  ivec4 entry = texelFetch(rayEntries, pixel, 0);
   vec4 gathered = texelFetch(rayColors, pixel, 0);
   vec4 first = texelFetch(rayFirsts, pixel, 0);
 
@@ -105,9 +122,17 @@ void main()
   {
     int next = texelFetch(nextEntries, pixel, 0).x;
     walking = next >= 0;
+#ifdef PAIRED
+    entry.w = entry.x >= 0 ? 1 : 0; // the nearest crossing of all is an entry
+#endif
     entry.x = next;
     state = walking ? texelFetch(boundaryEntries, next) : ivec4(0);
   }
+#ifdef PAIRED
+  bool tells = entry.w == 1;
+#else
+  const bool tells = false;
+#endif
   vec2 limits = GetRayPart(ray, gl_FragCoord.xy, entry.y) - (frame.Start - ray.Distance);
 
   // The triangle. Weights of the corners are areas across, and not normalized.
@@ -196,6 +221,7 @@ void main()
     bool real = true;
     bool leaves = cell < 0;
 #endif
+    real = real && !tells;
 #ifdef ISOSURFACES
     along0 = joins ? joinedAlong : along0;
     scalar0 = joins ? joinedScalar : scalar0;
@@ -278,11 +304,11 @@ void main()
     }
 
     outside = cell < 0;
-    walking = !outside && along < limits.y && gathered.a < maximumOpacity;
+    walking = !outside && (tells || along < limits.y) && gathered.a < maximumOpacity;
   }
 
   // Where the part of the ray ends, the next one begins anew: by the first entry into the mesh.
-  partEnded = partEnded || along >= limits.y || gathered.a >= maximumOpacity;
+  partEnded = partEnded || (!tells && along >= limits.y) || gathered.a >= maximumOpacity;
 #ifdef REENTRY
   bool ended = false;
 #else
@@ -295,14 +321,22 @@ void main()
   else if (partEnded || ended)
   {
     state.w = entry.y + 1 < NUMBER_OF_PARTS ? RayNeedsEntry : RayIsDone;
-    entry.xy = ivec2(-1, entry.y + 1);
+    entry = ivec4(-1, entry.y + 1, entry.z, 0);
   }
   else
   {
     state = ivec4(a.Id, b.Id, c.Id, outside ? RayNeedsEntry : face);
+#ifdef PAIRED
+    if (tells && outside)
+    {
+      entry.w = 0;
+      state =
+        EndsBehind(frame, entry.x, state.xyz, face) ? texelFetch(boundaryEntries, entry.x) : state;
+    }
+#endif
   }
   fragOutput0 = state;
-  fragOutput1 = ivec4(entry.xy, entry.z + steps, 0);
+  fragOutput1 = ivec4(entry.xy, entry.z + steps, entry.w);
   fragOutput2 = gathered;
   fragOutput3 = first;
 }
