@@ -91,8 +91,8 @@ public:
   std::uint64_t GetVisibleTablesVersion() const { return this->VisibleTopology.GetVersion(); }
   ///@}
 
-  /// Throws std::invalid_argument, with one line, if a mesh of that radius, world units, is so small
-  /// or so large that attenuations which make it visible leave the range of single precision.
+  /// Throws std::invalid_argument, with one line, if a mesh of that radius, world units, is so
+  /// small or so large that attenuations which make it visible leave the range of single precision.
   static void CheckWorldRadius(double worldRadius);
 
   /// Estimated error of a channel by rounding coordinates and scalars, see GeometryError.h; of

@@ -2,8 +2,8 @@
 // Where a ray comes in through a boundary face, by the same signs as the walk. Needs
 // RayFrameDec.glsl.
 //
-// DIRECTED: only faces through which rays come in count; else all that rays cross, and the ascending
-// points of each.
+// DIRECTED: only faces through which rays come in count; else all that rays cross, and the points
+// of each ascend.
 
 uniform isamplerBuffer boundaryEntries; // WalkTexels::Entries
 

@@ -31,9 +31,9 @@ class CameraRays;
 ///   vec2 GetRayPart(Ray ray, vec2 pixel, int part)
 ///
 /// the distances from the ray's point, in units of GetRayLengthUnit, between which the part of that
-/// number is, of NUMBER_OF_PARTS; begin above end where there is none. Parts do not overlap and go front to back.
-/// They are single precision: within 1e-6 of the distances' size (of the mesh's radius, where a
-/// camera is not within a thousandth of it from the edge of a plane).
+/// number is, of NUMBER_OF_PARTS; begin above end where there is none. Parts do not overlap and go
+/// front to back. They are single precision: within 1e-6 of the distances' size (of the mesh's
+/// radius, where a camera is not within a thousandth of it from the edge of a plane).
 class TETRALUXRENDERING_EXPORT GpuRayLimits
 {
 public:

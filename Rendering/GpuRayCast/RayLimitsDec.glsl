@@ -82,8 +82,8 @@ vec2 CropRay(Ray ray, vec2 limits, int part)
 }
 #endif
 
-// Distances in units from the ray's point between which a part of it is, 0..NUMBER_OF_PARTS - 1, front
-// to back; the first is larger than the second where there is none.
+// Distances in units from the ray's point between which a part of it is, 0..NUMBER_OF_PARTS - 1,
+// front to back; the first is larger than the second where there is none.
 vec2 GetRayPart(Ray ray, vec2 pixel, int part)
 {
   vec2 limits = LimitRay(ray, pixel);

@@ -14,9 +14,9 @@
 // space between the mesh and its hull and contribute nothing. REENTRY: a ray that left the mesh may
 // come in again. PAIRED: faces have no direction in which they are crossed. The crossings of a ray
 // still come in pairs, the ends of walks: a crossing is an entry where the walk from it ends behind
-// it. So rays that come in again walk twice: first to tell, then to gather. ISOSURFACES: surfaces of constant scalar are looked for. LIT: lights shine on
-// segments, by the gradients of cells or, SMOOTH_GRADIENTS, of points; of isosurfaces only where
-// there is one.
+// it. So rays that come in again walk twice: first to tell, then to gather. ISOSURFACES: surfaces
+// of constant scalar are looked for. LIT: lights shine on segments, by the gradients of cells or,
+// SMOOTH_GRADIENTS, of points; of isosurfaces only where there is one.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
