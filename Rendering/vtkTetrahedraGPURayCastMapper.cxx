@@ -101,15 +101,11 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
   const tetralux::RayLimits limits = frame.MakeLimits(rays);
-  const double stretch = tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
-  const double geometryError = scene.EstimateGeometryError(
-    scene.Mesh.GetMesh()->GetRadius() * stretch, tetralux::RayShaderRounding);
-  if (!std::isfinite(geometryError))
-  {
-    throw std::invalid_argument(
-      "the mesh is too small or too large, in world units, for the single "
-      "precision of a graphics card");
-  }
+  const double worldRadius =
+    scene.Mesh.GetMesh()->GetRadius() * tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+  tetralux::VolumeScene::CheckWorldRadius(worldRadius);
+  const double geometryError =
+    scene.EstimateGeometryError(worldRadius, tetralux::RayShaderRounding);
 
   if (this->Window && this->Window != frame.Window)
   {
@@ -140,9 +136,10 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   frame.Budget.CoverGeometry(geometryError);
   tetralux::GpuRayCastOptions options;
   options.Reentry = reentry;
+  options.Oriented = reentry != GpuReentry::Boundary || !this->Positive.Get().empty();
   const tetralux::PixelProjection projection(
     grid, scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
-  if (this->Self->Reentry == BOUNDARY_LAYERS_REENTRY && projection.Regular)
+  if (this->Self->Reentry == BOUNDARY_LAYERS_REENTRY && projection.Regular && options.Oriented)
   {
     options.Layers = &projection;
   }
@@ -336,12 +333,6 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   if (directed)
   {
     this->UpdateOrientation(scene);
-    if (this->Positive.Get().empty())
-    {
-      throw std::runtime_error(
-        "the cells of the mesh can't be oriented, since a ring of them comes "
-        "back mirrored: vtkTetrahedraRayCastMapper renders it all the same");
-    }
   }
   const tetralux::WalkPoint<float>* points = scene.GetPoints<float>();
   const std::size_t numberOfPoints = scene.Mesh.GetMesh()->GetNumberOfTablePoints();

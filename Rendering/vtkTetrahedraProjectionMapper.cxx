@@ -229,6 +229,8 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   tetralux::ProjectionScene& scene = this->Scene;
   scene.Volume = &volume;
   scene.Grid = frame.MakeGrid(rays);
+  VolumeScene::CheckWorldRadius(
+    mesh.GetRadius() * tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest);
   scene.Interpolate = this->Self->PerspectiveInterpolation != 0;
   scene.Dither = this->Self->AlphaDithering && this->Self->ColorBuffer == UNORM8_BUFFER;
   scene.Format = this->ChooseFormat(frame);

@@ -9,6 +9,7 @@
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
 #include "RayCast/RayCaster.h"
+#include "View/MeshToWorld.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
@@ -93,6 +94,8 @@ void vtkTetrahedraRayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     return;
   }
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
+  tetralux::VolumeScene::CheckWorldRadius(frame.Scene->Mesh.GetMesh()->GetRadius() *
+    tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest);
   tetralux::RayLimits limits = frame.MakeLimits(rays);
   std::vector<float> opaqueDistances;
   if (frame.HasOpaqueGeometry())

@@ -149,7 +149,8 @@ TETRALUX_INLINE Float8 LoadCell(const KernelInput& in, V z0, V z1, Int8 cell, Fl
   Float8 attenuation;
   GatherRows(
     reinterpret_cast<const float*>(in.CellValues), cell, attenuation, color[0], color[1], color[2]);
-  return Min(attenuation * ToFloat(z1 - z0), Float8(static_cast<float>(LargestSingleDepth)));
+  // In this order a length that is not a number stays one, and contributes nothing.
+  return Min(Float8(static_cast<float>(LargestSingleDepth)), attenuation * ToFloat(z1 - z0));
 }
 
 /// A model that integrates pieces. Derived has

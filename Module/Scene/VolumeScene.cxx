@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <type_traits>
 
@@ -24,11 +25,29 @@ constexpr double MinimumTransparentShare = 0.1;
 constexpr double EntryCost = 4;
 
 /// World radii of meshes for which single precision does: distances inside keep all their digits,
-/// as do their products with attenuations that make them visible.
-constexpr double SmallestSingleRadius = 1e-30;
-constexpr double LargestSingleRadius = 1e30;
+/// as do the attenuations that make them visible, their inverses.
+constexpr double SmallestSingleRadius = 1e-31;
+constexpr double LargestSingleRadius = 1e31;
+
+bool IsInSingleRange(double worldRadius)
+{
+  return SmallestSingleRadius <= worldRadius && worldRadius <= LargestSingleRadius;
+}
 
 } // namespace
+
+void VolumeScene::CheckWorldRadius(double worldRadius)
+{
+  if (!IsInSingleRange(worldRadius))
+  {
+    std::ostringstream message;
+    message << "the mesh is too small or too large for single precision, in which attenuations are "
+               "kept: its radius is "
+            << worldRadius << " world units, and " << SmallestSingleRadius << " to "
+            << LargestSingleRadius << " can be rendered";
+    throw std::invalid_argument(message.str());
+  }
+}
 
 void VolumeScene::CheckComplete() const
 {
@@ -248,7 +267,7 @@ void VolumeScene::PrepareVisibleTables()
 
 double VolumeScene::EstimateGeometryError(double worldRadius, const GeometryRounding& rounding)
 {
-  if (!(SmallestSingleRadius <= worldRadius && worldRadius <= LargestSingleRadius))
+  if (!IsInSingleRange(worldRadius))
   {
     return std::numeric_limits<double>::infinity();
   }

@@ -91,6 +91,10 @@ public:
   std::uint64_t GetVisibleTablesVersion() const { return this->VisibleTopology.GetVersion(); }
   ///@}
 
+  /// Throws std::invalid_argument, with one line, if a mesh of that radius, world units, is so
+  /// small or so large that attenuations which make it visible leave the range of single precision.
+  static void CheckWorldRadius(double worldRadius);
+
   /// Estimated error of a channel by rounding coordinates and scalars, see GeometryError.h; of
   /// isosurfaces 0. Infinite if the mesh is so small or so large that distances in it leave the
   /// range of single precision. worldRadius: of the mesh, world units. Measured once for what it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuIntegral/GpuLighting.h"
 
+#include "GpuIntegral/RayGridUniforms.h"
 #include "LightingDec.h"
 
 #include "vtkMatrix3x3.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace tetralux
@@ -27,6 +29,13 @@ Vector Transform(const double worldFromMesh[9], const Vector& x)
     result[a] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2];
   }
   return result;
+}
+
+/// The nearest number that is not infinite.
+float ToSingle(double x)
+{
+  constexpr double Largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -Largest, Largest));
 }
 
 } // namespace
@@ -52,13 +61,14 @@ void GpuLighting::Update(const std::vector<Light>& lights, const Material& surfa
   }
   double worldFromMesh[9];
   vtkMatrix3x3::Invert(meshFromWorld, worldFromMesh);
+  const double unit = GetRayLengthUnit(grid, radius);
   const Vector worldCenter = Transform(worldFromMesh, offset);
   for (int row = 0; row < 3; ++row)
   {
     for (int column = 0; column < 3; ++column)
     {
       this->WorldFromRay[3 * column + row] =
-        static_cast<float>(radius * worldFromMesh[3 * row + column]);
+        static_cast<float>(radius / unit * worldFromMesh[3 * row + column]);
       // Gradients are transformed by the transposed inverse.
       this->NormalFromMesh[3 * column + row] =
         static_cast<float>(meshFromWorld[3 * column + row] / largest);
@@ -80,12 +90,14 @@ void GpuLighting::Update(const std::vector<Light>& lights, const Material& surfa
   for (const Light& light : lights)
   {
     Vector4 position, cone, falloff;
+    double power = 1; // of the unit
     for (int a = 0; a < 3; ++a)
     {
-      position[a] =
-        static_cast<float>(light.Position[a] - (light.Positional ? worldCenter[a] : 0.));
+      position[a] = ToSingle(
+        light.Positional ? (light.Position[a] - worldCenter[a]) / unit : light.Position[a]);
       cone[a] = static_cast<float>(light.Axis[a]);
-      falloff[a] = static_cast<float>(light.Attenuation[a]);
+      falloff[a] = ToSingle(power * light.Attenuation[a]);
+      power *= unit;
     }
     position[3] = light.Positional ? 1.f : 0.f;
     cone[3] = static_cast<float>(light.ConeCosine);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What lights make of a colour, as FindLight of SurfaceShading.h: ambient and diffuse light times
-// the colour, and Blinn's specular light, in the world. Points and directions are those of rays, in
-// radii of the mesh from its centre; gradients are in coordinates of the mesh, of any length.
+// the colour, and Blinn's specular light, in the world, whose lengths are in units of rays. Points
+// and directions are those of rays, in radii of the mesh from its centre; gradients are in
+// coordinates of the mesh, of any length.
 // NUMBER_OF_LIGHTS is how many lights there are.
 
-uniform mat3 worldFromRay;  // world lengths from the centre of the mesh
+uniform mat3 worldFromRay;   // from the centre of the mesh
 uniform mat3 normalFromMesh; // of the world, times any factor
 uniform float specularPower;
 #if NUMBER_OF_LIGHTS > 0
@@ -35,7 +36,7 @@ vec3 FindNormal(vec3 gradient, vec3 direction)
   return dot(normal, direction) > 0.0 ? -normalize(normal) : normalize(normal);
 }
 
-// point: where; direction: the change of a ray's point for one world unit.
+// point: where; direction: the change of a ray's point for one unit.
 LightFactors FindLight(vec3 point, vec3 gradient, vec3 direction)
 {
   LightFactors factors = LightFactors(vec3(0.0), vec3(0.0));

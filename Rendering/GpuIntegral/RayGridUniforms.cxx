@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuIntegral/RayGridUniforms.h"
 
+#include "View/MeshToWorld.h"
+
 #include "vtkShaderProgram.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace tetralux
 {
@@ -48,11 +52,22 @@ struct PixelVectors
   }
 };
 
+/// Squares of directions, in radii of the mesh for a unit, from which single precision can divide.
+constexpr double SmallestSquare = 1e-30;
+constexpr double LargestSquare = 1e30;
+
 } // namespace
+
+double GetRayLengthUnit(const RayGrid& grid, double radius)
+{
+  return std::exp2(std::ilogb(radius * MeasureMeshToWorld(grid.MeshFromWorld).Largest));
+}
 
 RayGridUniforms::RayGridUniforms(
   const RayGrid& grid, const RayLimits& limits, const double center[3], double radius)
 {
+  const double unit = GetRayLengthUnit(grid, radius);
+  this->LengthUnit = static_cast<float>(unit);
   const double middle[2] = { 0.5 * (grid.Width - 1), 0.5 * (grid.Height - 1) };
   this->Middle[0] = static_cast<float>(0.5 * grid.Width);
   this->Middle[1] = static_cast<float>(0.5 * grid.Height);
@@ -78,9 +93,11 @@ RayGridUniforms::RayGridUniforms(
       v[a] = (row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + offset) / radius;
     }
   };
-  transform(direction.Middle, false);
-  transform(direction.X, false);
-  transform(direction.Y, false);
+  for (Vector* v : { &direction.Middle, &direction.X, &direction.Y })
+  {
+    transform(*v, false);
+    *v = { unit * (*v)[0], unit * (*v)[1], unit * (*v)[2] };
+  }
   transform(point.Middle, true);
   transform(point.X, false);
   transform(point.Y, false);
@@ -91,25 +108,50 @@ RayGridUniforms::RayGridUniforms(
   point.Middle = Add(point.Middle, time, direction.Middle);
   point.X = Add(point.X, time, direction.X);
   point.Y = Add(point.Y, time, direction.Y);
-  worldPoint.Middle = Add(worldPoint.Middle, time, world.Middle);
-  worldPoint.X = Add(worldPoint.X, time, world.X);
-  worldPoint.Y = Add(worldPoint.Y, time, world.Y);
+  worldPoint.Middle = Add(worldPoint.Middle, unit * time, world.Middle);
+  worldPoint.X = Add(worldPoint.X, unit * time, world.X);
+  worldPoint.Y = Add(worldPoint.Y, unit * time, world.Y);
   point.Store(this->Points);
   direction.Store(this->Directions);
   world.Store(this->WorldDirections);
 
   for (const auto& plane : limits.Planes)
   {
-    const Vector normal = { plane[0], plane[1], plane[2] };
+    // A plane may be given by numbers of any size.
+    const double scale = 1 / std::hypot(plane[0], plane[1], plane[2]);
+    const Vector normal = { scale * plane[0], scale * plane[1], scale * plane[2] };
     const auto add = [](std::vector<float>& out, double a, double b, double c)
     {
       out.push_back(static_cast<float>(a));
       out.push_back(static_cast<float>(b));
       out.push_back(static_cast<float>(c));
     };
-    add(this->PlaneHeights, Dot(normal, worldPoint.Middle) + plane[3], Dot(normal, worldPoint.X),
-      Dot(normal, worldPoint.Y));
+    add(this->PlaneHeights, (Dot(normal, worldPoint.Middle) + scale * plane[3]) / unit,
+      Dot(normal, worldPoint.X) / unit, Dot(normal, worldPoint.Y) / unit);
     add(this->PlaneSlopes, Dot(normal, world.Middle), Dot(normal, world.X), Dot(normal, world.Y));
+  }
+  this->CheckRange();
+}
+
+void RayGridUniforms::CheckRange() const
+{
+  const auto areFinite = [](const float(&vectors)[3][3])
+  {
+    return std::all_of(
+      &vectors[0][0], &vectors[0][0] + 9, [](float x) { return std::isfinite(x); });
+  };
+  double squared = 0;
+  for (const float x : this->Directions[0])
+  {
+    squared += static_cast<double>(x) * x;
+  }
+  if (!areFinite(this->Points) || !areFinite(this->Directions) ||
+    !areFinite(this->WorldDirections) || !std::isfinite(this->Time) ||
+    !(SmallestSquare <= squared && squared <= LargestSquare))
+  {
+    throw std::invalid_argument(
+      "the rays of the picture are beyond the single precision of a graphics card: the camera is "
+      "too far from the mesh, or a scale of the volume is too different from the others");
   }
 }
 
@@ -125,6 +167,7 @@ void RayGridUniforms::Set(vtkShaderProgram* program) const
   program->SetUniform3fv("rayDirections", 3, this->Directions);
   program->SetUniform3fv("rayWorldDirections", 3, this->WorldDirections);
   program->SetUniformf("rayTime", this->Time);
+  program->SetUniformf("rayLengthUnit", this->LengthUnit);
   const int planes = static_cast<int>(this->PlaneHeights.size() / 3);
   if (planes > 0)
   {

@@ -291,9 +291,11 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
         shader.Segment =
           this->Rays->GetDefines() + RayGridDec + this->Lighting.GetDeclarations() + shader.Segment;
         shader.Output = "Ray ray = GetRay(gl_FragCoord.xy);\n"
-                        "  vec3 point = ray.Point + (begin - ray.Distance) * ray.Direction;\n"
+                        "  vec3 point = ray.Point + (begin / rayLengthUnit - ray.Distance) * "
+                        "ray.Direction;\n"
                         "  return IntegrateShadedSegment(front, back, len, frontGradient, "
-                        "backGradient, point, point + len * ray.Direction, ray.Direction);";
+                        "backGradient, point, point + len / rayLengthUnit * ray.Direction, "
+                        "ray.Direction);";
       }
       else
       {

@@ -2,15 +2,14 @@
 // Where a ray comes in through a boundary face, by the same signs as the walk. Needs
 // RayFrameDec.glsl.
 //
-// DIRECTED: only faces through which rays come in count; else each ray asks once, and the nearest
-// crossing is the right one.
+// DIRECTED: only faces through which rays come in count; else all that rays cross, and the points
+// of each ascend.
 
 uniform isamplerBuffer boundaryEntries; // WalkTexels::Entries
 
-// Whether the ray comes in through a boundary face, and at which distance.
-bool TestEntry(RayFrame frame, int entry, out float distance)
+// Whether the ray comes in through a boundary face of three points, and at which distance.
+bool TestFace(RayFrame frame, ivec3 ids, out float distance)
 {
-  ivec3 ids = texelFetch(boundaryEntries, entry).xyz;
   Corner a = LoadCorner(frame, ids.x);
   Corner b = LoadCorner(frame, ids.y);
   Corner c = LoadCorner(frame, ids.z);
@@ -27,4 +26,15 @@ bool TestEntry(RayFrame frame, int entry, out float distance)
 #else
   return p == q && q == r;
 #endif
+}
+
+bool TestEntry(RayFrame frame, int entry, out float distance)
+{
+  return TestFace(frame, texelFetch(boundaryEntries, entry).xyz, distance);
+}
+
+// The order of crossings at one distance: by the index of the face.
+int GetFaceOfEntry(int entry)
+{
+  return texelFetch(boundaryEntries, entry).w;
 }

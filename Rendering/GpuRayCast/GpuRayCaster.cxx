@@ -261,8 +261,8 @@ private:
 
   std::vector<std::string> GetEntryDefines() const
   {
-    return this->MayEnterAgain() ? std::vector<std::string>{ "DIRECTED" }
-                                 : std::vector<std::string>();
+    return this->MayEnterAgain() && this->Options.Oriented ? std::vector<std::string>{ "DIRECTED" }
+                                                           : std::vector<std::string>();
   }
 
   std::string GetLighting() const
@@ -284,10 +284,11 @@ private:
     define(this->Options.LargestScalar, "GATHER_LARGEST");
     define(this->Options.Reentry == GpuReentry::Imaginary, "IMAGINARY_CELLS");
     define(this->MayEnterAgain(), "REENTRY");
+    define(this->MayEnterAgain() && !this->Options.Oriented, "PAIRED");
     const bool lit = this->Options.Lighting != nullptr;
     define(lit, "LIT");
     define(lit && this->Options.SmoothGradients, "SMOOTH_GRADIENTS");
-    define(lit && this->Integral.GetIntegrator() == Integrator::Isosurfaces, "ISOSURFACES");
+    define(this->Integral.GetIntegrator() == Integrator::Isosurfaces, "ISOSURFACES");
     return names;
   }
 

@@ -35,13 +35,15 @@ enum class GpuReentry
 struct GpuRayCastOptions
 {
   GpuReentry Reentry = GpuReentry::Boundary;
+  /// Whether the boundary's faces tell rays that come in from those that leave, see OrientCells.
+  bool Oriented = true;
   std::int32_t NumberOfCells = 0; ///< that are not imaginary
   bool CellData = false;
   bool LargestScalar = false;            ///< look for the largest scalar, instead of compositing
   const GpuLighting* Lighting = nullptr; ///< nullptr: nothing is lit
   bool SmoothGradients = false;          ///< light by gradients of points, see WalkTextures
   /// Entries are found by drawing the boundary, layer after layer, with this projection; nullptr:
-  /// by the hierarchy. It has to be regular.
+  /// by the hierarchy. It has to be regular, and the faces oriented.
   const PixelProjection* Layers = nullptr;
   float MaximumOpacity = 1; ///< a ray that is this opaque is done; more than 1: never
   int StepsPerPass = 1;

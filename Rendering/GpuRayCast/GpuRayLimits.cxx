@@ -11,6 +11,7 @@
 #include "vtkTextureObject.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tetralux
 {
@@ -20,10 +21,10 @@ namespace
 /// The most parts that six cropping planes can leave of a ray.
 constexpr int MostParts = 4;
 
-/// Homogeneous coordinates relative to a position in the world, in the coordinates of rays: radii
-/// of the mesh from its centre.
+/// Homogeneous coordinates relative to a position in the world, times a factor, in the coordinates
+/// of rays: radii of the mesh from its centre.
 void TransformPoint(const RayGrid& grid, const double position[3], const double center[3],
-  double radius, const double point[4], float result[4])
+  double radius, double factor, const double point[4], float result[4])
 {
   for (int a = 0; a < 3; ++a)
   {
@@ -32,9 +33,9 @@ void TransformPoint(const RayGrid& grid, const double position[3], const double 
       row[0] * position[0] + row[1] * position[1] + row[2] * position[2] + row[3] - center[a];
     const double sum =
       row[0] * point[0] + row[1] * point[1] + row[2] * point[2] + origin * point[3];
-    result[a] = static_cast<float>(sum / radius);
+    result[a] = static_cast<float>(factor * sum / radius);
   }
-  result[3] = static_cast<float>(point[3]);
+  result[3] = static_cast<float>(factor * point[3]);
 }
 
 } // namespace
@@ -61,11 +62,14 @@ void GpuRayLimits::Update(vtkOpenGLRenderWindow* window, const CameraRays& rays,
       places.Farthest[c] += 0.5 * (grid.Width - 1) * places.FarthestStepX[c] +
         0.5 * (grid.Height - 1) * places.FarthestStepY[c];
     }
-    const double* position = rays.GetPosition();
-    TransformPoint(grid, position, center, radius, places.Farthest, this->OpaqueFar[0]);
-    TransformPoint(grid, position, center, radius, places.FarthestStepX, this->OpaqueFar[1]);
-    TransformPoint(grid, position, center, radius, places.FarthestStepY, this->OpaqueFar[2]);
-    TransformPoint(grid, position, center, radius, places.Nearer, this->OpaqueNearer);
+    // Made so that the last coordinate is about 1: in any unit of the world, all are in range.
+    const double factor = 1 / std::max(std::abs(places.Farthest[3]), std::abs(places.Nearer[3]));
+    const auto transform = [&](const double point[4], float result[4])
+    { TransformPoint(grid, rays.GetPosition(), center, radius, factor, point, result); };
+    transform(places.Farthest, this->OpaqueFar[0]);
+    transform(places.FarthestStepX, this->OpaqueFar[1]);
+    transform(places.FarthestStepY, this->OpaqueFar[2]);
+    transform(places.Nearer, this->OpaqueNearer);
   }
   this->Cropping = limits.Cropping;
   for (int a = 0; a < 3; ++a)

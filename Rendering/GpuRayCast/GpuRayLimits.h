@@ -30,10 +30,10 @@ class CameraRays;
 ///
 ///   vec2 GetRayPart(Ray ray, vec2 pixel, int part)
 ///
-/// the world distances from the ray's point between which the part of that number is, of
-/// NUMBER_OF_PARTS; begin above end where there is none. Parts do not overlap and go front to back.
-/// They are single precision: within 1e-6 of the distances' size (of the mesh's radius, where a
-/// camera is not within a thousandth of it from the edge of a plane).
+/// the distances from the ray's point, in units of GetRayLengthUnit, between which the part of that
+/// number is, of NUMBER_OF_PARTS; begin above end where there is none. Parts do not overlap and go
+/// front to back. They are single precision: within 1e-6 of the distances' size (of the mesh's
+/// radius, where a camera is not within a thousandth of it from the edge of a plane).
 class TETRALUXRENDERING_EXPORT GpuRayLimits
 {
 public:
@@ -43,7 +43,7 @@ public:
   /// For one frame. grid: the rays, with MeshFromWorld. center and radius: see WalkMesh. limits: as
   /// rays of the CPU have them; MaximumDistances is not read, but where opaque is true what lies
   /// behind the depth buffer that is bound for drawing is left out. Throws std::runtime_error, as
-  /// OpaqueDepth does.
+  /// OpaqueDepth does, and std::invalid_argument, as RayGridUniforms does.
   void Update(vtkOpenGLRenderWindow* window, const CameraRays& rays, const RayGrid& grid,
     const RayLimits& limits, bool opaque, const double center[3], double radius);
 

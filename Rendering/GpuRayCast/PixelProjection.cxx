@@ -26,16 +26,19 @@ PixelProjection::PixelProjection(const RayGrid& grid, const double center[3], do
   // A point less the origin is i stepX + j stepY + direction, times any number in a perspective, or
   // with any multiple of the direction in a parallel projection.
   double columns[3][3];
+  // Directions of any length: only their ratios matter.
+  const double size = std::hypot(grid.Direction[0], grid.Direction[1], grid.Direction[2]);
+  const double ofStep = perspective ? size : radius;
   double origin[3];
   for (int a = 0; a < 3; ++a)
   {
     const double* row = grid.MeshFromWorld[a];
-    const auto turn = [row, radius](const double* v)
-    { return (row[0] * v[0] + row[1] * v[1] + row[2] * v[2]) / radius; };
-    columns[a][0] = turn(stepX);
-    columns[a][1] = turn(stepY);
-    columns[a][2] = turn(grid.Direction);
-    origin[a] = turn(grid.Origin) + (row[3] - center[a]) / radius;
+    const auto turn = [row](const double* v, double unit)
+    { return (row[0] * v[0] + row[1] * v[1] + row[2] * v[2]) / unit; };
+    columns[a][0] = turn(stepX, ofStep);
+    columns[a][1] = turn(stepY, ofStep);
+    columns[a][2] = turn(grid.Direction, size);
+    origin[a] = turn(grid.Origin, radius) + (row[3] - center[a]) / radius;
   }
   double inverse[3][3];
   vtkMath::Invert3x3(columns, inverse);

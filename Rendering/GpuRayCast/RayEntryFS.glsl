@@ -108,10 +108,12 @@ void main()
         for (int entry = link.y >> 3; entry < (link.y >> 3) + (link.y & 7); ++entry)
         {
           float distance;
-          // In the order of distances, and of entries where they are the same.
+          // In the order of distances, and of faces where they are the same.
           if (TestEntry(frame, entry, distance) && entry != last &&
-            (distance > lastDistance || (distance == lastDistance && entry > last)) &&
-            (distance < nearest || (distance == nearest && entry < next)))
+            (distance > lastDistance ||
+              (distance == lastDistance && GetFaceOfEntry(entry) > GetFaceOfEntry(last))) &&
+            (distance < nearest ||
+              (distance == nearest && GetFaceOfEntry(entry) < GetFaceOfEntry(next))))
           {
             nearest = distance;
             next = entry;

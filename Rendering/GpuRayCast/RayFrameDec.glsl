@@ -32,13 +32,13 @@ const float HalfScale = 4096.0;
 struct RayFrame
 {
   vec4 Across[2]; // a grid coordinate is Across . (point, 1)
-  vec3 Along;     // Along . point: world distance from the point of the ray nearest to the centre
-  float Start;    // world distance from where the ray starts to that point
+  vec3 Along;     // Along . point: distance from the point of the ray nearest to the centre, units
+  float Start;    // distance from where the ray starts to that point, units
 };
 
 RayFrame MakeRayFrame(Ray ray)
 {
-  // Direction: the change for one world unit along the ray.
+  // Direction: the change for one unit along the ray.
   SAME_EVERYWHERE float squared = dot(ray.Direction, ray.Direction);
   SAME_EVERYWHERE float nearest = -dot(ray.Direction, ray.Point) / squared;
   SAME_EVERYWHERE vec3 point = ray.Point + nearest * ray.Direction;

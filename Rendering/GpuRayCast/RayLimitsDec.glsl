@@ -13,7 +13,7 @@ uniform vec4 opaqueFar[3];       // homogeneous coordinates of what pixels show 
                                  // middle of the picture, and the changes for a pixel right and up
 uniform vec4 opaqueNearer;       // their change for a depth of one less
 
-// World distance from the ray's point to the opaque geometry that its pixel shows.
+// Distance in units from the ray's point to the opaque geometry that its pixel shows.
 float GetOpaqueDistance(Ray ray, vec2 pixel)
 {
   float depth = texelFetch(opaqueDepth, ivec2(pixel * opaquePixels), 0).x;
@@ -30,7 +30,7 @@ float GetOpaqueDistance(Ray ray, vec2 pixel)
 uniform vec3 croppingPlanes[2]; // lower and upper ones, in the coordinates of the ray
 uniform int croppingFlags;      // bit x + 3 y + 9 z keeps a region, as in vtkVolumeMapper
 
-// World distances to where the ray crosses planes across the axes.
+// Distances in units to where the ray crosses planes across the axes.
 vec3 GetCrossings(Ray ray, vec3 planes)
 {
   bvec3 parallel = equal(ray.Direction, vec3(0.0));
@@ -82,8 +82,8 @@ vec2 CropRay(Ray ray, vec2 limits, int part)
 }
 #endif
 
-// World distances from the ray's point between which a part of it is, 0..NUMBER_OF_PARTS - 1, front
-// to back; the first is larger than the second where there is none.
+// Distances in units from the ray's point between which a part of it is, 0..NUMBER_OF_PARTS - 1,
+// front to back; the first is larger than the second where there is none.
 vec2 GetRayPart(Ray ray, vec2 pixel, int part)
 {
   vec2 limits = LimitRay(ray, pixel);

@@ -47,5 +47,5 @@ void main()
 #endif
   RayFrame frame = MakeRayFrame(GetRay(gl_FragCoord.xy));
   fragOutput0 = color;
-  fragOutput1 = vec2(any ? frame.Start + distance : -1.0, float(steps));
+  fragOutput1 = vec2(any ? (frame.Start + distance) * rayLengthUnit : -1.0, float(steps));
 }

@@ -12,17 +12,22 @@
 // CELL_DATA: scalars are constant in each cell. GATHER_LARGEST: the largest scalar along the ray is
 // looked for; else segments are composited. IMAGINARY_CELLS: cells from numberOfCells on fill the
 // space between the mesh and its hull and contribute nothing. REENTRY: a ray that left the mesh may
-// come in again. LIT: lights shine on segments, by the gradients of cells or, SMOOTH_GRADIENTS, of
-// points; of isosurfaces, ISOSURFACES, only where there is one.
+// come in again. PAIRED: faces have no direction in which they are crossed. The crossings of a ray
+// still come in pairs, the ends of walks: a crossing is an entry where the walk from it ends behind
+// it. So rays that come in again walk twice: first to tell, then to gather. ISOSURFACES: surfaces
+// of constant scalar are looked for. LIT: lights shine on segments, by the gradients of cells or,
+// SMOOTH_GRADIENTS, of points; of isosurfaces only where there is one.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
 //VTK::RayFrame::Dec
+//VTK::BoundaryEntry::Dec
 //VTK::Lighting::Dec
 //VTK::RayIntegral::Dec
 
 // What rays have come to. States: points of the triangle, and index of the face that is crossed
-// next, or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps.
+// next, or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps,
+// whether the walk is to tell only.
 // Colors: gathered so far, or the largest scalar. Firsts: of the first segment that contributed the
 // distances of its ends from the point nearest to the centre, and the scalars there; or the
 // distance of the largest scalar.
@@ -34,7 +39,6 @@ uniform sampler2D rayFirsts;
 uniform isampler2D nextEntries; // of rays that need one; -1: there is none
 
 uniform isamplerBuffer walkFaces;
-uniform isamplerBuffer boundaryEntries;
 uniform int numberOfCells;
 uniform int stepsOfPass;
 uniform float maximumOpacity; // a ray that is this opaque ends
@@ -53,6 +57,13 @@ void Interpolate(vec3 weights, Corner a, Corner b, Corner c, out float along, ou
   along = a.Along + shares.x * (b.Along - a.Along) + shares.y * (c.Along - a.Along);
   scalar = a.Scalar + shares.x * (b.Scalar - a.Scalar) + shares.y * (c.Scalar - a.Scalar);
 }
+
+#ifdef ISOSURFACES
+// Next to a vertex or an edge a ray passes several faces at nearly one distance, and rounding makes
+// the scalar go back and forth there. Cells are joined to a segment of at least this length, so
+// that a surface through a vertex is crossed once: units, sixteen grid points across.
+const float JoinedLength = 3.814697265625e-06; // 2^-18
+#endif
 
 #ifdef LIT
 #ifdef SMOOTH_GRADIENTS
@@ -82,11 +93,25 @@ vec3 FindCellGradient(ivec3 ids, int point)
 #endif
 #endif
 
+#ifdef PAIRED
+// Whether the walk from an entry ended behind it, at a face of the points.
+bool EndsBehind(RayFrame frame, int entry, ivec3 ids, int face)
+{
+  int low = min(ids.x, min(ids.y, ids.z));
+  int high = max(ids.x, max(ids.y, ids.z));
+  float begin;
+  float end;
+  TestEntry(frame, entry, begin);
+  TestFace(frame, ivec3(low, ids.x + ids.y + ids.z - low - high, high), end);
+  return end > begin || (end == begin && face > GetFaceOfEntry(entry));
+}
+#endif
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   ivec4 state = texelFetch(rayStates, pixel, 0);
-  ivec3 entry = texelFetch(rayEntries, pixel, 0).xyz;
+  ivec4 entry = texelFetch(rayEntries, pixel, 0);
   vec4 gathered = texelFetch(rayColors, pixel, 0);
   vec4 first = texelFetch(rayFirsts, pixel, 0);
 
@@ -97,9 +122,17 @@ void main()
   {
     int next = texelFetch(nextEntries, pixel, 0).x;
     walking = next >= 0;
+#ifdef PAIRED
+    entry.w = entry.x >= 0 ? 1 : 0; // the nearest crossing of all is an entry
+#endif
     entry.x = next;
     state = walking ? texelFetch(boundaryEntries, next) : ivec4(0);
   }
+#ifdef PAIRED
+  bool tells = entry.w == 1;
+#else
+  const bool tells = false;
+#endif
   vec2 limits = GetRayPart(ray, gl_FragCoord.xy, entry.y) - (frame.Start - ray.Distance);
 
   // The triangle. Weights of the corners are areas across, and not normalized.
@@ -132,7 +165,14 @@ void main()
   walking = walking && along <= limits.y;
   bool partEnded = !walking;
 
+#ifdef ISOSURFACES
+  bool joins = false; // the last cells to the next one
+  float joinedAlong = 0.0;
+  float joinedScalar = 0.0;
+  for (; walking && (steps < stepsOfPass || joins); ++steps)
+#else
   for (; walking && steps < stepsOfPass; ++steps)
+#endif
   {
     // To the face that the fourth point makes with two of the triangle's.
     Corner p = LoadCorner(frame, behind.y);
@@ -174,6 +214,22 @@ void main()
     float along0 = along;
     float scalar0 = scalar;
     Interpolate(weights, a, b, c, along, scalar);
+#ifdef IMAGINARY_CELLS
+    bool real = cellBefore < numberOfCells;
+    bool leaves = cell < 0 || cell >= numberOfCells;
+#else
+    bool real = true;
+    bool leaves = cell < 0;
+#endif
+    real = real && !tells;
+#ifdef ISOSURFACES
+    along0 = joins ? joinedAlong : along0;
+    scalar0 = joins ? joinedScalar : scalar0;
+    joins = real && !leaves && along < limits.y && abs(along - along0) < JoinedLength;
+    joinedAlong = along0;
+    joinedScalar = scalar0;
+    real = real && !joins;
+#endif
 
     // An inverted cell among others is walked from its far side to its near one; it is seen as any
     // other cell. What the limits cut is left out, by shares of the cell: a slope may overflow.
@@ -187,11 +243,6 @@ void main()
     float scalarChange = (toScalar - fromScalar) / (far - near);
     toScalar = to < far ? fromScalar + (to - near) * scalarChange : toScalar;
     fromScalar = near < from ? fromScalar + (from - near) * scalarChange : fromScalar;
-#ifdef IMAGINARY_CELLS
-    bool real = cellBefore < numberOfCells;
-#else
-    bool real = true;
-#endif
     if (real && from <= to)
     {
 #ifdef GATHER_LARGEST
@@ -210,7 +261,7 @@ void main()
       }
 #else
 #ifdef CELL_DATA
-      vec4 segment = IntegrateCell(cellBefore, to - from);
+      vec4 segment = IntegrateCell(cellBefore, (to - from) * rayLengthUnit);
 #else
 #ifdef LIT
       vec4 segment = vec4(0.0);
@@ -237,12 +288,12 @@ void main()
         vec3 toGradient = fromGradient;
 #endif
         float nearest = frame.Start - ray.Distance;
-        segment = IntegrateShadedSegment(fromScalar, toScalar, to - from, fromGradient, toGradient,
-          ray.Point + (nearest + from) * ray.Direction, ray.Point + (nearest + to) * ray.Direction,
-          ray.Direction);
+        segment = IntegrateShadedSegment(fromScalar, toScalar, (to - from) * rayLengthUnit,
+          fromGradient, toGradient, ray.Point + (nearest + from) * ray.Direction,
+          ray.Point + (nearest + to) * ray.Direction, ray.Direction);
       }
 #else
-      vec4 segment = IntegrateSegment(fromScalar, toScalar, to - from);
+      vec4 segment = IntegrateSegment(fromScalar, toScalar, (to - from) * rayLengthUnit);
 #endif
 #endif
       gathered += (1.0 - gathered.a) * segment;
@@ -253,31 +304,39 @@ void main()
     }
 
     outside = cell < 0;
-    walking = !outside && along < limits.y && gathered.a < maximumOpacity;
+    walking = !outside && (tells || along < limits.y) && gathered.a < maximumOpacity;
   }
 
   // Where the part of the ray ends, the next one begins anew: by the first entry into the mesh.
-  partEnded = partEnded || along >= limits.y || gathered.a >= maximumOpacity;
+  partEnded = partEnded || (!tells && along >= limits.y) || gathered.a >= maximumOpacity;
 #ifdef REENTRY
-  bool leaves = false;
+  bool ended = false;
 #else
-  bool leaves = outside;
+  bool ended = outside;
 #endif
   if (gathered.a >= maximumOpacity)
   {
     state.w = RayIsDone;
   }
-  else if (partEnded || leaves)
+  else if (partEnded || ended)
   {
     state.w = entry.y + 1 < NUMBER_OF_PARTS ? RayNeedsEntry : RayIsDone;
-    entry.xy = ivec2(-1, entry.y + 1);
+    entry = ivec4(-1, entry.y + 1, entry.z, 0);
   }
   else
   {
     state = ivec4(a.Id, b.Id, c.Id, outside ? RayNeedsEntry : face);
+#ifdef PAIRED
+    if (tells && outside)
+    {
+      entry.w = 0;
+      state =
+        EndsBehind(frame, entry.x, state.xyz, face) ? texelFetch(boundaryEntries, entry.x) : state;
+    }
+#endif
   }
   fragOutput0 = state;
-  fragOutput1 = ivec4(entry.xy, entry.z + steps, 0);
+  fragOutput1 = ivec4(entry.xy, entry.z + steps, entry.w);
   fragOutput2 = gathered;
   fragOutput3 = first;
 }

@@ -7,9 +7,12 @@ import pty
 import re
 import unittest
 
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkIOImage import vtkPNGReader
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLUnstructuredGridReader
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataReader, vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter,
+)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 import numpy
 
@@ -199,6 +202,39 @@ class Commands(ToolTest):
         )
         turned, _ = self.read_vti("out.vti")
         self.assertLess(abs(turned[::-1, ::-1] - upright).max(), 1e-3)
+
+    def write_scaled(self, name, scale):
+        """The ball in another unit of length, as scaled.vtu."""
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(self.path(name))
+        reader.Update()
+        grid = reader.GetOutput()
+        coordinates = vtk_to_numpy(grid.GetPoints().GetData()).astype(float) * scale
+        points = vtkPoints()
+        points.SetData(numpy_to_vtk(coordinates, deep=True))
+        grid.SetPoints(points)
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputData(grid)
+        writer.SetFileName(self.path("scaled.vtu"))
+        writer.Write()
+
+    def test_any_unit_of_length(self):
+        self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")
+        view = ["--size", "40,30", "--output", "out.vti"]
+        for method in ("ray-cast", "gpu-ray-cast", "projection"):
+            self.succeed("render", "ball.vtu", "--method", method, *view)
+            expected, _ = self.read_vti("out.vti")
+            for scale in (1e-30, 1e-20, 1e-12, 1e12, 1e15, 3.1e21, 1e30):
+                self.write_scaled("ball.vtu", scale)
+                self.succeed("render", "scaled.vtu", "--method", method, *view)
+                colors, _ = self.read_vti("out.vti")
+                self.assertLess(abs(colors - expected).max(), 2e-4, f"{method} {scale}")
+                os.remove(self.path("out.vti"))
+            # Beyond single precision there is an error instead of an empty picture.
+            self.write_scaled("ball.vtu", 1e33)
+            self.expect_failure(
+                1, "render", "scaled.vtu", "--method", method, *view, says="too large"
+            )
 
     def test_progress_on_a_terminal_only(self):
         process, terminal = pty.fork()

@@ -8,9 +8,11 @@
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -124,8 +126,14 @@ void RayCastScene::SetCamera(const Vector& position, const Vector& focalPoint, c
   this->NearDistance = nearDistance * this->Size;
   this->FarDistance = farDistance * this->Size;
   vtkCamera* camera = this->Renderer->GetActiveCamera();
+  // Only its direction counts, and vtkCamera moves a focal point that is nearer than 1e-20.
+  Vector direction;
+  vtkMath::Subtract(this->FocalPoint.data(), this->Position.data(), direction.data());
+  const double length = std::hypot(direction[0], direction[1], direction[2]);
+  const double factor = std::max(1., 1e-19 / length);
   camera->SetPosition(this->Position.data());
-  camera->SetFocalPoint(this->FocalPoint.data());
+  camera->SetFocalPoint(this->Position[0] + factor * direction[0],
+    this->Position[1] + factor * direction[1], this->Position[2] + factor * direction[2]);
   camera->SetViewUp(viewUp.data());
   camera->SetViewAngle(this->ViewAngle);
   camera->SetParallelProjection(this->Parallel);

@@ -16,6 +16,7 @@
 #include "vtkContourValues.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
+#include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
@@ -203,6 +204,56 @@ TEST(GPURayCastMapper, InvertedAndOverlappingCells)
   GPUScene scene;
   scene.SetMesh(tetralux::MakeBox(6, 5, 4, { 0, 0, 0 }, { 1, 1, 1 }, 0.6, 3));
   scene.ExpectProcessorsPicture(20);
+}
+
+// A ring of cells that comes back mirrored: no orientation tells where rays come in.
+TEST(GPURayCastMapper, CellsThatCannotBeOriented)
+{
+  // Consecutive points make a cell; the last three are the first three in another order.
+  tetralux::TetrahedralMesh mesh;
+  constexpr int Length = 30;
+  std::vector<std::int32_t> strip;
+  for (int p = 0; p < Length; ++p)
+  {
+    const double angle = 2 * vtkMath::Pi() * p / Length;
+    const double turn = 3.1 * p;
+    const double radius = 0.6 + 0.25 * std::cos(turn);
+    mesh.Points.insert(mesh.Points.end(),
+      { radius * std::cos(angle), radius * std::sin(angle), 0.25 * std::sin(turn) });
+    strip.push_back(p);
+  }
+  strip.insert(strip.end(), { 0, 2, 1 });
+  for (int p = 0; p < Length; ++p)
+  {
+    mesh.Cells.insert(mesh.Cells.end(), &strip[p], &strip[p] + 4);
+  }
+  GPUScene scene(200, 150);
+  scene.SetMesh(mesh);
+  for (const int mode : { static_cast<int>(vtkTetrahedraVolumeMapper::COMPOSITE_BLEND),
+         static_cast<int>(vtkTetrahedraVolumeMapper::MAXIMUM_INTENSITY_BLEND) })
+  {
+    scene.GPUMapper->SetBlendMode(mode);
+    for (const int steps : { 1, 64 })
+    {
+      SCOPED_TRACE(std::to_string(mode) + " " + std::to_string(steps));
+      scene.GPUMapper->SetStepsPerPass(steps);
+      for (const Vector& position : { Vector{ 0.3, 0.5, 2.4 }, Vector{ 2, 0.5, 0.4 } })
+      {
+        scene.SetCamera(position, { 0, 0, 0 }, { 0, 1, 0 });
+        scene.ExpectProcessorsPicture();
+      }
+      scene.GPUMapper->CroppingOn();
+      scene.GPUMapper->SetCroppingRegionPlanes(-0.5, 0.4, -0.3, 0.5, -0.2, 0.2);
+      scene.GPUMapper->SetCroppingRegionFlags(0x5f7ffdf);
+      scene.Mapper->CroppingOn();
+      scene.Mapper->SetCroppingRegionPlanes(scene.GPUMapper->GetCroppingRegionPlanes());
+      scene.Mapper->SetCroppingRegionFlags(scene.GPUMapper->GetCroppingRegionFlags());
+      scene.ExpectProcessorsPicture();
+      scene.GPUMapper->CroppingOff();
+      scene.Mapper->CroppingOff();
+    }
+    EXPECT_NE(scene.GetStatistic("shader_variant").find("PAIRED"), std::string::npos);
+  }
 }
 
 TEST(GPURayCastMapper, OpticalModels)

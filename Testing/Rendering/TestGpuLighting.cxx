@@ -4,6 +4,7 @@
 #include "GlslEvaluator.h"
 #include "GpuIntegral/GpuLighting.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
+#include "GpuIntegral/RayGridUniforms.h"
 #include "Integral/RayIntegral.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/SurfaceShading.h"
@@ -117,11 +118,12 @@ public:
   {
     const Vector p = this->ToMesh(point, true);
     const Vector d = this->ToMesh(direction, false);
+    const double unit = tetralux::GetRayLengthUnit(this->Grid, this->Radius);
     Arguments arguments{};
     for (int a = 0; a < 3; ++a)
     {
       arguments[a] = static_cast<float>((p[a] - this->Center[a]) / this->Radius);
-      arguments[4 + a] = static_cast<float>(d[a] / this->Radius);
+      arguments[4 + a] = static_cast<float>(unit * d[a] / this->Radius);
     }
     return arguments;
   }
@@ -288,7 +290,8 @@ TEST_F(GpuLightingTest, GradientsAndPlacesRunAlongASegment)
   source.ShadedSurfaces = true;
   const std::vector<Result> results = this->EvaluateSegments(lighting, source, cases,
     "IntegrateShadedSegment(0.0, 1.0, 1.0, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.5), "
-    "a.xyz, a.xyz + b.xyz, b.xyz)");
+    "a.xyz, a.xyz + b.xyz / " +
+      std::to_string(tetralux::GetRayLengthUnit(this->Grid, this->Radius)) + ", b.xyz)");
   this->SetGradient({ 0.75, 0.25, 0.125 });
   for (std::size_t i = 0; i < cases.InMesh.size(); ++i)
   {

@@ -189,7 +189,7 @@ public:
     for (int part = 0; part < this->GpuLimits.GetNumberOfParts(); ++part)
     {
       parts.push_back(evaluate("vec4(GetRayPart(GetRay(a.xy), a.xy, " + std::to_string(part) +
-        "), GetRay(a.xy).Distance, 0.0)"));
+        "), GetRay(a.xy).Distance, 0.0) * rayLengthUnit"));
     }
     EXPECT_EQ(FindDifferences(before, TakeOpenGLSnapshot(this->Evaluator.Window)), "");
     double worst = 0;
@@ -337,7 +337,7 @@ TEST_F(GpuRayLimitsTest, OpaqueGeometryOfAMultisampledWindow)
   }
   const std::vector<Result> results = this->Evaluator.Evaluate(
     this->GpuLimits.GetDeclarations(),
-    "vec4(GetRayPart(GetRay(a.xy), a.xy, 0), GetRay(a.xy).Distance, 0.0)", cases,
+    "vec4(GetRayPart(GetRay(a.xy), a.xy, 0), GetRay(a.xy).Distance, 0.0) * rayLengthUnit", cases,
     [this](vtkShaderProgram* program) { this->GpuLimits.Activate(program); },
     [this] { this->GpuLimits.Deactivate(); });
   std::size_t differing = 0;
@@ -375,6 +375,29 @@ TEST_F(GpuRayLimitsTest, FarFromTheOriginWithTheMeshTurnedAndStretched)
   }
   this->Limits.CroppingFlags = 0x5555555u;
   this->Expect(false, 1e-5);
+}
+
+TEST_F(GpuRayLimitsTest, InAnyUnitOfLength)
+{
+  const Vector center = this->Center;
+  for (const double unit : { 1e-19, 3.1e21, 1e30 })
+  {
+    SCOPED_TRACE(unit);
+    this->Radius = this->WorldRadius = 1.5 * unit;
+    vtkCamera* camera = this->Evaluator.Renderer->GetActiveCamera();
+    camera->SetPosition(4 * unit, 3 * unit, 9 * unit);
+    camera->SetFocalPoint(0.3 * unit, 0.2 * unit, 0.1 * unit);
+    camera->SetClippingRange(8 * unit, 11 * unit);
+    this->Limits.Cropping = true;
+    for (int a = 0; a < 3; ++a)
+    {
+      this->Center[a] = unit * center[a];
+      this->Limits.CroppingPlanes[2 * a] = this->Center[a] - 0.4 * unit;
+      this->Limits.CroppingPlanes[2 * a + 1] = this->Center[a] + 0.7 * unit;
+    }
+    this->Limits.CroppingFlags = 0x5555555u;
+    this->Expect(false, 1e-5);
+  }
 }
 
 TEST_F(GpuRayLimitsTest, FromInsideTheMesh)
