@@ -59,6 +59,7 @@ const std::map<std::string, Accessors>& GetAccessors()
     ACCESSORS(Base, TableFormat),
     ACCESSORS(Base, TableMaximumBytes),
     ACCESSORS(Base, SmoothShading),
+    ACCESSORS(Base, MergePoints),
     ACCESSORS(Base, VectorMode),
     ACCESSORS(Base, VectorComponent),
     ACCESSORS(Base, Reentry),

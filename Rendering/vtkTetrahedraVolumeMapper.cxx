@@ -175,6 +175,10 @@ tetralux::MapperSettings vtkTetrahedraVolumeMapper::Internals::MakeSettings() co
   scalars.VectorMode = self->VectorMode;
   scalars.VectorComponent = self->VectorComponent;
 
+  settings.Merging = self->MergePoints == MERGE_OFF ? tetralux::PointMerging::Never
+    : self->MergePoints == MERGE_ON                 ? tetralux::PointMerging::Always
+                                                    : tetralux::PointMerging::Automatic;
+
   tetralux::TableWishes& table = settings.Table;
   table.Use = self->Integration == CLOSED_FORM_INTEGRATION ? tetralux::TableUse::Never
     : self->Integration == TABLE_INTEGRATION               ? tetralux::TableUse::Always
@@ -488,6 +492,7 @@ tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, TableLengthScale);
 tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, TableScalarAxis);
 tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, TableFormat);
 tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, TableMaximumBytes, vtkIdType);
+tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, MergePoints);
 tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, VectorMode);
 tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, VectorComponent, int);
 tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, Reentry);
@@ -540,6 +545,7 @@ void vtkTetrahedraVolumeMapper::PrintProperties(ostream& os, vtkIndent indent)
   printer.Print("TableFormat", this->TableFormat);
   printer.Print("TableMaximumBytes", this->TableMaximumBytes);
   printer.Print("SmoothShading", this->SmoothShading);
+  printer.Print("MergePoints", this->MergePoints);
   printer.Print("VectorMode", this->VectorMode);
   printer.Print("VectorComponent", this->VectorComponent);
   printer.Print("Reentry", this->Reentry);

@@ -248,6 +248,39 @@ public:
   vtkBooleanMacro(SmoothShading, vtkTypeBool);
   ///@}
 
+  enum MergePointsType
+  {
+    MERGE_OFF = 0,
+    MERGE_ON = 1,
+    AUTOMATIC_MERGE = 2
+  };
+
+  ///@{
+  /**
+   * Set whether points at the same place are taken as one, so that cells which touch without
+   * sharing points become neighbours: pieces and blocks of a file, cells with points of their own,
+   * seams of O-grids. Points are at the same place if their coordinates differ by no more than a
+   * few roundings of the largest one, in the precision of the input's arrays. They are merged only
+   * if their scalars agree as exactly, so that jumps of a field stay. Default AUTOMATIC_MERGE.
+   *
+   * - MERGE_OFF (0): points stay apart. The picture is the same: rays enter touching cells again.
+   * - MERGE_ON (1): all points are merged whose scalars agree. Cells that become the same by that
+   *   count once.
+   * - AUTOMATIC_MERGE (2): all points are merged or none: none if scalars at one place differ, or
+   *   if cells become the same or three of them share a face, as where cells overlap.
+   *
+   * Points inside the mesh, and points that only come to the same place later, are not looked for.
+   * It costs nothing to speak of where cells share their points; else a frame that needs a new mesh
+   * makes it twice.
+   */
+  virtual void SetMergePoints(int merge);
+  vtkGetMacro(MergePoints, int);
+  const char* GetMergePointsAsString();
+  void SetMergePointsToOff() { this->SetMergePoints(MERGE_OFF); }
+  void SetMergePointsToOn() { this->SetMergePoints(MERGE_ON); }
+  void SetMergePointsToAutomatic() { this->SetMergePoints(AUTOMATIC_MERGE); }
+  ///@}
+
   enum VectorModeType
   {
     DISABLED_MODE = -1,
@@ -463,6 +496,7 @@ protected:
   int TableFormat = AUTOMATIC_FORMAT;
   vtkIdType TableMaximumBytes = 64 << 20;
   vtkTypeBool SmoothShading = 1;
+  int MergePoints = AUTOMATIC_MERGE;
   int VectorMode = DISABLED_MODE;
   int VectorComponent = 0;
   int Reentry = AUTOMATIC_REENTRY;

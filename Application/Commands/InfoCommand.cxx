@@ -7,8 +7,10 @@
 #include "CommandLine/ProgressLine.h"
 #include "Files/ReadMesh.h"
 #include "Intake/LeftOutCells.h"
+#include "Intake/PointExtraction.h"
 #include "Intake/TetrahedraIntake.h"
 #include "Mesh/CellVolumes.h"
+#include "Mesh/CoincidentPoints.h"
 #include "Setup/Arrays.h"
 #include "Setup/SceneOptionGroups.h"
 #include "Walk/WalkMesh.h"
@@ -21,6 +23,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <sstream>
 
 namespace
@@ -141,6 +144,16 @@ void PrintBounds(const std::vector<double>& points)
   PrintRow("bounds", text);
 }
 
+/// Points that MergePoints may take as one with others: inside of the mesh there are none but where
+/// cells have points of their own.
+std::int64_t CountCoincidentPoints(vtkDataObject* data, const tetralux::TetrahedralMesh& mesh)
+{
+  std::vector<std::int32_t> points(mesh.GetNumberOfPoints());
+  std::iota(points.begin(), points.end(), 0);
+  return static_cast<std::int64_t>(
+    tetralux::FindCoincidentPoints(mesh, points, tetralux::GetPointTolerance(data)).Points.size());
+}
+
 /// Prints what it takes to make the mesh convex, or why it can't be made convex.
 void PrintConvexification(tetralux::WalkMesh& walk)
 {
@@ -217,6 +230,8 @@ void PrintInfo(const InputFile& input)
   PrintIntake(intake.Report);
   PrintBounds(intake.Mesh.Points);
   PrintArrays(data);
+
+  PrintCount("points at others' places", CountCoincidentPoints(data, intake.Mesh));
 
   const std::size_t tetrahedra = intake.Mesh.GetNumberOfCells();
   PrintRow("tetrahedra", tetrahedra);

@@ -29,7 +29,8 @@ struct BlockContext
   const double* Coordinates = nullptr; ///< of the whole mesh, by its ids
   const unsigned char* CellGhosts = nullptr;
   const unsigned char* PointGhosts = nullptr;
-  bool HasRationalWeights = false; ///< whether Bezier cells are rational ones
+  bool HasRationalWeights = false;           ///< whether Bezier cells are rational ones
+  const std::int32_t* FirstPoints = nullptr; ///< for each point the one that is taken; none: itself
 };
 
 /// Share of a tetrahedron's volume below which a point lies on a face of it: above the rounding of
@@ -100,6 +101,7 @@ private:
           valid = valid && this->MakeGlobal(this->Polygon);
           if (valid)
           {
+            this->Merge(this->Polygon);
             this->Faces.AddPolygon(this->Polygon.data(), this->Polygon.size());
           }
         });
@@ -121,6 +123,8 @@ private:
       return;
     }
 
+    const bool repeatsPoint = kind == CellKind::Tetrahedron && RepeatsPoint(points.data());
+    this->Merge(points);
     if (kind == CellKind::Wedge && IsTurnedWedge(givenType))
     {
       std::swap(points[1], points[2]);
@@ -132,11 +136,9 @@ private:
     for (std::size_t i = 0; i < this->Tets.size(); i += 4)
     {
       const std::int64_t* t = &this->Tets[i];
-      const bool collapsed = t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] ||
-        t[1] == t[3] || t[2] == t[3];
       // A tetrahedron with a repeated point is kept as it is: a defect of the mesh, for others to
       // count. In a larger cell it is the missing part of a collapsed cell.
-      if (!collapsed || kind == CellKind::Tetrahedron)
+      if (repeatsPoint || !RepeatsPoint(t))
       {
         this->Output.Tetrahedra.insert(this->Output.Tetrahedra.end(), t, t + 4);
         this->Output.Parents.push_back(cellId);
@@ -162,6 +164,24 @@ private:
     return true;
   }
 
+  /// From points that coincide to the one that is taken.
+  void Merge(std::vector<std::int64_t>& points) const
+  {
+    if (this->Context.FirstPoints)
+    {
+      for (std::int64_t& point : points)
+      {
+        point = this->Context.FirstPoints[point];
+      }
+    }
+  }
+
+  static bool RepeatsPoint(const std::int64_t* t)
+  {
+    return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] ||
+      t[2] == t[3];
+  }
+
   void SplitPoints(CellKind kind, int type)
   {
     std::vector<std::int64_t>& points = this->Current.Points;
@@ -180,7 +200,8 @@ private:
         break;
       case CellKind::Voxel:
       case CellKind::Hexahedron:
-        if (this->Current.Parity >= 0)
+        // A seam, or a block that is next, need not alternate alike: ids cut both sides alike.
+        if (this->Current.Parity >= 0 && !this->Context.FirstPoints)
         {
           count = SplitStructuredHexahedron(points.data(), this->Current.Parity == 1, tets);
           break;

@@ -7,14 +7,21 @@
 #include "Intake/PlainCopies.h"
 
 #include "vtkDataSet.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tetralux
 {
 namespace
 {
+
+/// Roundings that the coordinates of a point may have behind them: an angle that wraps around, its
+/// sine, and the product with a radius.
+constexpr double Roundings = 4;
 
 /// Points that one task of vtkSMPTools takes.
 constexpr vtkIdType Grain = 16384;
@@ -69,6 +76,20 @@ bool DependsOnPoints(const TetrahedraIntakeReport& report)
       return kind == CellKind::Polyhedron || kind == CellKind::ConvexPointSet ||
         (kind == CellKind::Faceted && GetFacetedCellType(entry.first)->ApexAtCorner);
     });
+}
+
+double GetPointTolerance(vtkDataObject* input)
+{
+  double epsilon = std::numeric_limits<double>::epsilon();
+  for (const DataSetBlock& block : CollectDataSets(input))
+  {
+    auto* grid = vtkPointSet::SafeDownCast(block.DataSet);
+    if (grid && grid->GetPoints() && grid->GetPoints()->GetDataType() == VTK_FLOAT)
+    {
+      epsilon = std::numeric_limits<float>::epsilon();
+    }
+  }
+  return Roundings * epsilon;
 }
 
 } // namespace tetralux

@@ -24,6 +24,11 @@ TETRALUXFILTERS_EXPORT std::vector<double> ExtractPoints(
 /// alone.
 TETRALUXFILTERS_EXPORT bool DependsOnPoints(const TetrahedraIntakeReport& report);
 
+/// The largest distance, along an axis, of points at the same place that were rounded apart, as a
+/// share of the largest coordinate: some roundings in the precision of the input's arrays, the
+/// coarsest of all blocks.
+TETRALUXFILTERS_EXPORT double GetPointTolerance(vtkDataObject* input);
+
 } // namespace tetralux
 
 #endif

@@ -224,6 +224,13 @@ std::vector<double> ReadInput(
         " values for " + std::to_string(count) + (result.CellData ? " cells" : " points");
       return {};
     }
+    if (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE)
+    {
+      const double rounding = array->GetDataType() == VTK_FLOAT
+        ? static_cast<double>(std::numeric_limits<float>::epsilon()) / 2
+        : std::numeric_limits<double>::epsilon() / 2;
+      result.Rounding = std::max(result.Rounding, rounding);
+    }
     const int components = array->GetNumberOfComponents();
     const int component = selection.VectorMode == Component ? selection.VectorComponent : 0;
     if (component < 0 || component >= components)

@@ -39,6 +39,7 @@ struct ExtractedScalars
   std::vector<double> Values; ///< one for each point, or each tetrahedron, of the mesh
   bool CellData = false;      ///< whether Values are of the tetrahedra
   std::string ArrayName;      ///< may be empty: arrays need no name
+  double Rounding = 0;        ///< of a value as the arrays have it, relative; 0 of integers
   std::string Error;          ///< one line that says what is missing and what there is
 };
 

@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <new>
+#include <numeric>
 
 namespace tetralux
 {
@@ -35,11 +36,13 @@ constexpr vtkIdType ChunksBetweenReports = 64;
 class Intake
 {
 public:
-  Intake(TetrahedraIntake& result, const std::function<bool(double)>& progress)
+  Intake(TetrahedraIntake& result, const std::function<bool(double)>& progress,
+    const CoincidentPoints& merged)
     : Result(result)
     , Mesh(result.Mesh)
     , Report(result.Report)
     , Progress(progress)
+    , Merged(merged)
   {
   }
 
@@ -83,7 +86,17 @@ public:
     {
       CopyPoints(block.DataSet, this->Mesh.Points.data() + 3 * block.FirstPoint);
     }
-    if (blocks.size() == 1 && this->TakeTetrahedraAsTheyAre(blocks[0].DataSet))
+    if (!this->Merged.Points.empty())
+    {
+      this->FirstPoints.resize(this->Report.NumberOfPoints);
+      std::iota(this->FirstPoints.begin(), this->FirstPoints.end(), 0);
+      for (std::size_t i = 0; i < this->Merged.Points.size(); ++i)
+      {
+        this->FirstPoints[this->Merged.Points[i]] =
+          static_cast<std::int32_t>(this->Merged.Firsts[i]);
+      }
+    }
+    else if (blocks.size() == 1 && this->TakeTetrahedraAsTheyAre(blocks[0].DataSet))
     {
       return;
     }
@@ -168,6 +181,7 @@ private:
       context.PointGhosts = pointGhosts->GetPointer(0);
     }
 
+    context.FirstPoints = this->FirstPoints.empty() ? nullptr : this->FirstPoints.data();
     context.HasRationalWeights = block.DataSet->GetPointData()->GetRationalWeights() != nullptr;
 
     StructuredLayout layout;
@@ -256,6 +270,8 @@ private:
   TetrahedralMesh& Mesh;
   TetrahedraIntakeReport& Report;
   const std::function<bool(double)>& Progress;
+  const CoincidentPoints& Merged;
+  std::vector<std::int32_t> FirstPoints; ///< see BlockContext; empty where nothing is merged
   std::vector<IntakeChunk> Chunks;
   std::int64_t NumberOfTetrahedra = 0;
   std::int64_t NumberOfAddedPoints = 0;
@@ -263,12 +279,13 @@ private:
 
 } // namespace
 
-TetrahedraIntake TakeInTetrahedra(vtkDataObject* input, const std::function<bool(double)>& progress)
+TetrahedraIntake TakeInTetrahedra(
+  vtkDataObject* input, const std::function<bool(double)>& progress, const CoincidentPoints& merged)
 {
   TetrahedraIntake result;
   try
   {
-    Intake(result, progress).Run(input);
+    Intake(result, progress, merged).Run(input);
   }
   catch (const std::bad_alloc&)
   {

@@ -3,6 +3,7 @@
 #define tetralux_TetrahedraIntake_h
 
 #include "Intake/IntakeReport.h"
+#include "Mesh/CoincidentPoints.h"
 #include "Mesh/TetrahedralMesh.h"
 #include "TetraluxFiltersModule.h"
 
@@ -27,7 +28,7 @@ struct TetrahedraIntake
 
 /// Turns any data set, or composite of data sets, into tetrahedra. Point ids of the mesh are the
 /// input's point ids (all points are kept, used or not), with the blocks of a composite one after
-/// the other; points that a split had to add follow at the end. Coincident points are not merged.
+/// the other; points that a split had to add follow at the end.
 ///
 /// Accepts
 /// - tetrahedra: as they are;
@@ -51,11 +52,15 @@ struct TetrahedraIntake
 /// Refuses an input that is no data set, one that lacks points or types of its cells, more than
 /// 2^31 - 1 points and more than 2^29 - 1 tetrahedra, with a line in Error.
 ///
+/// merged: points for which cells take the first one at their place. Tetrahedra that repeat a point
+/// by that are left out; cells of structured grids are then split as hexahedra, so that blocks and
+/// seams are cut alike from both sides.
+///
 /// progress, where given, is called from the calling thread with a fraction 0..1 now and then; when
 /// it returns false the work ends with Aborted set. Linear time, parallel through vtkSMPTools, the
 /// same result for any number of threads.
-TETRALUXFILTERS_EXPORT TetrahedraIntake TakeInTetrahedra(
-  vtkDataObject* input, const std::function<bool(double)>& progress = {});
+TETRALUXFILTERS_EXPORT TetrahedraIntake TakeInTetrahedra(vtkDataObject* input,
+  const std::function<bool(double)>& progress = {}, const CoincidentPoints& merged = {});
 
 } // namespace tetralux
 

@@ -33,12 +33,21 @@ struct TableWishes
   std::size_t MaximumBytes = std::size_t{ 64 } << 20;
 };
 
+/// Whether points at the same place are taken as one.
+enum class PointMerging
+{
+  Never,
+  Always,   ///< where their scalars agree
+  Automatic ///< all of them, if the cells then fit together and all scalars agree
+};
+
 /// What a mapper's properties say, as plain values: preparation and frames know no mapper class.
 struct MapperSettings
 {
   double MaximumError = 1e-4; ///< of a channel, 0..1
   OpticalModel Model = OpticalModel::EmissionAbsorption;
   ScalarSelection Scalars;
+  PointMerging Merging = PointMerging::Automatic;
   TableWishes Table;
   FrameSettings Frame;
 };

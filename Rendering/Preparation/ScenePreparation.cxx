@@ -86,7 +86,11 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
     throw std::invalid_argument("there is no input");
   }
   const std::vector<DataSetBlock> blocks = CollectDataSets(input.Data);
-  if (!this->PrepareMesh(input.Data, blocks, progress))
+  if (!this->PrepareMesh(settings, input.Data, blocks, progress))
+  {
+    return false;
+  }
+  if (!this->MergePoints(settings, input.Data, blocks, progress))
   {
     return false;
   }
@@ -98,8 +102,8 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
   return true;
 }
 
-bool ScenePreparation::PrepareMesh(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
-  const std::function<bool(double)>& progress)
+bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject* input,
+  const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress)
 {
   CacheKey cellsKey = GetCellsKey(blocks);
   CacheKey pointsKey = GetPointsKey(blocks);
@@ -130,15 +134,96 @@ bool ScenePreparation::PrepareMesh(vtkDataObject* input, const std::vector<DataS
   this->Last.IntakeSeconds = intakeStopwatch.GetSeconds();
 
   const Stopwatch meshStopwatch;
-  this->Scene.Mesh.SetMesh(std::make_shared<WalkMesh>(std::move(intake.Mesh)));
-  this->Intake = std::move(intake.Report);
+  this->Merger.Start(settings.Merging, input, intake.Mesh);
+  this->Merging.Reset();
+  const CoincidentPoints merged = this->Merger.Choose(settings.Merging, input, settings.Scalars);
+  bool used = false;
+  if (!merged.Points.empty() && !this->UseMerged(settings, input, merged, progress, used))
+  {
+    return false;
+  }
+  if (!used)
+  {
+    this->SetMesh(std::move(intake));
+  }
   this->CellsKey = std::move(cellsKey);
   this->PointsKey = std::move(pointsKey);
   this->Cells = digest;
-  this->Scalars.Reset();
   this->Last.MeshSeconds = meshStopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("mesh");
+  return true;
+}
+
+void ScenePreparation::SetMesh(TetrahedraIntake intake)
+{
+  this->SetMesh(std::make_shared<WalkMesh>(std::move(intake.Mesh)), std::move(intake.Report));
+}
+
+void ScenePreparation::SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeReport report)
+{
+  this->Scene.Mesh.SetMesh(std::move(mesh));
+  this->Intake = std::move(report);
+  this->Scalars.Reset();
   this->WarnOfMesh();
+}
+
+/// Makes the mesh anew where other points are to be taken as one.
+bool ScenePreparation::MergePoints(const MapperSettings& settings, vtkDataObject* input,
+  const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress)
+{
+  CacheKey key = GetScalarsKey(blocks, settings.Scalars);
+  key.Add(settings.Merging);
+  const bool isKnown = settings.Merging == PointMerging::Never || this->Merger.HasFound();
+  if ((isKnown && this->Merging.Has(key)) || this->Scene.Mesh.GetMesh()->GetNumberOfCells() == 0)
+  {
+    return true;
+  }
+  const Stopwatch stopwatch;
+  if (!isKnown)
+  {
+    this->Merger.Find(input, *this->Scene.Mesh.GetMesh());
+  }
+  const CoincidentPoints wanted = this->Merger.Choose(settings.Merging, input, settings.Scalars);
+  const CoincidentPoints before = this->Merger.GetMerged();
+  bool used = wanted == before;
+  if (!used && !this->UseMerged(settings, input, wanted, progress, used))
+  {
+    return false;
+  }
+  // Where it does not fit together, points stay apart.
+  if (!used && !before.Points.empty() && !this->UseMerged(settings, input, {}, progress, used))
+  {
+    return false;
+  }
+  if (!(before == this->Merger.GetMerged()))
+  {
+    this->Last.Rebuilt.push_back("merged points");
+  }
+  this->Merging.Set(std::move(key));
+  this->Last.MeshSeconds += stopwatch.GetSeconds();
+  return true;
+}
+
+/// Makes the mesh with some points taken as one; used: whether it replaces that of the scene. False
+/// after an abort.
+bool ScenePreparation::UseMerged(const MapperSettings& settings, vtkDataObject* input,
+  const CoincidentPoints& merged, const std::function<bool(double)>& progress, bool& used)
+{
+  TetrahedraIntake intake = TakeInTetrahedra(input, progress, merged);
+  if (intake.Aborted)
+  {
+    return false;
+  }
+  if (!intake.Error.empty())
+  {
+    throw std::invalid_argument(intake.Error);
+  }
+  auto mesh = std::make_shared<WalkMesh>(std::move(intake.Mesh));
+  used = this->Merger.Accept(settings.Merging, merged, *mesh);
+  if (used)
+  {
+    this->SetMesh(std::move(mesh), std::move(intake.Report));
+  }
   return true;
 }
 
@@ -147,7 +232,8 @@ bool ScenePreparation::MovePoints(vtkDataObject* input)
 {
   const WalkMesh& walk = *this->Scene.Mesh.GetMesh();
   // Cells that were removed because of their points may come back.
-  if (DependsOnPoints(this->Intake) || walk.GetRemovedCells().NonFiniteCoordinates > 0)
+  if (DependsOnPoints(this->Intake) || walk.GetRemovedCells().NonFiniteCoordinates > 0 ||
+    !this->Merger.Follow(input))
   {
     return false;
   }

@@ -6,12 +6,14 @@
 #include "Intake/TetrahedraIntake.h"
 #include "Preparation/InputSignature.h"
 #include "Preparation/MapperSettings.h"
+#include "Preparation/PointMerger.h"
 #include "Preparation/SegmentTable.h"
 #include "Report/OnceWarning.h"
 #include "Scene/VolumeScene.h"
 #include "TetraluxRenderingModule.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,9 @@ public:
   /// scalars at points have a gradient.
   bool IsShaded(vtkVolumeProperty* property) const;
 
+  /// Points of the input that were merged into others.
+  std::size_t GetNumberOfMergedPoints() const { return this->Merger.GetMerged().Points.size(); }
+
   const std::string& GetArrayName() const { return this->ArrayName; }
   const SegmentTable& GetTable() const { return this->Table; }
   TableUse GetTableUse() const { return this->Use; }
@@ -70,9 +75,15 @@ public:
   const Record& GetLast() const { return this->Last; }
 
 private:
-  bool PrepareMesh(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
-    const std::function<bool(double)>& progress);
+  bool PrepareMesh(const MapperSettings& settings, vtkDataObject* input,
+    const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress);
   bool MovePoints(vtkDataObject* input);
+  bool MergePoints(const MapperSettings& settings, vtkDataObject* input,
+    const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress);
+  bool UseMerged(const MapperSettings& settings, vtkDataObject* input,
+    const CoincidentPoints& merged, const std::function<bool(double)>& progress, bool& used);
+  void SetMesh(TetrahedraIntake intake);
+  void SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeReport report);
   void PrepareScalars(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
     const ScalarSelection& selection);
   void PrepareFunction(const MapperSettings& settings, const SceneInput& input);
@@ -86,6 +97,8 @@ private:
   CacheKey CellsKey;
   CellsDigest Cells{};
   CacheKey PointsKey;
+  CacheStamp Merging;
+  PointMerger Merger;
   CacheStamp Scalars;
   CacheStamp Function;
   bool FunctionIsExact = false; ///< so it does not depend on the error that is allowed

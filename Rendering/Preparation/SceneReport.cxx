@@ -109,6 +109,7 @@ Json DescribeTables(const ScenePreparation& preparation)
   Json tables;
   tables["tetrahedra"] = mesh.GetNumberOfCells();
   tables["points"] = mesh.GetMesh().GetNumberOfPoints();
+  tables["merged_points"] = preparation.GetNumberOfMergedPoints();
   tables["boundary_faces"] = mesh.GetNumberOfBoundaryFaces();
   tables["non_manifold_faces"] = mesh.GetNumberOfNonManifoldFaces();
   tables["components"] = mesh.GetNumberOfComponents();

@@ -28,6 +28,7 @@ constexpr double DefaultTableBytes = 67108864;
 constexpr const char* Quality = "Quality";
 constexpr const char* Model = "Optical model";
 constexpr const char* Table = "Pre-integration table";
+constexpr const char* Cells = "Cells";
 constexpr const char* Scalars = "Scalars";
 constexpr const char* Rays = "Rays";
 constexpr const char* Cropping = "Cropping";
@@ -100,6 +101,10 @@ std::vector<MapperProperty> MakeProperties()
       LargestTableBytes, { DefaultTableBytes }, "", "bytes", "Largest size of a table." },
     MakeBoolean("SmoothShading", AllKinds, Quality, false, true,
       "Take the normals of lighting from gradients that are interpolated between points."),
+    MakeEnumeration("MergePoints", AllKinds, Cells, true,
+      { { "automatic", 2, "all or none: none if scalars differ or cells overlap" },
+        { "off", 0, "points stay apart" }, { "on", 1, "all whose scalars agree" } },
+      "Whether points at the same place are taken as one."),
     MakeEnumeration("VectorMode", AllKinds, Scalars, false,
       { { "disabled", -1, "the first component" }, { "magnitude", 0, "the Euclidean norm" },
         { "component", 1, "component VectorComponent" } },

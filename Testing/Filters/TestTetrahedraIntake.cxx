@@ -172,6 +172,49 @@ INSTANTIATE_TEST_SUITE_P(Types, EveryCellType,
     CellTypeCase{ VTK_TRIQUADRATIC_PYRAMID, 6 * (8 + 4 * 6), 0 }),
   NameCase);
 
+TEST(TetrahedraIntake, CellsTakeTheFirstOfMergedPoints)
+{
+  // Two boxes with four points in common, which the second has as points of its own: 8 to 11 at 1, 2,
+  // 5, 6. A tetrahedron whose points 0 and 12 are merged encloses nothing.
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  for (const CellPatch::Position& x : Box)
+  {
+    points->InsertNextPoint(x.data());
+  }
+  for (const int corner : { 1, 2, 5, 6 })
+  {
+    points->InsertNextPoint(Box[corner].data());
+  }
+  points->InsertNextPoint(0, 0, 0);
+  for (const int corner : { 1, 2, 5, 6 })
+  {
+    points->InsertNextPoint(2, Box[corner][1], Box[corner][2]);
+  }
+  grid->SetPoints(points);
+  const vtkIdType first[] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  const vtkIdType second[] = { 8, 13, 14, 9, 10, 15, 16, 11 };
+  const vtkIdType flat[] = { 0, 12, 3, 4 };
+  grid->InsertNextCell(VTK_HEXAHEDRON, 8, first);
+  grid->InsertNextCell(VTK_HEXAHEDRON, 8, second);
+  grid->InsertNextCell(VTK_TETRA, 4, flat);
+  const TetrahedraIntake apart = TakeInTetrahedra(grid);
+  EXPECT_EQ(
+    FindFaceNeighbors(apart.Mesh.Cells, apart.Mesh.GetNumberOfPoints()).NumberOfComponents, 3);
+
+  CoincidentPoints merged;
+  merged.Points = { 8, 9, 10, 11, 12 };
+  merged.Firsts = { 1, 2, 5, 6, 0 };
+  const TetrahedraIntake intake = TakeInTetrahedra(grid, {}, merged);
+  ASSERT_EQ(intake.Error, "");
+  const FaceNeighbors neighbors =
+    FindFaceNeighbors(intake.Mesh.Cells, intake.Mesh.GetNumberOfPoints());
+  EXPECT_EQ(neighbors.NumberOfComponents, 1);
+  EXPECT_EQ(neighbors.BoundaryFaces.size(), 2U * 10);
+  EXPECT_EQ(intake.Mesh.GetNumberOfPoints(), 17U) << "ids are those of the input";
+  EXPECT_EQ(intake.Report.InvalidCells, 1);
+}
+
 namespace
 {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells that touch without sharing points give the picture of the cells that share them: each cell
+// Cells that touch without sharing points, and are not merged either, give the picture of the cells that share them: each cell
 // with points of its own, as discontinuous finite elements and many exporters write it, and two
 // pieces, as those of a parallel file.
 #include "MeshParts.h"
@@ -74,6 +74,7 @@ void SetView(RayCastScene& scene, int view)
 
 std::vector<float> Render(RayCastScene& scene, vtkTetrahedraVolumeMapper* mapper)
 {
+  mapper->SetMergePointsToOff();
   scene.Use(mapper);
   scene.Window->Render();
   const std::size_t pixels = scene.GetMapper()->GetOutputImage()->GetNumberOfPoints();
