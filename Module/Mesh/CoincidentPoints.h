@@ -26,11 +26,11 @@ struct CoincidentPoints
 };
 
 /// Finds which points of a mesh are at the same place as others. candidates: ids of the mesh, each
-/// once; added points (TetrahedralMesh::OriginalPoints below 0), and points that have a
-/// coordinate which is not finite, are left out. tolerance: largest
-/// difference of a coordinate, as a share of the largest coordinate of the candidates; points that
-/// differ by more are together where others connect them. If a cell would lose a point by that, only points whose coordinates
-/// are the same exactly are together. O(n log n), deterministic.
+/// once. Added points (TetrahedralMesh::OriginalPoints below 0) and points with a coordinate that is
+/// not finite are left out. tolerance: largest difference of a coordinate, as a share of the largest
+/// coordinate of the candidates; points that differ by more are together where others connect them.
+/// If a cell would lose a point by that, only points whose coordinates are the same exactly are
+/// together. O(n log n), deterministic.
 TETRALUXCORE_EXPORT CoincidentPoints FindCoincidentPoints(
   const TetrahedralMesh& mesh, Span<const std::int32_t> candidates, double tolerance);
 

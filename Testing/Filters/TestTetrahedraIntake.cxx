@@ -174,8 +174,8 @@ INSTANTIATE_TEST_SUITE_P(Types, EveryCellType,
 
 TEST(TetrahedraIntake, CellsTakeTheFirstOfMergedPoints)
 {
-  // Two boxes with four points in common, which the second has as points of its own: 8 to 11 at 1, 2,
-  // 5, 6. A tetrahedron whose points 0 and 12 are merged encloses nothing.
+  // Two boxes with four points in common, which the second has as points of its own: 8 to 11 at 1,
+  // 2, 5, 6. A tetrahedron whose points 0 and 12 are merged encloses nothing.
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
   for (const CellPatch::Position& x : Box)
