@@ -26,9 +26,10 @@ struct CoincidentPoints
 };
 
 /// Finds which points of a mesh are at the same place as others. candidates: ids of the mesh, each
-/// once. Added points (TetrahedralMesh::OriginalPoints below 0) and points with a coordinate that is
-/// not finite are left out. tolerance: largest difference of a coordinate, as a share of the largest
-/// coordinate of the candidates; points that differ by more are together where others connect them.
+/// once. Added points (TetrahedralMesh::OriginalPoints below 0) and points with a coordinate that
+/// is not finite are left out. tolerance: largest difference of a coordinate, as a share of the
+/// largest coordinate of the candidates; points that differ by more are together where others
+/// connect them.
 /// If a cell would lose a point by that, only points whose coordinates are the same exactly are
 /// together. O(n log n), deterministic.
 TETRALUXCORE_EXPORT CoincidentPoints FindCoincidentPoints(

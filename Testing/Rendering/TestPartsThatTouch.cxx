@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells that touch without sharing points, which are not merged either, give the picture of the
-// cells that share them: each cell with points of its own, as discontinuous finite elements and many
-// exporters write it, and two pieces, as those of a parallel file.
+// cells that share them: each cell with points of its own, as discontinuous finite elements and
+// many exporters write it, and two pieces, as those of a parallel file.
 #include "MeshParts.h"
 #include "RayCastScene.h"
 
