@@ -4,6 +4,8 @@ pieces and series; what damaged files and files of other formats get."""
 
 import os
 
+import h5py
+import numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA, vtkUnstructuredGrid
 from vtkmodules.vtkIOExodus import vtkExodusIIWriter
@@ -126,6 +128,60 @@ class Formats(ToolTest):
         self.expect_failure(1, "info", "a.cas", says="a.dat")
         self.write("a.dat", '(0 "nothing")\n')
         self.assertEqual(self.info("a.cas")["volume"], "1")
+
+    def test_vtkhdf(self):
+        with h5py.File(self.path("cube.vtkhdf"), "w") as file:
+            root = file.create_group("VTKHDF")
+            root.attrs["Version"] = numpy.array([1, 0], "i8")
+            root.attrs["Type"] = numpy.bytes_("UnstructuredGrid")
+            for name, count in (
+                ("NumberOfPoints", 8), ("NumberOfCells", 1), ("NumberOfConnectivityIds", 8)
+            ):
+                root[name] = numpy.array([count], "i8")
+            root["Points"] = numpy.array(CORNERS, "f8")
+            root["Types"] = numpy.array([VTK_HEXAHEDRON], "u1")
+            root["Connectivity"] = numpy.array(HEXAHEDRON, "i8")
+            root["Offsets"] = numpy.array([0, 8], "i8")
+            root.create_group("PointData")["Field"] = numpy.array(FIELD, "f8")
+            root.create_group("CellData")
+        self.expect_cube(self.path("cube.vtkhdf"))
+
+    def add_cgns_node(self, parent, name, label, kind="MT", data=None):
+        """A node of CGNS in HDF5; children are found by the order in which they were made."""
+        node = parent if name == "/" else parent.create_group(name, track_order=True)
+        texts = (("name", 33, name), ("label", 33, label), ("type", 3, kind))
+        for attribute, size, text in texts:
+            node.attrs.create(attribute, text, dtype=h5py.string_dtype("ascii", size))
+        if data is not None:
+            node[" data"] = data
+        return node
+
+    def test_cgns(self):
+        integer, text = "i4", lambda value: numpy.frombuffer(value, "i1")
+        with h5py.File(self.path("cube.cgns"), "w", track_order=True) as file:
+            add = self.add_cgns_node
+            add(file, "/", "Root Node of HDF5 File")
+            file[" format"] = text(b"IEEE_LITTLE_32\0")
+            version = numpy.array([3.4], "f4")
+            add(file, "CGNSLibraryVersion", "CGNSLibraryVersion_t", "R4", version)
+            base = add(file, "Base", "CGNSBase_t", "I4", numpy.array([3, 3], integer))
+            sizes = numpy.array([[8], [1], [0]], integer)
+            zone = add(base, "Zone", "Zone_t", "I4", sizes)
+            add(zone, "ZoneType", "ZoneType_t", "C1", text(b"Unstructured"))
+            coordinates = add(zone, "GridCoordinates", "GridCoordinates_t")
+            for axis in range(3):
+                values = numpy.array([corner[axis] for corner in CORNERS], "f8")
+                add(coordinates, "Coordinate" + "XYZ"[axis], "DataArray_t", "R8", values)
+            hexahedra = numpy.array([17, 0], integer)  # HEXA_8
+            cells = add(zone, "Cells", "Elements_t", "I4", hexahedra)
+            only = numpy.array([1, 1], integer)
+            add(cells, "ElementRange", "IndexRange_t", "I4", only)
+            ids = numpy.array(one_based(HEXAHEDRON), integer)
+            add(cells, "ElementConnectivity", "DataArray_t", "I4", ids)
+            solution = add(zone, "Solution", "FlowSolution_t")
+            add(solution, "GridLocation", "GridLocation_t", "C1", text(b"Vertex"))
+            add(solution, "Field", "DataArray_t", "R8", numpy.array(FIELD, "f8"))
+        self.expect_cube(self.path("cube.cgns"))
 
     def write_foam(self, name, kind, text):
         path = self.path(name)
