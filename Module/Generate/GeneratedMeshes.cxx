@@ -109,7 +109,7 @@ const std::vector<Recipe>& GetRecipes()
     { "cycle", "bars in a circle, each above the next: seen along z, none is the farthest",
       {
         { "bars", 3, 3, 12, "number of bars" },
-        { "cells", 6, 1, 100, "hexahedra through the thickness of a bar" },
+        { "cells", 2, 1, 100, "hexahedra through the thickness of a bar" },
       },
       { "bars", "cells" }, MakeCycle },
     { "random", "a unit cube with randomly moved points, and without some of its tetrahedra",

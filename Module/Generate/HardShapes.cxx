@@ -70,12 +70,15 @@ void MakeCycle(const Values& values, GeneratedMesh& result)
   const int bars = values.GetCount("bars");
   const int cells = values.GetCount("cells");
   // Tangents of a circle, which cross their neighbors at the distance 1 from where they touch it;
-  // each rises, so that its end lies above the next one's start.
+  // each rises, so that its end lies above the next one's start. Its cells lean back over those
+  // that follow: seen along z the first one covers the second, and so on to the end of the bar,
+  // which covers the next bar.
   const double circleRadius = 1 / std::tan(Pi / bars);
   constexpr double halfLength = 1.3;
   constexpr double width = 0.2;
   constexpr double thickness = 0.1;
   constexpr double rise = 0.15;
+  constexpr double lean = 3; // more than the rise
   const double tilt = std::atan(rise);
   for (int bar = 0; bar < bars; ++bar)
   {
@@ -91,8 +94,8 @@ void MakeCycle(const Values& values, GeneratedMesh& result)
     lattice.Place = [&](int i, int j, int k) -> Point
     {
       const double x = circleRadius + width * (static_cast<double>(i) / lattice.Cells[0] - 0.5);
-      const double y = halfLength * (2.0 * j / lattice.Cells[1] - 1);
       const double z = thickness * (static_cast<double>(k) / lattice.Cells[2] - 0.5);
+      const double y = halfLength * (2.0 * j / lattice.Cells[1] - 1) + lean * z;
       return { x * outward[0] + y * along[0] + z * up[0], x * outward[1] + y * along[1] + z * up[1],
         x * outward[2] + y * along[2] + z * up[2] };
     };
