@@ -7,18 +7,27 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 
 namespace
 {
 
-/// Reads all of a text as a number, in any locale the same.
+/// Reads all of a text as a number, in any locale the same: decimal, or a hexadecimal integer that
+/// begins with 0x, as masks are written.
 template <class NumberT>
 bool ReadNumber(const std::string& text, NumberT& value)
 {
   const char* begin = text.data();
   const char* end = begin + text.size();
+  if (text.size() > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X'))
+  {
+    std::uint32_t digits = 0; // any of them is exact in a double
+    const std::from_chars_result result = std::from_chars(begin + 2, end, digits, 16);
+    value = static_cast<NumberT>(digits);
+    return result.ec == std::errc() && result.ptr == end && value >= 0;
+  }
   if (begin != end && *begin == '+')
   {
     ++begin;

@@ -8,7 +8,7 @@
 
 /// Each function reads the value of an option. It throws UsageError if the text has anything else
 /// in it, or a number that is not finite. The error names the option, repeats the text and says
-/// what would be right.
+/// what would be right. Integers may be hexadecimal, as 0x2000.
 ///@{
 double ParseNumber(const std::string& option, const std::string& text);
 

@@ -31,10 +31,10 @@ SceneOptions::Vector ReadColor(const std::string& option, const std::string& tex
 
 double ReadError(const std::string& option, const std::string& text)
 {
-  const double error = ParsePositive(option, text);
-  if (error > 1)
+  const double error = ParseNumber(option, text);
+  if (error < 0 || error > 1)
   {
-    throw UsageError(option + ": '" + text + "' is not a number above 0 and at most 1");
+    throw UsageError(option + ": '" + text + "' is not a number from 0 to 1");
   }
   return error;
 }

@@ -70,8 +70,9 @@ class WrongUsage(ToolTest):
             ("--camera-parallel-scale", "inf", "above 0"),
             ("--opacity-unit-distance", "0", "above 0"),
             ("--opacity-unit-distance", "1x", "above 0"),
-            ("--max-error", "2", "at most 1"),
-            ("--max-error", "", "above 0"),
+            ("--max-error", "2", "from 0 to 1"),
+            ("--max-error", "-1e-9", "from 0 to 1"),
+            ("--max-error", "", "not a number"),
             ("--threads", "-1", "integer from 0"),
             ("--threads", "2.5", "integer from 0"),
             ("--component", "x", "magnitude"),
@@ -101,6 +102,9 @@ class WrongUsage(ToolTest):
         self.render_fails("--set", "Precision=half", says="automatic (0), single (1) or double (2)")
         self.render_fails("--set", "VectorMode=component", says="has no property 'VectorMode'")
         self.render_fails("--set", "Cropping=2", says="on or off")
+        self.render_fails("--set", "CroppingRegionFlags=0x8000000", says="from 0 to 134217727")
+        self.render_fails("--set", "CroppingRegionFlags=0x", says="'0x'")
+        self.render_fails("--set", "CroppingRegionFlags=0x1.8p3", says="'0x1.8p3'")
         self.render_fails(
             "--set", "TableScalarSize=1", says="an integer from 2 to 4096, or automatic (0)"
         )

@@ -336,6 +336,10 @@ class Commands(ToolTest):
         self.assertEqual(statistics["rays"]["threads"], 1)
         self.assertNotIn("cropping", statistics["left_out"])
         self.assertIn("cropping", render("ray-cast", "Cropping=False")["left_out"])
+        statistics = render("ray-cast", "Cropping=on", "CroppingRegionFlags=0x2000")
+        self.assertNotIn("cropping", statistics["left_out"])
+        statistics = render("ray-cast", "MaximumError=0")
+        self.assertEqual(statistics["error"]["maximum"], 0)
         statistics = render(
             "ray-cast", "Integration=table", "TableFormat=half", "TableScalarSize=64"
         )
