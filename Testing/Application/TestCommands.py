@@ -338,8 +338,12 @@ class Commands(ToolTest):
         self.assertIn("cropping", render("ray-cast", "Cropping=False")["left_out"])
         statistics = render("ray-cast", "Cropping=on", "CroppingRegionFlags=0x2000")
         self.assertNotIn("cropping", statistics["left_out"])
-        statistics = render("ray-cast", "MaximumError=0")
-        self.assertEqual(statistics["error"]["maximum"], 0)
+        self.succeed(
+            "render", "ball.vtu", "--size", "20,20", "--max-error", 0, "--stats", "s.json",
+            "--output", "out.png",
+        )
+        with open(self.path("s.json"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["error"]["maximum"], 0)
         statistics = render(
             "ray-cast", "Integration=table", "TableFormat=half", "TableScalarSize=64"
         )
