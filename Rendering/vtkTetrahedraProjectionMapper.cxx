@@ -60,8 +60,17 @@ double GetRounding(ChannelFormat format)
 }
 
 /// Error of a channel by adding up what the cells along a ray contribute.
-double EstimateSummationError(const VolumeScene& volume, ChannelFormat format)
+double EstimateSummationError(
+  VolumeScene& volume, ChannelFormat format, double worldRadius, bool dithered)
 {
+  const tetralux::EightBitErrors errors = format == ChannelFormat::UNorm8
+    ? volume.EstimateEightBitErrors(worldRadius)
+    : tetralux::EightBitErrors();
+  const double measured = dithered ? errors.Random.Largest : errors.Nearest.Largest;
+  if (measured > 0)
+  {
+    return measured;
+  }
   // A ray goes through at most some four cells for each that lie side by side along the mesh.
   const double layers =
     4 * std::cbrt(static_cast<double>(volume.Mesh.GetMesh()->GetNumberOfCells()));
@@ -156,6 +165,7 @@ private:
 
   vtkTetrahedraProjectionMapper* Self;
   tetralux::ProjectionScene Scene;
+  double WorldRadius = 1; ///< of the mesh, world units
   std::vector<tetralux::ScreenPoint> Points;
   std::vector<std::uint8_t> DrawnCells; ///< empty: all
   std::vector<std::int32_t> Order;
@@ -229,10 +239,12 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   tetralux::ProjectionScene& scene = this->Scene;
   scene.Volume = &volume;
   scene.Grid = frame.MakeGrid(rays);
-  VolumeScene::CheckWorldRadius(
-    mesh.GetRadius() * tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest);
+  this->WorldRadius =
+    mesh.GetRadius() * tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest;
+  VolumeScene::CheckWorldRadius(this->WorldRadius);
   scene.Interpolate = this->Self->PerspectiveInterpolation != 0;
-  scene.Dither = this->Self->AlphaDithering && this->Self->ColorBuffer == UNORM8_BUFFER;
+  scene.Dither = this->Self->AlphaDithering && this->Self->ColorBuffer == UNORM8_BUFFER &&
+    volume.EstimateEightBitErrors(this->WorldRadius).IsRandomBetter();
   scene.Format = this->ChooseFormat(frame);
   scene.FrontToBack = scene.Format == ChannelFormat::Float;
 
@@ -306,7 +318,7 @@ ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(const Mappe
     case UNORM8_BUFFER:
       return ChannelFormat::UNorm8;
     default:
-      return EstimateSummationError(*frame.Scene, ChannelFormat::Half) <=
+      return EstimateSummationError(*frame.Scene, ChannelFormat::Half, this->WorldRadius, false) <=
           tetralux::MakeErrorBudget(frame.MaximumError, { false, false, true, false }).Buffer
         ? ChannelFormat::Half
         : ChannelFormat::Float;
@@ -406,6 +418,12 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   section["perspective_interpolation"] = scene.Interpolate;
   section["color_buffer"] = GetFormatName(scene.Format);
   section["alpha_dithering"] = scene.Dither;
+  if (scene.Format == ChannelFormat::UNorm8)
+  {
+    const tetralux::EightBitErrors errors = volume.EstimateEightBitErrors(this->WorldRadius);
+    section["rms_of_rounding_to_nearest"] = std::sqrt(errors.Nearest.MeanSquare);
+    section["rms_of_rounding_at_random"] = std::sqrt(errors.Random.MeanSquare);
+  }
   section["tetrahedra_in_order"] = static_cast<std::int64_t>(this->Order.size());
   section["tetrahedra_drawn"] = drawn.Cells;
   section["triangles"] = drawn.Triangles;
@@ -421,8 +439,6 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   }
   frame.Sections.emplace_back("projection", section);
 
-  const double worldRadius = volume.Mesh.GetMesh()->GetRadius() *
-    tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest;
   const bool isOrderWrong = this->Sorted &&
     (this->Method == VisibilityMethod::CentroidDistance ||
       this->Method == VisibilityMethod::MeshedNonConvex ||
@@ -432,10 +448,10 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
     { false, IsTabulated(integrator), scene.Format != ChannelFormat::Float,
       volume.Optics.GetFunctionError() > 0 });
   frame.Errors = { { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
-    { "summation", EstimateSummationError(volume, scene.Format) },
+    { "summation", EstimateSummationError(volume, scene.Format, this->WorldRadius, scene.Dither) },
     { "table", IsTabulated(integrator) ? volume.Optics.GetTableError() : 0 },
-    { "geometry", volume.EstimateGeometryError(worldRadius, tetralux::CellShaderRounding) },
-    { "order", isOrderWrong ? volume.EstimateOrderError(worldRadius) : 0 } };
+    { "geometry", volume.EstimateGeometryError(this->WorldRadius, tetralux::CellShaderRounding) },
+    { "order", isOrderWrong ? volume.EstimateOrderError(this->WorldRadius) : 0 } };
 
   frame.ReportOmission(!this->Sorted, "order", "what cells add commutes");
   frame.ReportOmission(scene.Planes.empty(), "near and far plane", "they cut nothing");
@@ -443,7 +459,9 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
     this->Order.size() < static_cast<std::size_t>(volume.Mesh.GetMesh()->GetNumberOfCells()),
     "unseen tetrahedra", "they are transparent or clipped");
   frame.ReportOmission(!scene.Dither, "alpha dithering",
-    this->Self->ColorBuffer == UNORM8_BUFFER ? "it is off" : "colours have more than 8 bits");
+    this->Self->ColorBuffer != UNORM8_BUFFER ? "colours have more than 8 bits"
+      : !this->Self->AlphaDithering          ? "it is off"
+                                             : "rounding to the nearest is nearer to the picture");
   frame.ReportOmission(
     !scene.Frame->IsPerspective(), "perspective interpolation", "the view is parallel");
 }

@@ -78,9 +78,12 @@ public:
 
   ///@{
   /**
-   * Set whether opacities are rounded to 8 bits up or down at random instead of to the nearest
-   * (Kraus et al. 2004, section 4.2), if ColorBuffer is UNORM8_BUFFER. Default on. The random
-   * numbers belong to pixels and cells, so frames of the same view are the same.
+   * Set whether opacities may be rounded to 8 bits up or down at random instead of to the nearest
+   * (Kraus et al. 2004, section 4.2), if ColorBuffer is UNORM8_BUFFER; without absorption it is
+   * colours that are. Default on: where it makes the picture better. That is measured on a sample
+   * of rays, since what the graphics card blends with is rounded to the nearest in any case, which
+   * random opacities can't make good; GetStatistics() has both errors. The random numbers belong to
+   * pixels and cells, so frames of the same view are the same.
    */
   vtkSetMacro(AlphaDithering, vtkTypeBool);
   vtkGetMacro(AlphaDithering, vtkTypeBool);

@@ -15,9 +15,6 @@ namespace
 /// Optical depth behind which nothing is seen any more: e^-16 is 1e-7.
 constexpr double OpaqueDepth = 16;
 
-/// One ray in so many exceeds what WorstOfPicture multiplies.
-constexpr double RaysForOne = 1000;
-
 /// Sums over a transfer function, from its first node to a scalar.
 class FunctionSums
 {
@@ -238,26 +235,6 @@ private:
   double Scalar;   ///< units of the scalars
 };
 
-/// What the given part of the rays exceeds, by their weights.
-double FindQuantile(const std::vector<double>& errors, const std::vector<double>& weights)
-{
-  std::vector<std::size_t> order(errors.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-    [&errors](std::size_t a, std::size_t b) { return errors[a] > errors[b]; });
-  const double allowed = std::accumulate(weights.begin(), weights.end(), 0.) / RaysForOne;
-  double sum = 0;
-  for (const std::size_t i : order)
-  {
-    sum += weights[i];
-    if (sum > allowed)
-    {
-      return errors[i];
-    }
-  }
-  return 0;
-}
-
 } // namespace
 
 double EstimateRoundingError(const RaySample& rays, const RayUnits& units,
@@ -271,7 +248,7 @@ double EstimateRoundingError(const RaySample& rays, const RayUnits& units,
   {
     errors[i] = rounded.Measure(rays.Rays[i]);
   }
-  return WorstOfPicture * FindQuantile(errors, rays.Weights);
+  return WorstOfPicture * FindOneInThousand(errors, rays.Weights);
 }
 
 } // namespace tetralux

@@ -24,6 +24,7 @@
 
 #include "Integral/RaySegments.h"
 #include "Optics/TransferFunction.h"
+#include "Scene/WorstOfPicture.h"
 #include "TetraluxCoreModule.h"
 
 namespace tetralux
@@ -38,11 +39,6 @@ struct GeometryRounding
 
 /// Coordinates and scalars in the tables of WalkMesh are rounded to 2^-24 of the largest.
 constexpr GeometryRounding SingleRounding = { 1. / (1 << 24), 1. / (1 << 24) };
-
-/// How much worse the worst ray of a picture is than one in a thousand: with this factor no
-/// estimate of 264 pictures of 256 x 256 was below the error, grazing pixels included
-/// (Documentation/Benchmarks.md).
-constexpr double WorstOfPicture = 5;
 
 /// No mapper rounds coordinates across a ray by more: radii of the mesh.
 constexpr double GrazingRounding = 1. / (1 << 22);

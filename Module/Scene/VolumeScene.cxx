@@ -323,4 +323,22 @@ double VolumeScene::EstimateOrderError(double worldRadius)
   return this->OrderError.Get();
 }
 
+EightBitErrors VolumeScene::EstimateEightBitErrors(double worldRadius)
+{
+  const OpticalModel model = this->Optics.GetModel();
+  if (model == OpticalModel::MaximumIntensity || model == OpticalModel::Isosurfaces)
+  {
+    return {};
+  }
+  const double radius = static_cast<float>(worldRadius);
+  this->EightBits.Update(CacheKey::Of(this->Mesh.GetPointsVersion(), this->Mesh.GetScalarsVersion(),
+                           this->Optics.GetFunctionVersion(), model, radius),
+    [&]
+    {
+      return tetralux::EstimateEightBitErrors(*this->Mesh.DrawRays(1),
+        radius / this->Mesh.GetMesh()->GetRadius(), this->Optics.GetTransferFunction(), model);
+    });
+  return this->EightBits.Get();
+}
+
 } // namespace tetralux

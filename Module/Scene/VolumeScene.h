@@ -4,6 +4,7 @@
 
 #include "Base/Cached.h"
 #include "Integral/IntegrationPlan.h"
+#include "Scene/EightBitError.h"
 #include "Scene/GeometryError.h"
 #include "Scene/MeshScene.h"
 #include "Scene/SceneOptics.h"
@@ -104,6 +105,10 @@ public:
   /// EstimateOrderError of emission and absorption; 0 of other models. Measured once, as above.
   double EstimateOrderError(double worldRadius);
 
+  /// EstimateEightBitErrors of models that are composited cell by cell; 0 of others. Measured once,
+  /// as above. Lights are left out.
+  EightBitErrors EstimateEightBitErrors(double worldRadius);
+
 private:
   struct VisibleCellFlags
   {
@@ -128,6 +133,7 @@ private:
   CacheStamp VisibleTopology;
   Cached<double> GeometryError;
   Cached<double> OrderError;
+  Cached<EightBitErrors> EightBits;
   std::uint64_t VisiblePointsVersion = 0; ///< of the mesh that the boxes of VisibleTables are of
 };
 

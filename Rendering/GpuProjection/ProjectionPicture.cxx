@@ -336,7 +336,9 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
   if (pass == Pass::Colors && scene.Dither)
   {
     shader.Segment += AlphaDitherDec;
-    shader.Dither = "color = DitherAlpha(color, GetRandomNumber(gl_FragCoord.xy, key));";
+    shader.Dither = std::string("color = ") +
+      (model == OpticalModel::EmissionOnly ? "DitherColor" : "DitherAlpha") +
+      "(color, GetRandomNumber(gl_FragCoord.xy, key));";
   }
   return shader;
 }

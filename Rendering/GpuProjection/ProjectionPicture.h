@@ -59,7 +59,7 @@ struct ProjectionScene
 
   bool Interpolate = true; ///< with perspective correction
   ChannelFormat Format = ChannelFormat::Float;
-  bool Dither = false; ///< opacities, for 8 bits
+  bool Dither = false; ///< for 8 bits: opacities, or colours where there is no absorption
 };
 
 /// Draws pictures of projected cells into textures of its own: colours as they come, and distances

@@ -165,7 +165,8 @@ std::vector<MapperProperty> MakeProperties()
         { "unorm8", 3, "8 bits a channel" } },
       "Format that colours are composited in (Kraus et al. 2004, section 4)."),
     MakeBoolean("AlphaDithering", ProjectionKind, Projection, true, true,
-      "Round opacities at random if ColorBuffer is unorm8 (Kraus et al. 2004, section 4)."),
+      "Round at random if ColorBuffer is unorm8 and that is better (Kraus et al. 2004, section "
+      "4)."),
     MakeEnumeration("Order", ProjectionKind, Projection, true,
       { { "automatic", 0, "as exact, without a warning if it can't be" },
         { "exact", 1, "by common faces of the convexified mesh (Williams 1992)" },

@@ -216,11 +216,37 @@ TEST(ProjectionMapper, CorrectionsOff)
   const double rounded = FindLargestDifference(scene.Render(), best);
   EXPECT_GT(rounded, half);
   EXPECT_LT(rounded, scene.Projection->GetErrorEstimate());
+  // Rounding at random is no better here, so it is not used.
   scene.Projection->AlphaDitheringOn();
+  EXPECT_EQ(FindLargestDifference(scene.Render(), best), rounded);
+  EXPECT_TRUE(scene.Says("\"alpha_dithering\": false"));
+}
+
+// Emission is only added up: random rounding is right on the average, whatever the scene.
+TEST(ProjectionMapper, EmissionIsDitheredWithoutBias)
+{
+  ProjectionMapperScene scene;
+  scene.Projection->SetBlendModeToAdditive();
+  scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(4);
+  const std::vector<float> best = scene.Render();
+  scene.Projection->SetColorBufferToUNorm8();
   const std::vector<float> dithered = scene.Render();
   EXPECT_TRUE(scene.Says("\"alpha_dithering\": true"));
-  EXPECT_GT(FindLargestDifference(dithered, best), 0);
-  EXPECT_EQ(dithered, scene.Render()); // the same in each frame
+  EXPECT_LT(FindLargestDifference(dithered, best), scene.Projection->GetErrorEstimate());
+  EXPECT_EQ(dithered, scene.Render()) << "the same in each frame";
+  scene.Projection->AlphaDitheringOff();
+  const std::vector<float> rounded = scene.Render();
+  const auto findBias = [&best](const std::vector<float>& colors)
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+    {
+      sum += colors[i] - best[i];
+    }
+    return std::abs(sum) / static_cast<double>(colors.size());
+  };
+  EXPECT_LT(findBias(dithered), 0.1 / 255);
+  EXPECT_GT(findBias(rounded), 10 * findBias(dithered));
 }
 
 // In a view that is nearly parallel there is nothing to correct: what the rasteriser interpolates
