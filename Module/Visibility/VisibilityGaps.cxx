@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace tetralux
 {
@@ -23,6 +24,16 @@ constexpr double ContactTolerance = 1e-7;
 /// in common to count. Rounding gives faces that meet in an edge some 1e-16, and faces
 /// that are seen edge-on.
 constexpr double OverlapTolerance = 1e-10;
+
+/// How far from the plane of a face a viewer may be who counts as in it: the sine of the angle
+/// between the plane and a ray, or, of a viewer who is nearer than a radius of the mesh, the
+/// distance in radii. Of the cone behind such a face rounding leaves nothing that is right; what a
+/// ray passes of its cell is shorter than that, but for rays nearly in the plane.
+constexpr double EdgeOnTolerance = 1e-12;
+
+/// Parts of rays that are shorter, in radii of the mesh, order nothing where faces touch: some
+/// hundred roundings.
+constexpr double ShortestStretch = 1e-13;
 
 using Vector = std::array<double, 3>;
 
@@ -91,6 +102,19 @@ struct Polygon
     }
   }
 
+  Vector GetMiddle() const
+  {
+    Vector middle = { 0, 0, 0 };
+    for (int i = 0; i < this->Size; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        middle[axis] += this->Corners[i][axis] / this->Size;
+      }
+    }
+    return middle;
+  }
+
   double Measure(const VisibilityView& view) const
   {
     double size = 0;
@@ -116,12 +140,19 @@ struct Gap
   }
 };
 
+/// The part of a ray inside a cell, in lengths of the ray's direction.
+struct Stretch
+{
+  double Begin, End;
+};
+
 class GapFinder
 {
 public:
-  GapFinder(
-    const VisibilityGeometry& geometry, const VisibilityArrows& arrows, const VisibilityView& view)
+  GapFinder(const VisibilityGeometry& geometry, const VisibilityArrows& arrows,
+    Span<const std::int32_t> twins, const VisibilityView& view)
     : Geometry(geometry)
+    , Twins(twins)
     , View(view)
     , Facing(geometry.Boundary->Entries.size())
   {
@@ -141,6 +172,12 @@ public:
         orientation.GetTurn(geometry.GetPoint(entry.Points[0]), geometry.GetPoint(entry.Points[1]),
           geometry.GetPoint(entry.Points[2])));
     }
+    this->EdgeOn.resize(this->Facing.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t face = 0; face < numberOfFaces; ++face)
+    {
+      this->EdgeOn[face] = this->IsEdgeOn(this->GetTriangle(geometry.Boundary->Entries[face]));
+    }
   }
 
   bool IsLeft(std::int64_t face) const { return this->Facing[face] > 0; }
@@ -150,6 +187,18 @@ public:
   {
     const WalkEntry& left = this->Geometry.Boundary->Entries[leftFace];
     Polygon exit = this->GetTriangle(left);
+    const std::int32_t twin = this->Twins[leftFace];
+    if (twin >= 0 && this->Facing[twin] < 0)
+    {
+      const double size = exit.Measure(this->View);
+      gaps.push_back(
+        { left.Cell, this->Geometry.Boundary->Entries[twin].Cell, static_cast<float>(size) });
+      return;
+    }
+    if (this->EdgeOn[leftFace])
+    {
+      return;
+    }
     // Counter-clockwise to the viewer.
     Vector normal = Cross(exit.Corners[1] - exit.Corners[0], exit.Corners[2] - exit.Corners[0]);
     if (Dot(normal, this->GetRay(exit.Corners[0])) > 0)
@@ -189,7 +238,7 @@ public:
       {
         const std::int32_t face = bvh.Triangles[i];
         const WalkEntry& entered = this->Geometry.Boundary->Entries[face];
-        if (this->Facing[face] >= 0 || entered.Cell == left.Cell)
+        if (this->Facing[face] >= 0 || this->EdgeOn[face] || entered.Cell == left.Cell)
         {
           continue;
         }
@@ -200,14 +249,21 @@ public:
           part.Clip(planes[plane], 0);
         }
         const double smallest = OverlapTolerance * std::min(size, this->MeasureFromFront(entry));
-        const bool touching = std::all_of(part.Corners.begin(), part.Corners.begin() + part.Size,
-          [&](const Vector& corner) { return behind.GetDistance(corner) >= -ContactTolerance; });
-        if (!touching)
+        double nearest = 0, farthest = 0;
+        for (int corner = 0; corner < part.Size; ++corner)
+        {
+          const double distance = behind.GetDistance(part.Corners[corner]);
+          nearest = std::min(nearest, distance);
+          farthest = std::max(farthest, distance);
+        }
+        if (nearest < -ContactTolerance)
         {
           part.Clip(behind, 0);
         }
         const double common = part.Measure(this->View);
-        if (common > smallest)
+        if (common > smallest &&
+          (farthest > ContactTolerance ||
+            this->IsPassedBefore(left.Cell, entered.Cell, part.GetMiddle())))
         {
           gaps.push_back({ left.Cell, entered.Cell, static_cast<float>(common) });
         }
@@ -216,18 +272,74 @@ public:
   }
 
 private:
+  bool IsEdgeOn(const Polygon& triangle) const
+  {
+    const Vector normal =
+      Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
+    const Vector ray = this->GetRay(triangle.Corners[0]);
+    const double length = this->View.Parallel ? 1 : std::max(1., std::sqrt(Dot(ray, ray)));
+    return std::abs(Dot(normal, ray)) <= EdgeOnTolerance * std::sqrt(Dot(normal, normal)) * length;
+  }
+
+  /// Whether a ray through a point passes the first cell before the second one. Where faces touch
+  /// they do not tell: the whole cells may be thinner than what faces are off by.
+  bool IsPassedBefore(std::int32_t first, std::int32_t second, const Vector& point) const
+  {
+    const Vector ray = this->GetRay(point);
+    const Stretch a = this->GetStretch(first, point, ray);
+    const Stretch b = this->GetStretch(second, point, ray);
+    const double shortest = std::min(a.End - a.Begin, b.End - b.Begin) * std::sqrt(Dot(ray, ray));
+    return shortest >= ShortestStretch && a.Begin + a.End < b.Begin + b.End;
+  }
+
+  /// Where a ray through a point, at 0, is inside a cell; the viewer is at -1, or far away.
+  Stretch GetStretch(std::int32_t cell, const Vector& point, const Vector& ray) const
+  {
+    const std::int32_t* ids = this->Geometry.GetPointIds(cell);
+    std::array<Vector, 4> corners;
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      corners[corner] = this->GetPoint(ids[corner]);
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Stretch stretch = { this->View.Parallel ? -infinity : -1, infinity };
+    for (int face = 0; face < 4; ++face)
+    {
+      const Vector& a = corners[(face + 1) % 4];
+      const Vector normal = Cross(corners[(face + 2) % 4] - a, corners[(face + 3) % 4] - a);
+      const double side = Dot(normal, corners[face] - a) < 0 ? -1 : 1;
+      const double slope = side * Dot(normal, ray);
+      const double height = side * Dot(normal, point - a);
+      if (slope > 0)
+      {
+        stretch.Begin = std::max(stretch.Begin, -height / slope);
+      }
+      else if (slope < 0)
+      {
+        stretch.End = std::min(stretch.End, -height / slope);
+      }
+    }
+    return stretch;
+  }
+
+  Vector GetPoint(std::int32_t id) const
+  {
+    const double* point = this->Geometry.GetPoint(id);
+    Vector relative;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      relative[axis] = (point[axis] - this->Geometry.Center[axis]) / this->Geometry.Radius;
+    }
+    return relative;
+  }
+
   Polygon GetTriangle(const WalkEntry& entry) const
   {
     Polygon triangle;
     triangle.Size = 3;
     for (int corner = 0; corner < 3; ++corner)
     {
-      const double* point = this->Geometry.GetPoint(entry.Points[corner]);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        triangle.Corners[corner][axis] =
-          (point[axis] - this->Geometry.Center[axis]) / this->Geometry.Radius;
-      }
+      triangle.Corners[corner] = this->GetPoint(entry.Points[corner]);
     }
     return triangle;
   }
@@ -263,19 +375,21 @@ private:
   }
 
   const VisibilityGeometry& Geometry;
+  Span<const std::int32_t> Twins;
   VisibilityView View;
   /// For each boundary face 1 where rays leave by it, -1 where they enter, 0 where it is edge-on.
   std::vector<std::int8_t> Facing;
+  std::vector<std::uint8_t> EdgeOn; ///< to rounding, see EdgeOnTolerance
 };
 
 } // namespace
 
 //----------------------------------------------------------------------------
 bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows,
-  const VisibilityView& view, VisibilityGaps& gaps)
+  Span<const std::int32_t> twins, const VisibilityView& view, VisibilityGaps& gaps)
 {
   gaps = {};
-  const GapFinder finder(geometry, arrows, view);
+  const GapFinder finder(geometry, arrows, twins, view);
   const std::int64_t numberOfFaces = static_cast<std::int64_t>(geometry.Boundary->Entries.size());
   const std::int64_t limit = LargestNumberOfGaps * numberOfFaces;
   std::atomic<std::int64_t> count{ 0 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshParts.h"
 #include "Visibility/MeasureTriangle.h"
+#include "Visibility/TwinFaces.h"
 #include "Visibility/VisibilityArrows.h"
 #include "Visibility/VisibilityCycles.h"
 #include "Visibility/VisibilityGaps.h"
@@ -64,7 +65,8 @@ struct Scene
   VisibilityGaps FindGaps(const VisibilityView& view) const
   {
     VisibilityGaps gaps;
-    EXPECT_TRUE(tetralux::FindGaps(this->Geometry, VisibilityArrows(this->Geometry), view, gaps));
+    EXPECT_TRUE(tetralux::FindGaps(this->Geometry, VisibilityArrows(this->Geometry),
+      FindTwinFaces(this->Geometry), view, gaps));
     return gaps;
   }
 
