@@ -15,10 +15,13 @@ namespace tetralux
 namespace
 {
 
-/// How far, in radii of the mesh, a face may be in front of another one, everywhere that they have
-/// something in common, and still count as touching it: the rounding of coordinates that come from
-/// files in single precision.
-constexpr double ContactTolerance = 1e-7;
+/// How far two points may be apart that were one before they were rounded to single precision, in
+/// the largest coordinate: four halves of a unit in the last place along each axis.
+constexpr double SingleRounding = 4.2e-7;
+
+/// How far into each other cells may reach and still be seen to touch, in the largest coordinate:
+/// what comes of six digits in a text file.
+constexpr double ContactTolerance = 2e-6;
 
 /// Part of the smaller of two faces, as they would look from in front, that they must have
 /// in common to count. Rounding gives faces that meet in an edge some 1e-16, and faces
@@ -68,11 +71,11 @@ struct Plane
   double GetDistance(const Vector& point) const { return Dot(this->Normal, point) - this->Offset; }
 };
 
-/// A triangle that planes cut, at most four times. A cut adds one corner; but where rounding
-/// decides the sides of corners, they may alternate, so that 4, 6, 9, 13 corners come of it.
+/// A triangle that planes cut, at most three times. A cut adds one corner; but where rounding
+/// decides the sides of corners, they may alternate, so that 4, 6, 9 corners come of it.
 struct Polygon
 {
-  std::array<Vector, 13> Corners;
+  std::array<Vector, 9> Corners;
   int Size = 0;
 
   /// Keeps what has at least that distance.
@@ -131,6 +134,7 @@ struct Gap
 {
   std::int32_t From, To;
   float Size;
+  std::uint8_t Sliver;
 
   bool operator<(const Gap& other) const
   {
@@ -156,6 +160,11 @@ public:
     , View(view)
     , Facing(geometry.Boundary->Entries.size())
   {
+    const auto& center = geometry.Center;
+    const double largest = 1 +
+      std::max({ std::abs(center[0]), std::abs(center[1]), std::abs(center[2]) }) / geometry.Radius;
+    this->Rounding = SingleRounding * largest;
+    this->Contact = ContactTolerance * largest;
     const ViewOrientation orientation(view);
     // As all coordinates here: relative to the mesh.
     for (int axis = 0; axis < 3; ++axis)
@@ -192,7 +201,7 @@ public:
     {
       const double size = exit.Measure(this->View);
       gaps.push_back(
-        { left.Cell, this->Geometry.Boundary->Entries[twin].Cell, static_cast<float>(size) });
+        { left.Cell, this->Geometry.Boundary->Entries[twin].Cell, static_cast<float>(size), 0 });
       return;
     }
     if (this->EdgeOn[leftFace])
@@ -243,30 +252,33 @@ public:
           continue;
         }
         const Polygon entry = this->GetTriangle(entered);
-        Polygon part = entry;
-        for (int plane = 0; plane < 3 && part.Size > 0; ++plane)
-        {
-          part.Clip(planes[plane], 0);
-        }
+        const Polygon part = ClipByCone(entry, planes, 0);
         const double smallest = OverlapTolerance * std::min(size, this->MeasureFromFront(entry));
-        double nearest = 0, farthest = 0;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        double nearest = infinity, farthest = -infinity;
         for (int corner = 0; corner < part.Size; ++corner)
         {
           const double distance = behind.GetDistance(part.Corners[corner]);
           nearest = std::min(nearest, distance);
           farthest = std::max(farthest, distance);
         }
-        if (nearest < -ContactTolerance)
-        {
-          part.Clip(behind, 0);
-        }
         const double common = part.Measure(this->View);
-        if (common > smallest &&
-          (farthest > ContactTolerance ||
-            this->IsPassedBefore(left.Cell, entered.Cell, part.GetMiddle())))
+        if (farthest < -this->Contact || common <= smallest)
         {
-          gaps.push_back({ left.Cell, entered.Cell, static_cast<float>(common) });
+          continue;
         }
+        bool sliver = ClipByCone(entry, planes, this->Rounding).Size == 0;
+        if (nearest < 0 || farthest <= this->Contact)
+        {
+          const double length =
+            this->GetLengthPassedBefore(left.Cell, entered.Cell, part.GetMiddle());
+          if (length < ShortestStretch)
+          {
+            continue;
+          }
+          sliver = sliver || length < this->Rounding;
+        }
+        gaps.push_back({ left.Cell, entered.Cell, static_cast<float>(common), sliver });
       }
     }
   }
@@ -281,15 +293,18 @@ private:
     return std::abs(Dot(normal, ray)) <= EdgeOnTolerance * std::sqrt(Dot(normal, normal)) * length;
   }
 
-  /// Whether a ray through a point passes the first cell before the second one. Where faces touch
-  /// they do not tell: the whole cells may be thinner than what faces are off by.
-  bool IsPassedBefore(std::int32_t first, std::int32_t second, const Vector& point) const
+  /// How much, in radii, of each of two cells a ray through a point passes at least, if it passes
+  /// the first one before the second one; else 0. Where faces touch they do not tell: the whole
+  /// cells may be thinner than what faces are off by. One ray tells for all, as a plane separates
+  /// the cells.
+  double GetLengthPassedBefore(std::int32_t first, std::int32_t second, const Vector& point) const
   {
     const Vector ray = this->GetRay(point);
     const Stretch a = this->GetStretch(first, point, ray);
     const Stretch b = this->GetStretch(second, point, ray);
-    const double shortest = std::min(a.End - a.Begin, b.End - b.Begin) * std::sqrt(Dot(ray, ray));
-    return shortest >= ShortestStretch && a.Begin + a.End < b.Begin + b.End;
+    return a.Begin + a.End < b.Begin + b.End
+      ? std::min(a.End - a.Begin, b.End - b.Begin) * std::sqrt(Dot(ray, ray))
+      : 0;
   }
 
   /// Where a ray through a point, at 0, is inside a cell; the viewer is at -1, or far away.
@@ -358,8 +373,20 @@ private:
     return this->View.Parallel ? this->View.Direction : point - this->View.Eye;
   }
 
-  /// False only where no point of a node is on the positive sides of all planes.
-  static bool CanMeet(const BoundaryBvh::Node& node, const Plane (&planes)[4])
+  /// The part of a triangle that is at least that far inside of the first three planes.
+  static Polygon ClipByCone(const Polygon& triangle, const Plane (&planes)[4], double distance)
+  {
+    Polygon part = triangle;
+    for (int plane = 0; plane < 3 && part.Size > 0; ++plane)
+    {
+      part.Clip(planes[plane], distance);
+    }
+    return part;
+  }
+
+  /// False only where no point of a node is on the positive sides of all planes, or within the
+  /// contact tolerance of them.
+  bool CanMeet(const BoundaryBvh::Node& node, const Plane (&planes)[4]) const
   {
     return std::all_of(std::begin(planes), std::end(planes),
       [&](const Plane& plane)
@@ -370,7 +397,7 @@ private:
           distance +=
             plane.Normal[axis] * node.Center[axis] + std::abs(plane.Normal[axis]) * node.Half[axis];
         }
-        return distance >= -ContactTolerance;
+        return distance >= -this->Contact;
       });
   }
 
@@ -380,6 +407,8 @@ private:
   /// For each boundary face 1 where rays leave by it, -1 where they enter, 0 where it is edge-on.
   std::vector<std::int8_t> Facing;
   std::vector<std::uint8_t> EdgeOn; ///< to rounding, see EdgeOnTolerance
+  double Rounding = 0;              ///< SingleRounding in radii
+  double Contact = 0;               ///< ContactTolerance in radii
 };
 
 } // namespace
@@ -422,10 +451,12 @@ bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows
     if (i > 0 && all[i].From == all[i - 1].From && all[i].To == all[i - 1].To)
     {
       gaps.Sizes.back() += all[i].Size;
+      gaps.Slivers.back() &= all[i].Sliver;
       continue;
     }
     gaps.Cells.push_back(all[i].To);
     gaps.Sizes.push_back(all[i].Size);
+    gaps.Slivers.push_back(all[i].Sliver);
     ++gaps.Begins[all[i].From + 1];
   }
   for (std::size_t cell = 1; cell < gaps.Begins.size(); ++cell)

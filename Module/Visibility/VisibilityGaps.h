@@ -20,6 +20,10 @@ struct VisibilityGaps
     Begins; ///< for each cell where its arrows begin, and the end of the last
   std::vector<std::int32_t> Cells; ///< those that are hidden, ascending for each cell
   std::vector<float> Sizes; ///< how large the common part of the faces looks, see MeasureTriangle
+
+  /// 1 where what the pair has in common, of faces or of rays through the cells, is no more than
+  /// what coordinates in single precision may be off by; else 0.
+  std::vector<std::uint8_t> Slivers;
 };
 
 /// Finds all gaps of a view. With them the order of any mesh is exact, also of one that can't be
