@@ -148,6 +148,7 @@ struct Gap
 struct Stretch
 {
   double Begin, End;
+  bool OfFlatCell;
 };
 
 class GapFinder
@@ -271,7 +272,7 @@ public:
         if (nearest < 0 || farthest <= this->Contact)
         {
           const double length =
-            this->GetLengthPassedBefore(left.Cell, entered.Cell, part.GetMiddle());
+            this->GetLengthPassedBefore(left.Cell, behind, entered.Cell, part.GetMiddle());
           if (length < ShortestStretch)
           {
             continue;
@@ -293,22 +294,37 @@ private:
     return std::abs(Dot(normal, ray)) <= EdgeOnTolerance * std::sqrt(Dot(normal, normal)) * length;
   }
 
-  /// How much, in radii, of each of two cells a ray through a point passes at least, if it passes
-  /// the first one before the second one; else 0. Where faces touch they do not tell: the whole
-  /// cells may be thinner than what faces are off by. One ray tells for all, as a plane separates
-  /// the cells.
-  double GetLengthPassedBefore(std::int32_t first, std::int32_t second, const Vector& point) const
+  /// How much, in radii, of each of two cells a ray passes at least, if it passes the first one
+  /// before the second one; else 0. The ray enters the second one at a point; it leaves the first
+  /// one by a face in the plane behind. Where faces touch they do not tell: the whole cells may be
+  /// thinner than what faces are off by. One ray tells for all, as a plane separates the cells.
+  /// Flat cells are where their faces are, and count as long as the other cell.
+  double GetLengthPassedBefore(
+    std::int32_t first, const Plane& behind, std::int32_t second, const Vector& point) const
   {
     const Vector ray = this->GetRay(point);
-    const Stretch a = this->GetStretch(first, point, ray);
-    const Stretch b = this->GetStretch(second, point, ray);
-    return a.Begin + a.End < b.Begin + b.End
-      ? std::min(a.End - a.Begin, b.End - b.Begin) * std::sqrt(Dot(ray, ray))
-      : 0;
+    const double length = std::sqrt(Dot(ray, ray));
+    const double exit = -behind.GetDistance(point) / Dot(behind.Normal, ray);
+    const Stretch a = this->GetStretch(first, exit, point, ray);
+    const Stretch b = this->GetStretch(second, 0, point, ray);
+    if (a.OfFlatCell && b.OfFlatCell)
+    {
+      return exit * length <= this->Rounding ? ShortestStretch : 0;
+    }
+    if (a.Begin + a.End >= b.Begin + b.End)
+    {
+      return 0;
+    }
+    return length *
+      (a.OfFlatCell      ? b.End - b.Begin
+          : b.OfFlatCell ? a.End - a.Begin
+                         : std::min(a.End - a.Begin, b.End - b.Begin));
   }
 
   /// Where a ray through a point, at 0, is inside a cell; the viewer is at -1, or far away.
-  Stretch GetStretch(std::int32_t cell, const Vector& point, const Vector& ray) const
+  /// placeOfFlat: where it is if the cell has no volume.
+  Stretch GetStretch(
+    std::int32_t cell, double placeOfFlat, const Vector& point, const Vector& ray) const
   {
     const std::int32_t* ids = this->Geometry.GetPointIds(cell);
     std::array<Vector, 4> corners;
@@ -317,12 +333,17 @@ private:
       corners[corner] = this->GetPoint(ids[corner]);
     }
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Stretch stretch = { this->View.Parallel ? -infinity : -1, infinity };
+    Stretch stretch = { this->View.Parallel ? -infinity : -1, infinity, false };
     for (int face = 0; face < 4; ++face)
     {
       const Vector& a = corners[(face + 1) % 4];
       const Vector normal = Cross(corners[(face + 2) % 4] - a, corners[(face + 3) % 4] - a);
-      const double side = Dot(normal, corners[face] - a) < 0 ? -1 : 1;
+      const double volume = Dot(normal, corners[face] - a);
+      if (std::abs(volume) <= ShortestStretch * std::sqrt(Dot(normal, normal)))
+      {
+        return { placeOfFlat, placeOfFlat, true };
+      }
+      const double side = volume < 0 ? -1 : 1;
       const double slope = side * Dot(normal, ray);
       const double height = side * Dot(normal, point - a);
       if (slope > 0)

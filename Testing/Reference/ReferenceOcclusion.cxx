@@ -68,6 +68,20 @@ Part Clip(const std::array<Vector, 4>& corners, const Vector& origin, const Vect
   return part;
 }
 
+/// The smallest distance of a corner from the opposite face; 0 of a cell without volume.
+Number GetHeight(const std::array<Vector, 4>& corners)
+{
+  Number height = std::numeric_limits<Number>::infinity();
+  for (int face = 0; face < 4; ++face)
+  {
+    const Vector& a = corners[(face + 1) % 4];
+    const Vector normal = Cross(corners[(face + 2) % 4] - a, corners[(face + 3) % 4] - a);
+    const Number volume = std::abs(Dot(normal, corners[face] - a));
+    height = std::min(height, volume > 0 ? volume / std::sqrt(Dot(normal, normal)) : 0);
+  }
+  return height;
+}
+
 } // namespace
 
 //----------------------------------------------------------------------------
@@ -98,6 +112,10 @@ std::vector<OccludedPair> FindOccludedPairs(const TetrahedralMesh& mesh, const V
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::int32_t through = 0; through < numberOfCells; ++through)
   {
+    if (GetHeight(cells[through]) <= shortest)
+    {
+      continue;
+    }
     std::mt19937_64 random(seed + through);
     std::exponential_distribution<double> draw;
     std::vector<OccludedPair> found;
