@@ -30,7 +30,9 @@
 #include <functional>
 #include <map>
 #include <ostream>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -223,7 +225,7 @@ TetrahedralMesh Tetrahedralize(vtkStructuredGrid* grid, std::vector<double>& sca
   return mesh;
 }
 
-/// The same cells by the first of all points at a place.
+/// The same cells by the first of all points at a place, without those that name one twice.
 TetrahedralMesh MergePoints(TetrahedralMesh mesh)
 {
   std::map<std::array<std::int64_t, 3>, std::int32_t> firsts;
@@ -237,10 +239,20 @@ TetrahedralMesh MergePoints(TetrahedralMesh mesh)
     }
     merged.push_back(firsts.try_emplace(place, static_cast<std::int32_t>(i / 3)).first->second);
   }
-  for (std::int32_t& point : mesh.Cells)
+  std::vector<std::int32_t> cells;
+  for (std::size_t cell = 0; cell < mesh.Cells.size(); cell += 4)
   {
-    point = merged[static_cast<std::size_t>(point)];
+    std::set<std::int32_t> corners;
+    for (std::size_t corner = cell; corner < cell + 4; ++corner)
+    {
+      corners.insert(merged[static_cast<std::size_t>(mesh.Cells[corner])]);
+    }
+    if (corners.size() == 4)
+    {
+      cells.insert(cells.end(), corners.begin(), corners.end());
+    }
   }
+  mesh.Cells = std::move(cells);
   return mesh;
 }
 
