@@ -2,8 +2,8 @@
 
 // Visibility orders where nothing is left to rounding: viewers exactly at points, on edges and in
 // planes of faces, cells a millionth as thick as wide, cells with points of their own, and those
-// off by their last bits. All meshes here are Delaunay triangulations, or of boxes that are, in
-// which no viewer sees a cycle (Edelsbrunner, An Acyclicity Theorem for Cell Complexes, 1990): any
+// off by their last bits. All meshes here are Delaunay triangulations, or of boxes that are, or
+// two on the sides of a plane, in which no viewer sees a cycle (Edelsbrunner, An Acyclicity Theorem for Cell Complexes, 1990): any
 // that is reported is none.
 
 #include "Visibility/VisibilityOrder.h"
@@ -58,6 +58,19 @@ TetrahedralMesh MakeThinLayers(double thickness)
   {
     mesh.Points[i + 2] = heights[std::lround(mesh.Points[i + 2])];
     mesh.Points[i] += 0.3 * mesh.Points[i + 2];
+  }
+  return mesh;
+}
+
+/// Two boxes on an oblique plane, on which their faces do not match.
+TetrahedralMesh MakeSlideLine()
+{
+  TetrahedralMesh mesh = MakeBox(2, 2, 2, { 0, 0, 0 }, { 1, 1, 0.5 });
+  AddMesh(mesh, MakeBox(3, 3, 2, { -0.1, -0.1, 0.5 }, { 1, 1, 1 }));
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i] += 0.2 * mesh.Points[i + 1];
+    mesh.Points[i + 2] += 0.3 * mesh.Points[i] - 0.1 * mesh.Points[i + 1];
   }
   return mesh;
 }
@@ -137,7 +150,7 @@ std::vector<std::pair<std::string, TetrahedralMesh>> MakeMeshes()
   return { { "random", GenerateMesh("random", { { "cells", 3 }, { "removed", 0 } }).Mesh },
     { "with holes",
       GenerateMesh("random", { { "cells", 3 }, { "removed", 0.3 }, { "seed", 2 } }).Mesh },
-    { "lattice", MakeBox(3, 3, 3, { 0, 0, 0 }, { 1, 1, 1 }) },
+    { "lattice", MakeBox(3, 3, 3, { 0, 0, 0 }, { 1, 1, 1 }) }, { "slide line", MakeSlideLine() },
     { "layers of 1e-6", MakeThinLayers(1e-6) }, { "layers of 1e-8", MakeThinLayers(1e-8) } };
 }
 
@@ -173,7 +186,7 @@ TEST(DegenerateViews, OfPieces)
 TEST(DegenerateViews, OfPointsThatDifferInTheLastBits)
 {
   const auto meshes = MakeMeshes();
-  for (std::size_t i = 0; i < 3; ++i) // others are too thin
+  for (std::size_t i = 0; i < 4; ++i) // others are too thin
   {
     SCOPED_TRACE(meshes[i].first);
     for (const double offset : { 0., 10. })
