@@ -2,9 +2,9 @@
 
 // Visibility orders where nothing is left to rounding: viewers exactly at points, on edges and in
 // planes of faces, cells a millionth as thick as wide, cells with points of their own, and those
-// off by their last bits. All meshes here are Delaunay triangulations, or of boxes that are, or
-// two on the sides of a plane, in which no viewer sees a cycle (Edelsbrunner, An Acyclicity Theorem for Cell Complexes, 1990): any
-// that is reported is none.
+// off by their last bits. All meshes here are Delaunay triangulations, or affine to one, or two of
+// them on both sides of a plane. In these no viewer sees a cycle (Edelsbrunner, An Acyclicity
+// Theorem for Cell Complexes, 1990): any that is reported is none.
 
 #include "Visibility/VisibilityOrder.h"
 
