@@ -14,7 +14,8 @@ namespace tetralux
 /// (Documentation/Benchmarks.md).
 constexpr double WorstOfPicture = 5;
 
-/// What one ray in a thousand exceeds. errors, weights: of each ray of a sample, RaySample::Weights.
+/// What one ray in a thousand exceeds. errors, weights: of each ray of a sample, as in
+/// RaySample::Weights.
 TETRALUXCORE_EXPORT double FindOneInThousand(
   const std::vector<double>& errors, const std::vector<double>& weights);
 

@@ -25,6 +25,7 @@ struct CycleArrow
 {
   std::int32_t From, To;
   double Size;
+  bool Sliver;
   bool Removed; ///< ignored, or one of its cells is on no cycle any more
   bool Ignored;
 };
@@ -55,21 +56,31 @@ public:
           this->Add(place, geometry.Faces[4 * static_cast<std::int64_t>(cell) + face].Cell,
             MeasureTriangle({ corners[face == 0 ? 1 : 0], corners[face <= 1 ? 2 : 1],
                               corners[face == 3 ? 2 : 3] },
-              view));
+              view),
+            false);
         }
       }
       if (!gaps.Cells.empty())
       {
         for (std::int32_t gap = gaps.Begins[cell]; gap < gaps.Begins[cell + 1]; ++gap)
         {
-          this->Add(place, gaps.Cells[gap], gaps.Sizes[gap]);
+          this->Add(place, gaps.Cells[gap], gaps.Sizes[gap], gaps.Slivers[gap] != 0);
         }
       }
     }
   }
 
-  void Break(VisibilityCycles& cycles)
+  /// Returns whether there is a cycle, of more than slivers.
+  bool Break(VisibilityCycles& cycles)
   {
+    for (std::int32_t arrow = 0; arrow < static_cast<std::int32_t>(this->All.size()); ++arrow)
+    {
+      if (this->All[arrow].Sliver)
+      {
+        this->Ignore(arrow);
+      }
+    }
+    this->PlaceEnds();
     for (std::int32_t place = 0; place < static_cast<std::int32_t>(this->Cells.size()); ++place)
     {
       this->Cheapest.emplace(this->Sizes[place], place);
@@ -84,21 +95,21 @@ public:
       }
       for (const std::int32_t arrow : this->Into[place])
       {
-        if (!this->All[arrow].Removed)
-        {
-          this->All[arrow].Ignored = true;
-          this->Remove(arrow);
-        }
+        this->Ignore(arrow);
       }
       this->Ends.push_back(place);
       this->PlaceEnds();
     }
     this->TakeBack();
+    bool cycle = false;
     for (const CycleArrow& arrow : this->All)
     {
-      cycles.IgnoredFaces += arrow.Ignored ? 1 : 0;
-      cycles.IgnoredArea += arrow.Ignored ? arrow.Size : 0;
+      const bool counts = arrow.Ignored && !arrow.Sliver;
+      cycle = cycle || counts;
+      cycles.IgnoredFaces += counts ? 1 : 0;
+      cycles.IgnoredArea += counts ? arrow.Size : 0;
     }
+    return cycle;
   }
 
   /// Appends the cells, farthest first; after Break.
@@ -134,7 +145,7 @@ public:
 
 private:
   /// Adds an arrow if its target is in the cycle, too.
-  void Add(std::int32_t place, std::int32_t behind, double size)
+  void Add(std::int32_t place, std::int32_t behind, double size, bool sliver)
   {
     const auto found = std::lower_bound(this->Cells.begin(), this->Cells.end(), behind);
     if (found != this->Cells.end() && *found == behind)
@@ -142,7 +153,7 @@ private:
       const std::int32_t to = static_cast<std::int32_t>(found - this->Cells.begin());
       this->Into[to].push_back(static_cast<std::int32_t>(this->All.size()));
       this->From[place].push_back(static_cast<std::int32_t>(this->All.size()));
-      this->All.push_back({ place, to, size, false, false });
+      this->All.push_back({ place, to, size, sliver, false, false });
       this->Sizes[to] += size;
       ++this->NumbersInto[to];
       ++this->NumbersFrom[place];
@@ -212,6 +223,15 @@ private:
         }
       }
       this->All[arrow].Ignored = !path.empty() || reached[source] == arrow;
+    }
+  }
+
+  void Ignore(std::int32_t arrow)
+  {
+    if (!this->All[arrow].Removed)
+    {
+      this->All[arrow].Ignored = true;
+      this->Remove(arrow);
     }
   }
 
@@ -294,10 +314,12 @@ std::vector<std::int32_t> SortWithCycles(const VisibilityGeometry& geometry,
       std::sort(begin, open.end());
       const Span<const std::int32_t> cells(&*begin, static_cast<std::size_t>(open.end() - begin));
       CycleBreaker breaker(geometry, view, arrows, gaps, cells);
-      breaker.Break(cycles);
+      if (breaker.Break(cycles))
+      {
+        cycles.Cells.insert(cycles.Cells.end(), begin, open.end());
+        cycles.Begins.push_back(static_cast<std::int64_t>(cycles.Cells.size()));
+      }
       breaker.Place(order);
-      cycles.Cells.insert(cycles.Cells.end(), begin, open.end());
-      cycles.Begins.push_back(static_cast<std::int64_t>(cycles.Cells.size()));
     }
     open.erase(begin, open.end());
   };

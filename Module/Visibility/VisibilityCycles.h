@@ -21,7 +21,8 @@ namespace tetralux
 /// cycle: those into one cell at a time, the cell whose arrows look smallest together. So the order
 /// is right for any two cells that are not both in one cycle. The smallest set of arrows would be a
 /// minimum feedback arc set, which is NP-hard. This is the heuristic of Eades, Lin and Smyth, A
-/// Fast and Effective Heuristic for the Feedback Arc Set Problem, 1993, with weights.
+/// Fast and Effective Heuristic for the Feedback Arc Set Problem, 1993, with weights. Slivers
+/// (VisibilityGaps.h) are ignored first; what is in order without them is no cycle.
 ///
 /// gaps: arrows across empty space, or none. roots: cells to begin with, in this order, before the
 /// others; see VisibilityOrder. Linear time, and n log n in the size of a cycle.

@@ -8,21 +8,35 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace tetralux
 {
 namespace
 {
 
-/// How far, in radii of the mesh, a face may be in front of another one, everywhere that they have
-/// something in common, and still count as touching it: the rounding of coordinates that come from
-/// files in single precision.
-constexpr double ContactTolerance = 1e-7;
+/// How far two points may be apart that were one before they were rounded to single precision, in
+/// the largest coordinate: four halves of a unit in the last place along each axis.
+constexpr double SingleRounding = 4.2e-7;
+
+/// How far into each other cells may reach and still be seen to touch, in the largest coordinate:
+/// what comes of six digits in a text file.
+constexpr double ContactTolerance = 2e-6;
 
 /// Part of the smaller of two faces, as they would look from in front, that they must have
 /// in common to count. Rounding gives faces that meet in an edge some 1e-16, and faces
 /// that are seen edge-on.
 constexpr double OverlapTolerance = 1e-10;
+
+/// How far from the plane of a face a viewer may be who counts as in it: the sine of the angle
+/// between the plane and a ray, or, of a viewer who is nearer than a radius of the mesh, the
+/// distance in radii. Of the cone behind such a face rounding leaves nothing that is right; what a
+/// ray passes of its cell is shorter than that, but for rays nearly in the plane.
+constexpr double EdgeOnTolerance = 1e-12;
+
+/// Parts of rays that are shorter, in radii of the mesh, order nothing where faces touch: some
+/// hundred roundings.
+constexpr double ShortestStretch = 1e-13;
 
 using Vector = std::array<double, 3>;
 
@@ -57,11 +71,11 @@ struct Plane
   double GetDistance(const Vector& point) const { return Dot(this->Normal, point) - this->Offset; }
 };
 
-/// A triangle that planes cut, at most four times. A cut adds one corner; but where rounding
-/// decides the sides of corners, they may alternate, so that 4, 6, 9, 13 corners come of it.
+/// A triangle that planes cut, at most three times. A cut adds one corner; but where rounding
+/// decides the sides of corners, they may alternate, so that 4, 6, 9 corners come of it.
 struct Polygon
 {
-  std::array<Vector, 13> Corners;
+  std::array<Vector, 9> Corners;
   int Size = 0;
 
   /// Keeps what has at least that distance.
@@ -91,6 +105,19 @@ struct Polygon
     }
   }
 
+  Vector GetMiddle() const
+  {
+    Vector middle = { 0, 0, 0 };
+    for (int i = 0; i < this->Size; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        middle[axis] += this->Corners[i][axis] / this->Size;
+      }
+    }
+    return middle;
+  }
+
   double Measure(const VisibilityView& view) const
   {
     double size = 0;
@@ -107,6 +134,7 @@ struct Gap
 {
   std::int32_t From, To;
   float Size;
+  std::uint8_t Sliver;
 
   bool operator<(const Gap& other) const
   {
@@ -116,15 +144,28 @@ struct Gap
   }
 };
 
+/// The part of a ray inside a cell, in lengths of the ray's direction.
+struct Stretch
+{
+  double Begin, End;
+  bool OfFlatCell;
+};
+
 class GapFinder
 {
 public:
-  GapFinder(
-    const VisibilityGeometry& geometry, const VisibilityArrows& arrows, const VisibilityView& view)
+  GapFinder(const VisibilityGeometry& geometry, const VisibilityArrows& arrows,
+    Span<const std::int32_t> twins, const VisibilityView& view)
     : Geometry(geometry)
+    , Twins(twins)
     , View(view)
     , Facing(geometry.Boundary->Entries.size())
   {
+    const auto& center = geometry.Center;
+    const double largest = 1 +
+      std::max({ std::abs(center[0]), std::abs(center[1]), std::abs(center[2]) }) / geometry.Radius;
+    this->Rounding = SingleRounding * largest;
+    this->Contact = ContactTolerance * largest;
     const ViewOrientation orientation(view);
     // As all coordinates here: relative to the mesh.
     for (int axis = 0; axis < 3; ++axis)
@@ -141,6 +182,12 @@ public:
         orientation.GetTurn(geometry.GetPoint(entry.Points[0]), geometry.GetPoint(entry.Points[1]),
           geometry.GetPoint(entry.Points[2])));
     }
+    this->EdgeOn.resize(this->Facing.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t face = 0; face < numberOfFaces; ++face)
+    {
+      this->EdgeOn[face] = this->IsEdgeOn(this->GetTriangle(geometry.Boundary->Entries[face]));
+    }
   }
 
   bool IsLeft(std::int64_t face) const { return this->Facing[face] > 0; }
@@ -150,6 +197,18 @@ public:
   {
     const WalkEntry& left = this->Geometry.Boundary->Entries[leftFace];
     Polygon exit = this->GetTriangle(left);
+    const std::int32_t twin = this->Twins[leftFace];
+    if (twin >= 0 && this->Facing[twin] < 0)
+    {
+      const double size = exit.Measure(this->View);
+      gaps.push_back(
+        { left.Cell, this->Geometry.Boundary->Entries[twin].Cell, static_cast<float>(size), 0 });
+      return;
+    }
+    if (this->EdgeOn[leftFace])
+    {
+      return;
+    }
     // Counter-clockwise to the viewer.
     Vector normal = Cross(exit.Corners[1] - exit.Corners[0], exit.Corners[2] - exit.Corners[0]);
     if (Dot(normal, this->GetRay(exit.Corners[0])) > 0)
@@ -189,45 +248,134 @@ public:
       {
         const std::int32_t face = bvh.Triangles[i];
         const WalkEntry& entered = this->Geometry.Boundary->Entries[face];
-        if (this->Facing[face] >= 0 || entered.Cell == left.Cell)
+        if (this->Facing[face] >= 0 || this->EdgeOn[face] || entered.Cell == left.Cell)
         {
           continue;
         }
         const Polygon entry = this->GetTriangle(entered);
-        Polygon part = entry;
-        for (int plane = 0; plane < 3 && part.Size > 0; ++plane)
-        {
-          part.Clip(planes[plane], 0);
-        }
+        const Polygon part = ClipByCone(entry, planes, 0);
         const double smallest = OverlapTolerance * std::min(size, this->MeasureFromFront(entry));
-        const bool touching = std::all_of(part.Corners.begin(), part.Corners.begin() + part.Size,
-          [&](const Vector& corner) { return behind.GetDistance(corner) >= -ContactTolerance; });
-        if (!touching)
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        double nearest = infinity, farthest = -infinity;
+        for (int corner = 0; corner < part.Size; ++corner)
         {
-          part.Clip(behind, 0);
+          const double distance = behind.GetDistance(part.Corners[corner]);
+          nearest = std::min(nearest, distance);
+          farthest = std::max(farthest, distance);
         }
         const double common = part.Measure(this->View);
-        if (common > smallest)
+        if (farthest < -this->Contact || common <= smallest)
         {
-          gaps.push_back({ left.Cell, entered.Cell, static_cast<float>(common) });
+          continue;
         }
+        bool sliver = ClipByCone(entry, planes, this->Rounding).Size == 0;
+        if (nearest < 0 || farthest <= this->Contact)
+        {
+          const double length =
+            this->GetLengthPassedBefore(left.Cell, behind, entered.Cell, part.GetMiddle());
+          if (length < ShortestStretch)
+          {
+            continue;
+          }
+          sliver = sliver || length < this->Rounding;
+        }
+        gaps.push_back({ left.Cell, entered.Cell, static_cast<float>(common), sliver });
       }
     }
   }
 
 private:
+  bool IsEdgeOn(const Polygon& triangle) const
+  {
+    const Vector normal =
+      Cross(triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]);
+    const Vector ray = this->GetRay(triangle.Corners[0]);
+    const double length = this->View.Parallel ? 1 : std::max(1., std::sqrt(Dot(ray, ray)));
+    return std::abs(Dot(normal, ray)) <= EdgeOnTolerance * std::sqrt(Dot(normal, normal)) * length;
+  }
+
+  /// How much, in radii, of each of two cells a ray passes at least, if it passes the first one
+  /// before the second one; else 0. The ray enters the second one at a point; it leaves the first
+  /// one by a face in the plane behind. Where faces touch they do not tell: the whole cells may be
+  /// thinner than what faces are off by. One ray tells for all, as a plane separates the cells.
+  /// Flat cells are where their faces are, and count as long as the other cell.
+  double GetLengthPassedBefore(
+    std::int32_t first, const Plane& behind, std::int32_t second, const Vector& point) const
+  {
+    const Vector ray = this->GetRay(point);
+    const double length = std::sqrt(Dot(ray, ray));
+    const double exit = -behind.GetDistance(point) / Dot(behind.Normal, ray);
+    const Stretch a = this->GetStretch(first, exit, point, ray);
+    const Stretch b = this->GetStretch(second, 0, point, ray);
+    if (a.OfFlatCell && b.OfFlatCell)
+    {
+      return exit * length <= this->Rounding ? ShortestStretch : 0;
+    }
+    if (a.Begin + a.End >= b.Begin + b.End)
+    {
+      return 0;
+    }
+    return length *
+      (a.OfFlatCell      ? b.End - b.Begin
+          : b.OfFlatCell ? a.End - a.Begin
+                         : std::min(a.End - a.Begin, b.End - b.Begin));
+  }
+
+  /// Where a ray through a point, at 0, is inside a cell; the viewer is at -1, or far away.
+  /// placeOfFlat: where it is if the cell has no volume.
+  Stretch GetStretch(
+    std::int32_t cell, double placeOfFlat, const Vector& point, const Vector& ray) const
+  {
+    const std::int32_t* ids = this->Geometry.GetPointIds(cell);
+    std::array<Vector, 4> corners;
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      corners[corner] = this->GetPoint(ids[corner]);
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Stretch stretch = { this->View.Parallel ? -infinity : -1, infinity, false };
+    for (int face = 0; face < 4; ++face)
+    {
+      const Vector& a = corners[(face + 1) % 4];
+      const Vector normal = Cross(corners[(face + 2) % 4] - a, corners[(face + 3) % 4] - a);
+      const double volume = Dot(normal, corners[face] - a);
+      if (std::abs(volume) <= ShortestStretch * std::sqrt(Dot(normal, normal)))
+      {
+        return { placeOfFlat, placeOfFlat, true };
+      }
+      const double side = volume < 0 ? -1 : 1;
+      const double slope = side * Dot(normal, ray);
+      const double height = side * Dot(normal, point - a);
+      if (slope > 0)
+      {
+        stretch.Begin = std::max(stretch.Begin, -height / slope);
+      }
+      else if (slope < 0)
+      {
+        stretch.End = std::min(stretch.End, -height / slope);
+      }
+    }
+    return stretch;
+  }
+
+  Vector GetPoint(std::int32_t id) const
+  {
+    const double* point = this->Geometry.GetPoint(id);
+    Vector relative;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      relative[axis] = (point[axis] - this->Geometry.Center[axis]) / this->Geometry.Radius;
+    }
+    return relative;
+  }
+
   Polygon GetTriangle(const WalkEntry& entry) const
   {
     Polygon triangle;
     triangle.Size = 3;
     for (int corner = 0; corner < 3; ++corner)
     {
-      const double* point = this->Geometry.GetPoint(entry.Points[corner]);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        triangle.Corners[corner][axis] =
-          (point[axis] - this->Geometry.Center[axis]) / this->Geometry.Radius;
-      }
+      triangle.Corners[corner] = this->GetPoint(entry.Points[corner]);
     }
     return triangle;
   }
@@ -246,8 +394,20 @@ private:
     return this->View.Parallel ? this->View.Direction : point - this->View.Eye;
   }
 
-  /// False only where no point of a node is on the positive sides of all planes.
-  static bool CanMeet(const BoundaryBvh::Node& node, const Plane (&planes)[4])
+  /// The part of a triangle that is at least that far inside of the first three planes.
+  static Polygon ClipByCone(const Polygon& triangle, const Plane (&planes)[4], double distance)
+  {
+    Polygon part = triangle;
+    for (int plane = 0; plane < 3 && part.Size > 0; ++plane)
+    {
+      part.Clip(planes[plane], distance);
+    }
+    return part;
+  }
+
+  /// False only where no point of a node is on the positive sides of all planes, or within the
+  /// contact tolerance of them.
+  bool CanMeet(const BoundaryBvh::Node& node, const Plane (&planes)[4]) const
   {
     return std::all_of(std::begin(planes), std::end(planes),
       [&](const Plane& plane)
@@ -258,24 +418,28 @@ private:
           distance +=
             plane.Normal[axis] * node.Center[axis] + std::abs(plane.Normal[axis]) * node.Half[axis];
         }
-        return distance >= -ContactTolerance;
+        return distance >= -this->Contact;
       });
   }
 
   const VisibilityGeometry& Geometry;
+  Span<const std::int32_t> Twins;
   VisibilityView View;
   /// For each boundary face 1 where rays leave by it, -1 where they enter, 0 where it is edge-on.
   std::vector<std::int8_t> Facing;
+  std::vector<std::uint8_t> EdgeOn; ///< to rounding, see EdgeOnTolerance
+  double Rounding = 0;              ///< SingleRounding in radii
+  double Contact = 0;               ///< ContactTolerance in radii
 };
 
 } // namespace
 
 //----------------------------------------------------------------------------
 bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows,
-  const VisibilityView& view, VisibilityGaps& gaps)
+  Span<const std::int32_t> twins, const VisibilityView& view, VisibilityGaps& gaps)
 {
   gaps = {};
-  const GapFinder finder(geometry, arrows, view);
+  const GapFinder finder(geometry, arrows, twins, view);
   const std::int64_t numberOfFaces = static_cast<std::int64_t>(geometry.Boundary->Entries.size());
   const std::int64_t limit = LargestNumberOfGaps * numberOfFaces;
   std::atomic<std::int64_t> count{ 0 };
@@ -308,10 +472,12 @@ bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows
     if (i > 0 && all[i].From == all[i - 1].From && all[i].To == all[i - 1].To)
     {
       gaps.Sizes.back() += all[i].Size;
+      gaps.Slivers.back() &= all[i].Sliver;
       continue;
     }
     gaps.Cells.push_back(all[i].To);
     gaps.Sizes.push_back(all[i].Size);
+    gaps.Slivers.push_back(all[i].Sliver);
     ++gaps.Begins[all[i].From + 1];
   }
   for (std::size_t cell = 1; cell < gaps.Begins.size(); ++cell)

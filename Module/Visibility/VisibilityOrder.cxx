@@ -4,6 +4,7 @@
 #include "Base/Check.h"
 #include "Base/CountingSort.h"
 #include "Base/RadixSort.h"
+#include "Visibility/TwinFaces.h"
 #include "Visibility/VisibilityArrows.h"
 #include "Visibility/VisibilityCycles.h"
 #include "Visibility/VisibilityGaps.h"
@@ -133,6 +134,7 @@ public:
   std::vector<std::int32_t> ImaginaryCells;
   VisibilityGeometry Geometry;
   VisibilityArrows Arrows;
+  std::vector<std::int32_t> Twins; ///< once gaps were asked for
 
   // Of the last order, kept for the next one.
   std::vector<std::uint8_t> States;
@@ -344,10 +346,16 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
     roots = tables.KeyedCells;
   }
   VisibilityGaps gaps;
-  if (method == VisibilityMethod::MeshedAcrossGaps &&
-    !FindGaps(tables.Geometry, tables.Arrows, view, gaps))
+  if (method == VisibilityMethod::MeshedAcrossGaps)
   {
-    this->UsedMethod = VisibilityMethod::MeshedNonConvex;
+    if (tables.Twins.size() != tables.Geometry.Boundary->Entries.size())
+    {
+      tables.Twins = FindTwinFaces(tables.Geometry);
+    }
+    if (!FindGaps(tables.Geometry, tables.Arrows, tables.Twins, view, gaps))
+    {
+      this->UsedMethod = VisibilityMethod::MeshedNonConvex;
+    }
   }
   CellWriter write(this->Order, direction, ofMesh, drawn);
   if (gaps.Cells.empty())
@@ -370,7 +378,8 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
 std::size_t VisibilityOrder::GetSize() const
 {
   const Internals& tables = *this->Tables;
-  return tables.Arrows.GetSize() + tables.ImaginaryCells.size() * sizeof(std::int32_t) +
+  return tables.Arrows.GetSize() +
+    (tables.ImaginaryCells.size() + tables.Twins.capacity()) * sizeof(std::int32_t) +
     tables.States.size() * (1 + sizeof(std::int32_t)) +
     (tables.KeyedCells.capacity() + tables.KeyedBuffer.capacity()) * sizeof(KeyedItem) +
     this->Order.capacity() * sizeof(std::int32_t);

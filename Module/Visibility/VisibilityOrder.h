@@ -32,10 +32,11 @@ enum class VisibilityMethod
   MeshedNonConvex,
 
   /// By common faces, and by pairs of boundary faces of which rays leave the mesh by one and enter
-  /// it by the other (VisibilityGaps.h). Exact for any mesh. The pairs are found anew for each
-  /// view, which takes several times as long as the rest; Meshed is faster for a mesh that can be
-  /// made convex. Falls back to MeshedNonConvex, which GetUsedMethod tells, if there are more than
-  /// 64 pairs for each boundary face.
+  /// it by the other (VisibilityGaps.h). Exact for any mesh, also where cells touch without sharing
+  /// points; but for slivers where those are off by the rounding of single precision. The pairs are
+  /// found anew for each view, which takes several times as long as the rest; Meshed is faster for
+  /// a mesh that can be made convex. Falls back to MeshedNonConvex, which GetUsedMethod tells, if
+  /// there are more than 64 pairs for each boundary face.
   MeshedAcrossGaps,
 
   /// By the distances of the cells' centroids; equal distances in the order of the cells. The
@@ -53,7 +54,7 @@ enum class VisibilityDirection
 /// the other, the one in front comes first (FrontToBack) or last (BackToFront).
 ///
 /// Of two cells with a common face, the one on the viewer's side of the face's plane is in front.
-/// The sign is exact for the coordinates in double precision; there are no tolerances. A viewer in
+/// The sign is exact for the coordinates in double precision, without tolerances. A viewer in
 /// the plane of a face sees nothing through it, and the face orders nothing. Cells without volume
 /// and slightly inverted cells take part as if they had a little volume. Among cells that overlap
 /// the order is not defined. The viewer may be inside the mesh.

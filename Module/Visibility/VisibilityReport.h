@@ -11,6 +11,10 @@ namespace tetralux
 /// The cycles of a visibility order. A cycle is a set of cells in which each cell occludes the next
 /// and the last occludes the first: no order is right for it. To get one, the order ignores some of
 /// the faces between these cells.
+///
+/// Cells that touch without sharing points, and whose coordinates are off by their rounding, may
+/// hide slivers of each other in a circle. Without the slivers they have an order, so they are no
+/// cycle.
 struct VisibilityCycles
 {
   /// The cells of all cycles, one cycle after the other, ascending in each. Cycles that have cells

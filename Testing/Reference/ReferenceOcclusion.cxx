@@ -16,8 +16,6 @@ namespace
 using Number = long double;
 using Vector = std::array<Number, 3>;
 
-constexpr Number ShortestPart = 1e-9L; ///< of the diagonal of the mesh's box
-
 Vector operator-(const Vector& a, const Vector& b)
 {
   return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
@@ -70,11 +68,25 @@ Part Clip(const std::array<Vector, 4>& corners, const Vector& origin, const Vect
   return part;
 }
 
+/// The smallest distance of a corner from the opposite face; 0 of a cell without volume.
+Number GetHeight(const std::array<Vector, 4>& corners)
+{
+  Number height = std::numeric_limits<Number>::infinity();
+  for (int face = 0; face < 4; ++face)
+  {
+    const Vector& a = corners[(face + 1) % 4];
+    const Vector normal = Cross(corners[(face + 2) % 4] - a, corners[(face + 3) % 4] - a);
+    const Number volume = std::abs(Dot(normal, corners[face] - a));
+    height = std::min(height, volume > 0 ? volume / std::sqrt(Dot(normal, normal)) : 0);
+  }
+  return height;
+}
+
 } // namespace
 
 //----------------------------------------------------------------------------
-std::vector<OccludedPair> FindOccludedPairs(
-  const TetrahedralMesh& mesh, const VisibilityView& view, int raysPerCell, std::uint64_t seed)
+std::vector<OccludedPair> FindOccludedPairs(const TetrahedralMesh& mesh, const VisibilityView& view,
+  int raysPerCell, std::uint64_t seed, double shortestPart)
 {
   const std::int32_t numberOfCells = static_cast<std::int32_t>(mesh.GetNumberOfCells());
   Number lo[3] = { 1e30L, 1e30L, 1e30L }, hi[3] = { -1e30L, -1e30L, -1e30L };
@@ -83,7 +95,7 @@ std::vector<OccludedPair> FindOccludedPairs(
     lo[i % 3] = std::min<Number>(lo[i % 3], mesh.Points[i]);
     hi[i % 3] = std::max<Number>(hi[i % 3], mesh.Points[i]);
   }
-  const Number diagonal = std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
+  const Number shortest = shortestPart * std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
   std::vector<std::array<Vector, 4>> cells(numberOfCells);
   std::vector<Number> squaredRadii(numberOfCells); // about the first corners
   for (std::int32_t cell = 0; cell < numberOfCells; ++cell)
@@ -100,6 +112,10 @@ std::vector<OccludedPair> FindOccludedPairs(
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::int32_t through = 0; through < numberOfCells; ++through)
   {
+    if (GetHeight(cells[through]) <= shortest)
+    {
+      continue;
+    }
     std::mt19937_64 random(seed + through);
     std::exponential_distribution<double> draw;
     std::vector<OccludedPair> found;
@@ -144,7 +160,7 @@ std::vector<OccludedPair> FindOccludedPairs(
         }
         Part part = Clip(cells[cell], view.Parallel ? target : eye, direction);
         part.Begin = view.Parallel ? part.Begin : std::max<Number>(part.Begin, 0);
-        if ((part.End - part.Begin) * length > ShortestPart * diagonal)
+        if ((part.End - part.Begin) * length > shortest)
         {
           parts.push_back({ cell, part.Begin, part.End });
         }
@@ -153,7 +169,7 @@ std::vector<OccludedPair> FindOccludedPairs(
       {
         for (const Part& b : parts)
         {
-          if (a.Begin < b.Begin && (a.End - b.Begin) * length < ShortestPart * diagonal)
+          if (a.Begin < b.Begin && (a.End - b.Begin) * length < shortest)
           {
             found.push_back({ a.Cell, b.Cell });
           }

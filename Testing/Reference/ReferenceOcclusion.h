@@ -29,12 +29,13 @@ struct OccludedPair
 
 /// Which cells hide which, by brute force: rays go from the viewer through random points
 /// of each cell, and are clipped by every cell on its own, in extended precision. Each
-/// pair once, ascending.
+/// pair once, ascending. No rays go through cells that are thinner than shortestPart: they may lie
+/// in faces of others, where both sides count.
 ///
-/// Parts of a ray inside a cell count from a length of 1e-9 of the mesh on; so do parts that two
-/// cells have in common, for which there is no order.
-std::vector<OccludedPair> FindOccludedPairs(
-  const TetrahedralMesh& mesh, const VisibilityView& view, int raysPerCell, std::uint64_t seed);
+/// Parts of a ray inside a cell count from a length of shortestPart on, in diagonals of the mesh's
+/// box; so do parts that two cells have in common, for which there is no order.
+std::vector<OccludedPair> FindOccludedPairs(const TetrahedralMesh& mesh, const VisibilityView& view,
+  int raysPerCell, std::uint64_t seed, double shortestPart = 1e-9);
 
 /// Those pairs that order, front to back, puts the wrong way round; all cells of the
 /// pairs must be in it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshParts.h"
 #include "Visibility/MeasureTriangle.h"
+#include "Visibility/TwinFaces.h"
 #include "Visibility/VisibilityArrows.h"
 #include "Visibility/VisibilityCycles.h"
 #include "Visibility/VisibilityGaps.h"
@@ -64,7 +65,8 @@ struct Scene
   VisibilityGaps FindGaps(const VisibilityView& view) const
   {
     VisibilityGaps gaps;
-    EXPECT_TRUE(tetralux::FindGaps(this->Geometry, VisibilityArrows(this->Geometry), view, gaps));
+    EXPECT_TRUE(tetralux::FindGaps(
+      this->Geometry, VisibilityArrows(this->Geometry), FindTwinFaces(this->Geometry), view, gaps));
     return gaps;
   }
 
@@ -255,6 +257,68 @@ TEST(VisibilityGaps, TwoCellsApart)
   // Side by side they hide nothing of each other, also where they touch.
   EXPECT_TRUE(Scene(MakeTwoCellsApart(2, 0, 0)).FindGaps(LookAlong(0, 0, 1)).Cells.empty());
   EXPECT_TRUE(Scene(MakeTwoCellsApart(1, 0, 0)).FindGaps(LookAlong(0, 0, 1)).Cells.empty());
+}
+
+TEST(TwinFaces, AreTwoAtOnePlace)
+{
+  // Three cells; the first two touch by a face, whose corners they have in different orders.
+  TetrahedralMesh mesh = SeparateCells(MakeTwoCells());
+  std::swap(mesh.Cells[0], mesh.Cells[2]);
+  AddMesh(mesh, MoveAlongZ(MakeTwoCellsApart(9, 0, 0), 20));
+  mesh.Points[0] = -0.; // the same place as 0
+  const Scene scene(mesh);
+  const std::vector<std::int32_t> twins = FindTwinFaces(scene.Geometry);
+  ASSERT_EQ(twins.size(), 16U);
+  EXPECT_EQ(std::count(twins.begin(), twins.end(), -1), 14);
+  for (std::size_t face = 0; face < twins.size(); ++face)
+  {
+    if (twins[face] >= 0)
+    {
+      EXPECT_EQ(twins[twins[face]], static_cast<std::int32_t>(face));
+      const auto& entries = scene.Geometry.Boundary->Entries;
+      const std::int32_t cells[] = { entries[face].Cell, entries[twins[face]].Cell };
+      EXPECT_EQ(
+        std::minmax(cells[0], cells[1]), std::minmax(FindCell(scene, 0), FindCell(scene, 1)));
+    }
+  }
+  // Of four at one place none is another's twin; outer faces are at one place with those of copies.
+  AddMesh(mesh, SeparateCells(MakeTwoCells()));
+  const auto ofMore = FindTwinFaces(Scene(mesh).Geometry);
+  EXPECT_EQ(std::count(ofMore.begin(), ofMore.end(), -1), 4 + 8);
+}
+
+TEST(VisibilityGaps, KnowSlivers)
+{
+  for (const double common : { 1e-8, 1e-3 })
+  {
+    // The second box is below the first, and beside it but for a strip.
+    TetrahedralMesh mesh = MakeBox(1, 1, 1, { 0, 0, 0 }, { 1, 1, 1 });
+    AddMesh(mesh, MakeBox(1, 1, 1, { 1 - common, 0, -3 }, { 2, 1, -2 }));
+    const VisibilityGaps gaps = Scene(mesh).FindGaps(LookAlong(0, 0, -1));
+    EXPECT_FALSE(gaps.Cells.empty());
+    EXPECT_EQ(gaps.Slivers, std::vector<std::uint8_t>(gaps.Cells.size(), common < 1e-6 ? 1 : 0));
+  }
+}
+
+TEST(VisibilityCycles, SliversAreIgnoredFirst)
+{
+  // Three cells in a circle; whichever arrow is a sliver, the others give the order.
+  const Scene scene(MakeCyclicTetrahedra(3));
+  const VisibilityView along = LookAlong(0, 0, -1);
+  VisibilityGaps gaps = scene.FindGaps(along);
+  ASSERT_EQ(gaps.Cells.size(), 3U);
+  for (std::int32_t from = 0; from < 3; ++from)
+  {
+    gaps.Slivers.assign(3, 0);
+    gaps.Slivers[gaps.Begins[from]] = 1;
+    VisibilityCycles cycles;
+    const std::vector<std::int32_t> order =
+      SortWithCycles(scene.Geometry, along, scene.Point(along), gaps, {}, cycles);
+    EXPECT_EQ(cycles.GetNumberOfCycles(), 0);
+    EXPECT_EQ(cycles.IgnoredFaces, 0);
+    ASSERT_EQ(order.size(), 3U);
+    EXPECT_EQ(order[2], gaps.Cells[gaps.Begins[from]]); // hidden by the sliver alone
+  }
 }
 
 TEST(VisibilityGaps, WithArrowsLeadToAllThatRaysMeet)
