@@ -6,6 +6,8 @@
 
 #include "RayCast/RayCastFrame.h"
 
+#include <limits>
+
 namespace tetralux
 {
 namespace TETRALUX_ISA
@@ -48,12 +50,43 @@ TETRALUX_INLINE TriangleHit<Real> TestTriangle(
   return t;
 }
 
+/// What the projection of a point may be off by across a ray, in radii: four times the rounding of a
+/// coordinate, which is rounded in the tables and by each of the three sums that project it.
+template <class Real>
+constexpr double ProjectionRounding = 2. * std::numeric_limits<Real>::epsilon();
+
 /// The number of each ray's crossings with the boundary, which CrossingBuffer holds in ascending
-/// distance.
+/// distance; and which rays pass an edge of the boundary so closely that rounding may decide on
+/// which side.
 struct PacketCrossings
 {
   int Count[LaneCount];
+  unsigned NearEdges;
 };
+
+/// Whether rays pass the edge from a to b within a distance, whose determinant is given.
+template <class Real>
+TETRALUX_INLINE Mask8 IsNearEdge(const Corner<Real>& a, const Corner<Real>& b,
+  typename LanesOf<Real>::Type det, typename LanesOf<Real>::Type distance)
+{
+  // The length by the sum of its coordinates: up to 1.4 times too long.
+  const auto width = Abs(b.X - a.X);
+  const auto height = Abs(b.Y - a.Y);
+  const auto twice = distance + distance;
+  return (Abs(det) <= distance * (width + height)) & (Abs(a.X + b.X) <= width + twice) &
+    (Abs(a.Y + b.Y) <= height + twice);
+}
+
+/// Which rays pass an edge of a triangle within ProjectionRounding.
+template <class Real>
+TETRALUX_INLINE Mask8 AreNearEdges(const TriangleHit<Real>& t, const Corner<Real> (&corners)[3])
+{
+  using V = typename LanesOf<Real>::Type;
+  const V distance = static_cast<Real>(ProjectionRounding<Real> * ProjectionScale);
+  return IsNearEdge(corners[1], corners[2], t.BC, distance) |
+    IsNearEdge(corners[2], corners[0], t.CA, distance) |
+    IsNearEdge(corners[0], corners[1], t.AB, distance);
+}
 
 /// Adds where rays cross a face of the boundary. False where the buffer was too small; it is larger
 /// then.
@@ -70,6 +103,7 @@ TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays,
     corners[c] = Project(rays, p.X, p.Y, p.Z, p.S, Int8(entry.Points[c]));
   }
   const TriangleHit<Real> t = TestTriangle(corners[0], corners[1], corners[2]);
+  crossings.NearEdges |= Bits(AreNearEdges(t, corners) & active);
   const Mask8 hit = t.Hit & active;
   unsigned bits = Bits(hit);
   if (bits == 0)
@@ -112,6 +146,7 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
   {
     n = 0;
   }
+  crossings.NearEdges = 0;
   if (!in.Nodes)
   {
     return true;
@@ -160,6 +195,39 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
     }
   }
   return true;
+}
+
+/// Where rays are displaced to that pass edges too closely, in units of ProjectionRounding across
+/// the ray: eight times farther each, in directions of which no two are in line with an edge. The
+/// edges of a lattice that is seen along an axis are in none of them.
+constexpr int NumberOfDisplacements = 8;
+constexpr double Displacements[NumberOfDisplacements][2] = { { 7, 3 }, { -15, 5 }, { 11, -21 },
+  { 8, 31 }, { -34, -21 }, { 47, -8 }, { -34, 44 }, { -6, -64 } };
+
+/// Finds where rays cross the boundary. Faces that touch but do not share their points, where cells
+/// meet cells of half their size, are rounded each on its own: a ray that passes their edges within
+/// rounding might go through both, or through none. Such rays are displaced until they pass none.
+template <class Real>
+inline void FindClearCrossings(const KernelInput& in, Rays<Real>& rays, Mask8 active,
+  CrossingBuffer& buffer, PacketCrossings& crossings)
+{
+  using V = typename LanesOf<Real>::Type;
+  const V u = rays.U[3];
+  const V v = rays.V_[3];
+  for (int next = 0;; ++next)
+  {
+    while (!FindCrossings(in, rays, active, buffer, crossings))
+    {
+    }
+    if (crossings.NearEdges == 0 || next == NumberOfDisplacements)
+    {
+      return;
+    }
+    const double unit = ProjectionRounding<Real> * ProjectionScale;
+    const Mask8 near = MaskFromBits(crossings.NearEdges);
+    rays.U[3] = Select(near, u + V(static_cast<Real>(unit * Displacements[next][0])), rays.U[3]);
+    rays.V_[3] = Select(near, v + V(static_cast<Real>(unit * Displacements[next][1])), rays.V_[3]);
+  }
 }
 
 } // namespace

@@ -251,10 +251,7 @@ private:
       const unsigned active =
         this->Inside & Bits(begin < end) & ~Bits(this->Gathered.IsDone(this->In));
       // Walking strikes crossings off, so each part of the rays finds them anew.
-      while (
-        !FindCrossings(this->In, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings))
-      {
-      }
+      FindClearCrossings(this->In, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings);
       unsigned hit = 0;
       for (int i = 0; i < LaneCount; ++i)
       {
