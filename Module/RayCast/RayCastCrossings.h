@@ -5,6 +5,7 @@
 // Where the rays of a packet cross the boundary.
 
 #include "RayCast/RayCastFrame.h"
+#include "View/RayDisplacements.h"
 
 #include <limits>
 
@@ -197,16 +198,8 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
   return true;
 }
 
-/// Where rays are displaced to that pass edges too closely, in units of ProjectionRounding across
-/// the ray: eight times farther each, in directions of which no two are in line with an edge. The
-/// edges of a lattice that is seen along an axis are in none of them.
-constexpr int NumberOfDisplacements = 8;
-constexpr double Displacements[NumberOfDisplacements][2] = { { 7, 3 }, { -15, 5 }, { 11, -21 },
-  { 8, 31 }, { -34, -21 }, { 47, -8 }, { -34, 44 }, { -6, -64 } };
-
-/// Finds where rays cross the boundary. Faces that touch but do not share their points, where cells
-/// meet cells of half their size, are rounded each on its own: a ray that passes their edges within
-/// rounding might go through both, or through none. Such rays are displaced until they pass none.
+/// Finds where rays cross the boundary, and displaces those first that pass edges of it too closely,
+/// see RayDisplacements.
 template <class Real>
 inline void FindClearCrossings(const KernelInput& in, Rays<Real>& rays, Mask8 active,
   CrossingBuffer& buffer, PacketCrossings& crossings)
@@ -219,14 +212,15 @@ inline void FindClearCrossings(const KernelInput& in, Rays<Real>& rays, Mask8 ac
     while (!FindCrossings(in, rays, active, buffer, crossings))
     {
     }
-    if (crossings.NearEdges == 0 || next == NumberOfDisplacements)
+    if (crossings.NearEdges == 0 || next == NumberOfRayDisplacements)
     {
       return;
     }
     const double unit = ProjectionRounding<Real> * ProjectionScale;
     const Mask8 near = MaskFromBits(crossings.NearEdges);
-    rays.U[3] = Select(near, u + V(static_cast<Real>(unit * Displacements[next][0])), rays.U[3]);
-    rays.V_[3] = Select(near, v + V(static_cast<Real>(unit * Displacements[next][1])), rays.V_[3]);
+    rays.U[3] = Select(near, u + V(static_cast<Real>(unit * RayDisplacements[next][0])), rays.U[3]);
+    rays.V_[3] =
+      Select(near, v + V(static_cast<Real>(unit * RayDisplacements[next][1])), rays.V_[3]);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "GpuRayCast/GpuRayCaster.h"
 
 #include "BoundaryEntryDec.h"
+#include "BoundaryNodesDec.h"
 #include "FirstPieceDec.h"
 #include "FirstSurfaceDec.h"
 #include "GpuIntegral/GpuLighting.h"
@@ -9,6 +10,7 @@
 #include "GpuRayCast/GpuRayLimits.h"
 #include "GpuRayCast/PixelProjection.h"
 #include "GpuRayCast/WalkTextures.h"
+#include "RayClearanceFS.h"
 #include "RayDoneFS.h"
 #include "RayEntryFS.h"
 #include "RayFrameDec.h"
@@ -17,6 +19,7 @@
 #include "RayPictureFS.h"
 #include "RayStatesDec.h"
 #include "RayWalkFS.h"
+#include "View/RayDisplacements.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -38,6 +41,9 @@ namespace
 /// graphics card never waits for the processor, and an abort not for long.
 constexpr std::size_t PassesAhead = 2;
 
+/// Of rays, the first one is none.
+constexpr int NumberOfDisplacements = 1 + NumberOfRayDisplacements;
+
 /// A program's source from its file.
 std::string MakeSource(const char* file, const std::vector<std::string>& defines,
   const std::string& rays = {}, const std::string& integral = {}, const std::string& lighting = {})
@@ -46,6 +52,7 @@ std::string MakeSource(const char* file, const std::vector<std::string>& defines
   std::string system = "#version 150\n";
   // What RayFrameDec.glsl needs `precise` from, where there is any.
   system += "#extension GL_ARB_gpu_shader5 : enable\n";
+  system += "#define NUMBER_OF_DISPLACEMENTS " + std::to_string(NumberOfDisplacements) + '\n';
   for (const std::string& define : defines)
   {
     system += "#define " + define + '\n';
@@ -55,6 +62,7 @@ std::string MakeSource(const char* file, const std::vector<std::string>& defines
   vtkShaderProgram::Substitute(source, "//VTK::GetRay::Dec", rays);
   vtkShaderProgram::Substitute(source, "//VTK::RayFrame::Dec", RayFrameDec);
   vtkShaderProgram::Substitute(source, "//VTK::BoundaryEntry::Dec", BoundaryEntryDec);
+  vtkShaderProgram::Substitute(source, "//VTK::BoundaryNodes::Dec", BoundaryNodesDec);
   vtkShaderProgram::Substitute(source, "//VTK::Lighting::Dec", lighting);
   vtkShaderProgram::Substitute(source, "//VTK::RayIntegral::Dec", integral);
   return source;
@@ -192,6 +200,10 @@ public:
     }
     this->Self.Targets.Clear(
       this->Options.LargestScalar ? -std::numeric_limits<float>::max() : 0.f);
+    if (this->MayEnterAgain()) // else nothing touches the boundary
+    {
+      this->FindDisplacements();
+    }
     PassCounts counts(statistics.Fragments);
     for (int pass = 0;; ++pass)
     {
@@ -299,6 +311,30 @@ private:
     this->State->vtkglDepthMask(GL_FALSE);
   }
 
+  static void SetDisplacements(vtkShaderProgram* program)
+  {
+    float displacements[NumberOfDisplacements][2] = { { 0, 0 } };
+    for (int k = 0; k < NumberOfRayDisplacements; ++k)
+    {
+      std::copy_n(RayDisplacements[k], 2, displacements[k + 1]);
+    }
+    program->SetUniform2fv("displacements", NumberOfDisplacements, displacements);
+  }
+
+  void FindDisplacements()
+  {
+    RayTargets& targets = this->Self.Targets;
+    vtkShaderProgram* program = this->Self.Clearance.Use(this->Window, "RayClearanceFS",
+      MakeSource(RayClearanceFS, {}, this->Limits.GetDeclarations()));
+    this->Limits.Activate(program);
+    this->Mesh.ActivateForEntry(program);
+    SetDisplacements(program);
+    targets.DrawInto(RayTargets::OfDisplacements);
+    this->TestDepth();
+    this->Self.Clearance.Draw();
+    this->Deactivate();
+  }
+
   void FindEntries(int from)
   {
     RayTargets& targets = this->Self.Targets;
@@ -306,6 +342,8 @@ private:
       MakeSource(RayEntryFS, this->GetEntryDefines(), this->Limits.GetDeclarations()));
     this->Limits.Activate(program);
     this->Mesh.ActivateForEntry(program);
+    SetDisplacements(program);
+    const ActiveTexture displacements(program, "rayDisplacements", targets.GetDisplacements());
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
@@ -336,6 +374,8 @@ private:
     const float size[2] = { static_cast<float>(settings.Width),
       static_cast<float>(settings.Height) };
     program->SetUniform2f("pictureSize", size);
+    SetDisplacements(program);
+    const ActiveTexture displacements(program, "rayDisplacements", targets.GetDisplacements());
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
@@ -378,6 +418,8 @@ private:
       this->Options.Lighting->Set(program);
     }
     this->Integral.Activate(program);
+    SetDisplacements(program);
+    const ActiveTexture displacements(program, "rayDisplacements", targets.GetDisplacements());
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
@@ -472,7 +514,7 @@ void GpuRayCaster::ReleaseGraphicsResources(vtkWindow* window)
   this->Targets.ReleaseGraphicsResources(window);
   this->Picture.ReleaseGraphicsResources(window);
   for (ScreenProgram* program :
-    { &this->Entry, &this->Layer, &this->Walk, &this->Done, &this->Result })
+    { &this->Clearance, &this->Entry, &this->Layer, &this->Walk, &this->Done, &this->Result })
   {
     program->ReleaseGraphicsResources(window);
   }

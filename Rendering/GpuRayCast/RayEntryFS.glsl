@@ -8,40 +8,12 @@
 //VTK::GetRay::Dec
 //VTK::RayFrame::Dec
 //VTK::BoundaryEntry::Dec
+//VTK::BoundaryNodes::Dec
 
 uniform isampler2D rayStates;
 uniform isampler2D rayEntries;
 
-uniform samplerBuffer boundaryBoxes;    // WalkTexels::Boxes
-uniform isamplerBuffer boundaryLinks;   // WalkTexels::Links
-uniform int numberOfBoundaryNodes;
-
 out ivec4 fragOutput0; // gl_FragData[0]
-
-// Boxes are grown by what distances along the ray may be rounded by, as the hierarchy's margin is
-// for those across: radii.
-const float AlongMargin = 1.9073486328125e-06; // 2^-19
-
-// BoundaryBvh::MaximumDepth + 1: one box waits for each level.
-const int StackSize = 73;
-
-// Whether a ray meets the box of a node, and from which distance on.
-bool TestBox(RayFrame frame, int node, out float begin, out float end)
-{
-  vec4 box0 = texelFetch(boundaryBoxes, 2 * node);
-  vec2 box1 = texelFetch(boundaryBoxes, 2 * node + 1).xy;
-  vec3 halfEdges = vec3(box0.w, box1);
-  // The box projected to the bounds of its shadow, and its extent along the ray.
-  vec4 middle = vec4(box0.xyz, 1.0);
-  vec2 across = vec2(dot(frame.Across[0], middle), dot(frame.Across[1], middle));
-  vec2 reach = vec2(
-    dot(abs(frame.Across[0].xyz), halfEdges), dot(abs(frame.Across[1].xyz), halfEdges));
-  float along = dot(frame.Along, box0.xyz);
-  float alongReach = dot(abs(frame.Along), halfEdges + AlongMargin);
-  begin = along - alongReach;
-  end = along + alongReach;
-  return all(lessThanEqual(abs(across), reach));
-}
 
 void main()
 {
@@ -49,7 +21,7 @@ void main()
   int next = -1;
   if (numberOfBoundaryNodes > 0 && texelFetch(rayStates, pixel, 0).w == RayNeedsEntry)
   {
-    RayFrame frame = MakeRayFrame(GetRay(gl_FragCoord.xy));
+    RayFrame frame = FindRayFrame(GetRay(gl_FragCoord.xy), pixel);
     int last = texelFetch(rayEntries, pixel, 0).x;
     float lastDistance = -LargestFloat;
     if (last >= 0)

@@ -29,7 +29,7 @@ void main()
   {
     discard;
   }
-  RayFrame frame = MakeRayFrame(GetRay(gl_FragCoord.xy));
+  RayFrame frame = FindRayFrame(GetRay(gl_FragCoord.xy), pixel);
   float distance;
   if (!TestEntry(frame, entryVSOutput, distance))
   {

@@ -116,7 +116,7 @@ void main()
   vec4 first = texelFetch(rayFirsts, pixel, 0);
 
   Ray ray = GetRay(gl_FragCoord.xy);
-  RayFrame frame = MakeRayFrame(ray);
+  RayFrame frame = FindRayFrame(ray, pixel);
   bool walking = state.w >= 0;
   if (state.w == RayNeedsEntry)
   {

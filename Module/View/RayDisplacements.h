@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_RayDisplacements_h
+#define tetralux_RayDisplacements_h
+
+namespace tetralux
+{
+
+/// Where a ray is displaced to, the one after the other, that passes an edge of the boundary so
+/// closely that rounding may decide on which side; in units of that rounding, across the ray, with
+/// any two axes.
+///
+/// Why: faces that touch but do not share their points, where cells meet cells of half their size,
+/// are rounded each on its own. A ray through their edges might go through both, or through none.
+/// At least as far from every edge as rounding reaches it goes through one.
+///
+/// Each is eight units farther than the one before, in a direction of its own, since a ray through
+/// a point has edges in many directions beside it; an edge bars less of the farther ones. No
+/// direction is that of an edge of a lattice that is seen along an axis. The last one is still far
+/// less than a pixel.
+constexpr int NumberOfRayDisplacements = 8;
+constexpr int RayDisplacements[NumberOfRayDisplacements][2] = { { 7, 3 }, { -15, 5 }, { 11, -21 },
+  { 8, 31 }, { -34, -21 }, { 47, -8 }, { -34, 44 }, { -6, -64 } };
+
+} // namespace tetralux
+
+#endif
