@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hierarchy over the boundary, as BoundaryBvh. Needs RayFrameDec.glsl.
+// The hierarchy over the boundary, as BoundaryBvh. Needs BoundaryEntryDec.glsl.
 
 uniform samplerBuffer boundaryBoxes;    // WalkTexels::Boxes
 uniform isamplerBuffer boundaryLinks;   // WalkTexels::Links
@@ -28,4 +28,51 @@ bool TestBox(RayFrame frame, int node, out float begin, out float end)
   begin = along - alongReach;
   end = along + alongReach;
   return all(lessThanEqual(abs(across), reach));
+}
+
+// Whether a ray passes any edge of the boundary within EdgeReach.
+bool IsNearBoundary(RayFrame frame)
+{
+  int nodes[StackSize];
+  nodes[0] = 0;
+  int size = 1;
+  while (size > 0)
+  {
+    --size;
+    int node = nodes[size];
+    float begin;
+    float end;
+    if (!TestBox(frame, node, begin, end))
+    {
+      continue;
+    }
+    ivec2 link = texelFetch(boundaryLinks, node).xy;
+    if (link.y == 0)
+    {
+      nodes[size] = link.x;
+      nodes[size + 1] = node + 1;
+      size += 2;
+    }
+    for (int entry = link.y >> 3; entry < (link.y >> 3) + (link.y & 7); ++entry)
+    {
+      if (TestEntry(frame, entry).Near)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// What a ray that passes edges of the boundary too closely asks for instead of an entry: to start
+// anew, with the first displacement by which it passes none, or the last one of all.
+int AskForDisplacement(RayFrame frame)
+{
+  int displacement = 1;
+  while (displacement + 1 < NUMBER_OF_DISPLACEMENTS &&
+    IsNearBoundary(DisplaceFrame(frame, displacement)))
+  {
+    ++displacement;
+  }
+  return NoEntry - displacement;
 }

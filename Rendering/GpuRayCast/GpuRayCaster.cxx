@@ -10,7 +10,6 @@
 #include "GpuRayCast/GpuRayLimits.h"
 #include "GpuRayCast/PixelProjection.h"
 #include "GpuRayCast/WalkTextures.h"
-#include "RayClearanceFS.h"
 #include "RayDoneFS.h"
 #include "RayEntryFS.h"
 #include "RayFrameDec.h"
@@ -43,6 +42,16 @@ constexpr std::size_t PassesAhead = 2;
 
 /// Of rays, the first one is none.
 constexpr int NumberOfDisplacements = 1 + NumberOfRayDisplacements;
+
+void SetDisplacements(vtkShaderProgram* program)
+{
+  float displacements[NumberOfDisplacements][2] = { { 0, 0 } };
+  for (int k = 0; k < NumberOfRayDisplacements; ++k)
+  {
+    std::copy_n(RayDisplacements[k], 2, displacements[k + 1]);
+  }
+  program->SetUniform2fv("displacements", NumberOfDisplacements, displacements);
+}
 
 /// A program's source from its file.
 std::string MakeSource(const char* file, const std::vector<std::string>& defines,
@@ -200,10 +209,6 @@ public:
     }
     this->Self.Targets.Clear(
       this->Options.LargestScalar ? -std::numeric_limits<float>::max() : 0.f);
-    if (this->MayEnterAgain()) // else nothing touches the boundary
-    {
-      this->FindDisplacements();
-    }
     PassCounts counts(statistics.Fragments);
     for (int pass = 0;; ++pass)
     {
@@ -273,8 +278,16 @@ private:
 
   std::vector<std::string> GetEntryDefines() const
   {
-    return this->MayEnterAgain() && this->Options.Oriented ? std::vector<std::string>{ "DIRECTED" }
-                                                           : std::vector<std::string>();
+    std::vector<std::string> names;
+    if (this->MayEnterAgain()) // else nothing touches the boundary
+    {
+      names.emplace_back("DISPLACES");
+      if (this->Options.Oriented)
+      {
+        names.emplace_back("DIRECTED");
+      }
+    }
+    return names;
   }
 
   std::string GetLighting() const
@@ -311,30 +324,6 @@ private:
     this->State->vtkglDepthMask(GL_FALSE);
   }
 
-  static void SetDisplacements(vtkShaderProgram* program)
-  {
-    float displacements[NumberOfDisplacements][2] = { { 0, 0 } };
-    for (int k = 0; k < NumberOfRayDisplacements; ++k)
-    {
-      std::copy_n(RayDisplacements[k], 2, displacements[k + 1]);
-    }
-    program->SetUniform2fv("displacements", NumberOfDisplacements, displacements);
-  }
-
-  void FindDisplacements()
-  {
-    RayTargets& targets = this->Self.Targets;
-    vtkShaderProgram* program = this->Self.Clearance.Use(this->Window, "RayClearanceFS",
-      MakeSource(RayClearanceFS, {}, this->Limits.GetDeclarations()));
-    this->Limits.Activate(program);
-    this->Mesh.ActivateForEntry(program);
-    SetDisplacements(program);
-    targets.DrawInto(RayTargets::OfDisplacements);
-    this->TestDepth();
-    this->Self.Clearance.Draw();
-    this->Deactivate();
-  }
-
   void FindEntries(int from)
   {
     RayTargets& targets = this->Self.Targets;
@@ -343,7 +332,6 @@ private:
     this->Limits.Activate(program);
     this->Mesh.ActivateForEntry(program);
     SetDisplacements(program);
-    const ActiveTexture displacements(program, "rayDisplacements", targets.GetDisplacements());
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
@@ -362,7 +350,7 @@ private:
       MakeSource(RayLayerFS, this->GetEntryDefines(), this->Limits.GetDeclarations()),
       MakeSource(RayLayerVS, {}));
     this->Limits.Activate(program);
-    this->Mesh.ActivateForLayer(program);
+    this->Mesh.ActivateForEntry(program);
     float rows[3][4];
     for (int row = 0; row < 3; ++row)
     {
@@ -375,7 +363,6 @@ private:
       static_cast<float>(settings.Height) };
     program->SetUniform2f("pictureSize", size);
     SetDisplacements(program);
-    const ActiveTexture displacements(program, "rayDisplacements", targets.GetDisplacements());
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
@@ -419,7 +406,6 @@ private:
     }
     this->Integral.Activate(program);
     SetDisplacements(program);
-    const ActiveTexture displacements(program, "rayDisplacements", targets.GetDisplacements());
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
@@ -514,7 +500,7 @@ void GpuRayCaster::ReleaseGraphicsResources(vtkWindow* window)
   this->Targets.ReleaseGraphicsResources(window);
   this->Picture.ReleaseGraphicsResources(window);
   for (ScreenProgram* program :
-    { &this->Clearance, &this->Entry, &this->Layer, &this->Walk, &this->Done, &this->Result })
+    { &this->Entry, &this->Layer, &this->Walk, &this->Done, &this->Result })
   {
     program->ReleaseGraphicsResources(window);
   }

@@ -89,7 +89,7 @@ private:
 
   RayTargets Targets;
   FloatTarget Picture;
-  ScreenProgram Clearance, Entry, Layer, Walk, Done, Result;
+  ScreenProgram Entry, Layer, Walk, Done, Result;
 };
 
 } // namespace tetralux

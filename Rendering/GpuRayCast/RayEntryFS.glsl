@@ -3,6 +3,8 @@
 // Where rays that are outside of the mesh come in next: the boundary face whose crossing is the
 // nearest one behind that of the last entry, by the hierarchy over the boundary, the nearer box
 // first.
+//
+// DISPLACES: rays that pass an edge of the boundary too closely ask for a displacement.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
@@ -18,16 +20,15 @@ out ivec4 fragOutput0; // gl_FragData[0]
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  int next = -1;
+  int next = NoEntry;
   if (numberOfBoundaryNodes > 0 && texelFetch(rayStates, pixel, 0).w == RayNeedsEntry)
   {
-    RayFrame frame = FindRayFrame(GetRay(gl_FragCoord.xy), pixel);
-    int last = texelFetch(rayEntries, pixel, 0).x;
-    float lastDistance = -LargestFloat;
-    if (last >= 0)
-    {
-      TestEntry(frame, last, lastDistance);
-    }
+    ivec4 lastEntry = texelFetch(rayEntries, pixel, 0);
+    int displacement = GetDisplacement(lastEntry.w);
+    RayFrame frame = DisplaceFrame(MakeRayFrame(GetRay(gl_FragCoord.xy)), displacement);
+    int last = lastEntry.x;
+    float lastDistance = last >= 0 ? TestEntry(frame, last).Distance : -LargestFloat;
+    bool near = false;
     float nearest = LargestFloat;
     int nodes[StackSize];
     float begins[StackSize];
@@ -79,20 +80,27 @@ void main()
       {
         for (int entry = link.y >> 3; entry < (link.y >> 3) + (link.y & 7); ++entry)
         {
-          float distance;
+          FaceTest test = TestEntry(frame, entry);
+          near = near || test.Near;
           // In the order of distances, and of faces where they are the same.
-          if (TestEntry(frame, entry, distance) && entry != last &&
-            (distance > lastDistance ||
-              (distance == lastDistance && GetFaceOfEntry(entry) > GetFaceOfEntry(last))) &&
-            (distance < nearest ||
-              (distance == nearest && GetFaceOfEntry(entry) < GetFaceOfEntry(next))))
+          if (test.Crossed && entry != last &&
+            (test.Distance > lastDistance ||
+              (test.Distance == lastDistance && GetFaceOfEntry(entry) > GetFaceOfEntry(last))) &&
+            (test.Distance < nearest ||
+              (test.Distance == nearest && GetFaceOfEntry(entry) < GetFaceOfEntry(next))))
           {
-            nearest = distance;
+            nearest = test.Distance;
             next = entry;
           }
         }
       }
     }
+#ifdef DISPLACES
+    if (near && displacement == 0)
+    {
+      next = AskForDisplacement(frame);
+    }
+#endif
   }
   fragOutput0 = ivec4(next);
 }

@@ -57,7 +57,6 @@ RayFrame MakeRayFrame(Ray ray)
   return frame;
 }
 
-uniform isampler2D rayDisplacements; // which one each ray has, see RayClearanceFS.glsl
 // Those of View/RayDisplacements.h, in units of EdgeReach, behind one that is none.
 uniform vec2 displacements[NUMBER_OF_DISPLACEMENTS];
 
@@ -65,7 +64,7 @@ uniform vec2 displacements[NUMBER_OF_DISPLACEMENTS];
 // half of one by the grid, and as much by each of the sums that project them.
 const float EdgeReach = 2.0;
 
-RayFrame DisplaceRay(RayFrame frame, int displacement)
+RayFrame DisplaceFrame(RayFrame frame, int displacement)
 {
   SAME_EVERYWHERE vec2 w =
     vec2(frame.Across[0].w, frame.Across[1].w) + EdgeReach * displacements[displacement];
@@ -73,12 +72,6 @@ RayFrame DisplaceRay(RayFrame frame, int displacement)
   displaced.Across[0].w = w.x;
   displaced.Across[1].w = w.y;
   return displaced;
-}
-
-// The frame in which the ray of a pixel is cast.
-RayFrame FindRayFrame(Ray ray, ivec2 pixel)
-{
-  return DisplaceRay(MakeRayFrame(ray), texelFetch(rayDisplacements, pixel, 0).x);
 }
 
 // Where a point is across the ray, in whole numbers.

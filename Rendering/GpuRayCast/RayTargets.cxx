@@ -34,11 +34,10 @@ constexpr Format FormatOf[RayTargets::NumberOfTextures] = {
   { GL_RGBA32F, GL_RGBA, GL_FLOAT, VTK_FLOAT, 4 },
   { GL_RGBA32F, GL_RGBA, GL_FLOAT, VTK_FLOAT, 4 },
 };
-/// Of next entries and displacements.
-constexpr Format FormatOfInteger = { GL_R32I, GL_RED_INTEGER, GL_INT, VTK_INT, 1 };
+constexpr Format FormatOfNextEntries = { GL_R32I, GL_RED_INTEGER, GL_INT, VTK_INT, 1 };
 
-/// Bytes of a pixel: both sets, next entries, displacements and two depths, four each.
-constexpr std::size_t PixelSize = 4 * (2 * 16 + 2 + 2);
+/// Bytes of a pixel: both sets, next entries and two depths, four each.
+constexpr std::size_t PixelSize = 4 * (2 * 16 + 1 + 2);
 
 void AllocateTexture(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, const Format& format,
   int width, int height)
@@ -109,8 +108,7 @@ void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int height)
       AllocateTexture(window, set[k], FormatOf[k], width, height);
     }
   }
-  AllocateTexture(window, this->NextEntries, FormatOfInteger, width, height);
-  AllocateTexture(window, this->Displacements, FormatOfInteger, width, height);
+  AllocateTexture(window, this->NextEntries, FormatOfNextEntries, width, height);
   AllocateDepth(window, this->Depth, width, height, vtkTextureObject::Fixed24);
   // Distances in it are compared with each other in single precision.
   AllocateDepth(window, this->LayerDepth, width, height, vtkTextureObject::Float32);
@@ -132,10 +130,6 @@ void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int height)
     if (k == OfNextEntries || k == OfLayer)
     {
       attach(Attachments[colors++], this->NextEntries);
-    }
-    else if (k == OfDisplacements)
-    {
-      attach(Attachments[colors++], this->Displacements);
     }
     else if (k != OfDepth)
     {
@@ -202,9 +196,6 @@ void RayTargets::Clear(float firstColor)
     glClearBufferfv(GL_COLOR, Firsts, firsts);
   }
   glClearBufferfv(GL_DEPTH, 0, &farthest);
-  const GLint none[4] = { 0, 0, 0, 0 };
-  this->DrawInto(OfDisplacements);
-  glClearBufferiv(GL_COLOR, 0, none);
 }
 
 std::size_t RayTargets::GetNumberOfBytes() const
@@ -231,7 +222,6 @@ void RayTargets::ReleaseGraphicsResources(vtkWindow* window)
     }
   }
   this->NextEntries->ReleaseGraphicsResources(window);
-  this->Displacements->ReleaseGraphicsResources(window);
   this->Depth->ReleaseGraphicsResources(window);
   this->LayerDepth->ReleaseGraphicsResources(window);
   this->Size[0] = this->Size[1] = 0;

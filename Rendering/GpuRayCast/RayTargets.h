@@ -48,15 +48,14 @@ public:
   void EndDrawing();
   ///@}
 
-  /// What can be drawn into: the sets, the texture of entries that rays come in by next, that of
-  /// displacements, and nothing; each with the depth buffer; and that texture with a depth buffer of its own. Nothing
+  /// What can be drawn into: the sets, the texture of entries that rays come in by next, and
+  /// nothing; each with the depth buffer; and that texture with a depth buffer of its own. Nothing
   /// that is drawn into may be read.
   enum Framebuffer
   {
     OfSet0,
     OfSet1,
     OfNextEntries,
-    OfDisplacements,
     OfDepth,
     OfLayer,
     NumberOfFramebuffers
@@ -67,7 +66,7 @@ public:
   /// An empty layer: no entry, farthest depth.
   void ClearLayer();
 
-  /// Both sets as they are before the first pass, no ray done nor displaced.
+  /// Both sets as they are before the first pass, no ray done.
   void Clear(float firstColor);
 
   vtkTextureObject* GetTexture(int set, Texture texture) const
@@ -75,7 +74,6 @@ public:
     return this->Textures[set][texture];
   }
   vtkTextureObject* GetNextEntries() const { return this->NextEntries; }
-  vtkTextureObject* GetDisplacements() const { return this->Displacements; }
 
   std::size_t GetNumberOfBytes() const;
 
@@ -85,10 +83,9 @@ private:
   void Allocate(vtkOpenGLRenderWindow* window, int width, int height);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  unsigned int Framebuffers[NumberOfFramebuffers] = { 0, 0, 0, 0, 0, 0 };
+  unsigned int Framebuffers[NumberOfFramebuffers] = { 0, 0, 0, 0, 0 };
   vtkNew<vtkTextureObject> Textures[2][NumberOfTextures];
   vtkNew<vtkTextureObject> NextEntries;
-  vtkNew<vtkTextureObject> Displacements;
   vtkNew<vtkTextureObject> Depth;
   vtkNew<vtkTextureObject> LayerDepth;
   int Size[2] = { 0, 0 };
