@@ -65,28 +65,32 @@ struct PacketCrossings
   unsigned NearEdges;
 };
 
-/// Whether rays pass the edge from a to b within a distance, whose determinant is given.
+/// Which rays pass the line through a and b within a distance, by det(a, b).
 template <class Real>
-TETRALUX_INLINE Mask8 IsNearEdge(const Corner<Real>& a, const Corner<Real>& b,
+TETRALUX_INLINE Mask8 IsNearLine(const Corner<Real>& a, const Corner<Real>& b,
   typename LanesOf<Real>::Type det, typename LanesOf<Real>::Type distance)
 {
   // The length by the sum of its coordinates: up to 1.4 times too long.
-  const auto width = Abs(b.X - a.X);
-  const auto height = Abs(b.Y - a.Y);
-  const auto twice = distance + distance;
-  return (Abs(det) <= distance * (width + height)) & (Abs(a.X + b.X) <= width + twice) &
-    (Abs(a.Y + b.Y) <= height + twice);
+  return Abs(det) <= distance * (Abs(b.X - a.X) + Abs(b.Y - a.Y));
 }
 
-/// Which rays pass an edge of a triangle within ProjectionRounding.
+/// Which rays pass an edge of a triangle, or its line beside the triangle, within
+/// ProjectionRounding.
 template <class Real>
-TETRALUX_INLINE Mask8 AreNearEdges(const TriangleHit<Real>& t, const Corner<Real> (&corners)[3])
+TETRALUX_INLINE Mask8 AreNearEdges(
+  const TriangleHit<Real>& t, const Corner<Real>& a, const Corner<Real>& b, const Corner<Real>& c)
 {
   using V = typename LanesOf<Real>::Type;
   const V distance = static_cast<Real>(ProjectionRounding<Real> * ProjectionScale);
-  return IsNearEdge(corners[1], corners[2], t.BC, distance) |
-    IsNearEdge(corners[2], corners[0], t.CA, distance) |
-    IsNearEdge(corners[0], corners[1], t.AB, distance);
+  const Mask8 near = IsNearLine(b, c, t.BC, distance) | IsNearLine(c, a, t.CA, distance) |
+    IsNearLine(a, b, t.AB, distance);
+  if (!Any(near))
+  {
+    return near;
+  }
+  const V lowest = V(Real(0)) - distance;
+  return near & (Min(a.X, Min(b.X, c.X)) <= distance) & (lowest <= Max(a.X, Max(b.X, c.X))) &
+    (Min(a.Y, Min(b.Y, c.Y)) <= distance) & (lowest <= Max(a.Y, Max(b.Y, c.Y)));
 }
 
 /// Adds where rays cross a face of the boundary. False where the buffer was too small; it is larger
@@ -104,7 +108,7 @@ TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays,
     corners[c] = Project(rays, p.X, p.Y, p.Z, p.S, Int8(entry.Points[c]));
   }
   const TriangleHit<Real> t = TestTriangle(corners[0], corners[1], corners[2]);
-  crossings.NearEdges |= Bits(AreNearEdges(t, corners) & active);
+  crossings.NearEdges |= Bits(AreNearEdges(t, corners[0], corners[1], corners[2]) & active);
   const Mask8 hit = t.Hit & active;
   unsigned bits = Bits(hit);
   if (bits == 0)

@@ -10,19 +10,26 @@ uniform isamplerBuffer boundaryEntries; // WalkTexels::Entries
 struct FaceTest
 {
   bool Crossed; // whether the ray comes in through the face
-  bool Near;    // whether it passes an edge of the face within EdgeReach
+  bool Near;    // whether it passes an edge of the face, or its line beside the face, within EdgeReach
   float Distance;
 };
 
-// Whether the ray passes the edge between two corners within EdgeReach, by their determinant.
-bool IsNearEdge(Corner a, Corner b, float determinant)
+vec2 GetAcross(Corner corner)
 {
-  vec2 p = HalfScale * a.High + a.Low;
-  vec2 q = HalfScale * b.High + b.Low;
-  // The length by the sum of its coordinates: up to 1.4 times too long.
-  vec2 extent = abs(q - p);
-  return abs(determinant) <= EdgeReach * (extent.x + extent.y) &&
-    all(lessThanEqual(abs(p + q), extent + 2.0 * EdgeReach));
+  return HalfScale * corner.High + corner.Low;
+}
+
+// See FaceTest::Near; by the determinants of the corners.
+bool IsNear(vec2 a, vec2 b, vec2 c, vec3 determinants)
+{
+  // Lengths of edges by the sums of their coordinates: up to 1.4 times too long.
+  vec2 ab = abs(b - a);
+  vec2 bc = abs(c - b);
+  vec2 ca = abs(a - c);
+  vec3 lengths = vec3(bc.x + bc.y, ca.x + ca.y, ab.x + ab.y);
+  return any(lessThanEqual(abs(determinants), EdgeReach * lengths)) &&
+    all(lessThanEqual(min(a, min(b, c)), vec2(EdgeReach))) &&
+    all(greaterThanEqual(max(a, max(b, c)), vec2(-EdgeReach)));
 }
 
 // A boundary face of three points.
@@ -40,8 +47,7 @@ FaceTest TestFace(RayFrame frame, ivec3 ids)
   SAME_EVERYWHERE float along = shares.x * a.Along + shares.y * b.Along + shares.z * c.Along;
   FaceTest test;
   test.Distance = along;
-  test.Near = IsNearEdge(b, c, weights.x) || IsNearEdge(c, a, weights.y) ||
-    IsNearEdge(a, b, weights.z);
+  test.Near = IsNear(GetAcross(a), GetAcross(b), GetAcross(c), weights);
 #ifdef DIRECTED
   test.Crossed = p && q && r;
 #else
