@@ -222,9 +222,9 @@ inline void FindClearCrossings(const KernelInput& in, Rays<Real>& rays, Mask8 ac
     }
     const double unit = ProjectionRounding<Real> * ProjectionScale;
     const Mask8 near = MaskFromBits(crossings.NearEdges);
-    rays.U[3] = Select(near, u + V(static_cast<Real>(unit * RayDisplacements[next][0])), rays.U[3]);
+    rays.U[3] = Select(near, u - V(static_cast<Real>(unit * RayDisplacements[next][0])), rays.U[3]);
     rays.V_[3] =
-      Select(near, v + V(static_cast<Real>(unit * RayDisplacements[next][1])), rays.V_[3]);
+      Select(near, v - V(static_cast<Real>(unit * RayDisplacements[next][1])), rays.V_[3]);
   }
 }
 

@@ -13,13 +13,13 @@ namespace tetralux
 /// are rounded each on its own. A ray through their edges might go through both, or through none.
 /// At least as far from every edge as rounding reaches it goes through one.
 ///
-/// Each is eight units farther than the one before, in a direction of its own, since a ray through
-/// a point has edges in many directions beside it; an edge bars less of the farther ones. No
-/// direction is that of an edge of a lattice that is seen along an axis. The last one is still far
-/// less than a pixel.
+/// Each is farther than the one before, in a direction of its own, since a ray through a point has
+/// edges in many directions beside it; an edge bars less of the farther ones. The first ones are
+/// not in the direction of any edge of a lattice that is seen along an axis, and on the side of it
+/// on which rays through edges are taken to pass. The last one is still far less than a pixel.
 constexpr int NumberOfRayDisplacements = 8;
-constexpr int RayDisplacements[NumberOfRayDisplacements][2] = { { 7, 3 }, { -15, 5 }, { 11, -21 },
-  { 8, 31 }, { -34, -21 }, { 47, -8 }, { -34, 44 }, { -6, -64 } };
+constexpr int RayDisplacements[NumberOfRayDisplacements][2] = { { 5, 2 }, { -9, 3 }, { 7, -14 },
+  { 6, 25 }, { -30, -18 }, { 45, -8 }, { -34, 44 }, { -6, -64 } };
 
 } // namespace tetralux
 

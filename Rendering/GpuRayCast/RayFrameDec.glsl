@@ -67,7 +67,7 @@ const float EdgeReach = 2.0;
 RayFrame DisplaceFrame(RayFrame frame, int displacement)
 {
   SAME_EVERYWHERE vec2 w =
-    vec2(frame.Across[0].w, frame.Across[1].w) + EdgeReach * displacements[displacement];
+    vec2(frame.Across[0].w, frame.Across[1].w) - EdgeReach * displacements[displacement];
   RayFrame displaced = frame;
   displaced.Across[0].w = w.x;
   displaced.Across[1].w = w.y;
