@@ -89,7 +89,7 @@ std::vector<View> MakeViews()
                      const Vector& viewUp, double viewAngle)
   {
     const Vector direction = Add(focalPoint, -1, from);
-    for (const double roll : { 0., 17. })
+    for (const double roll : { 0., 40. })
     {
       for (const bool parallel : { true, false })
       {
