@@ -178,14 +178,33 @@ private:
     this->Counts.Segments += __builtin_popcount(this->Running);
 
     // Rays that are opaque or past their end are done; rays that left the mesh may enter again.
-    const Mask8 done = this->Gathered.IsDone(this->In) | (this->Far <= z1);
     const Mask8 outside = Int8(0) > this->Cell;
-    const unsigned doneBits = Bits(done) & this->Running;
+    const unsigned opaqueBits = Bits(this->Gathered.IsDone(this->In)) & this->Running;
+    const unsigned pastBits = Bits(this->Far <= z1) & this->Running;
     const unsigned outsideBits = Bits(outside);
-    if ((doneBits | outsideBits) != 0)
+    if ((opaqueBits | pastBits | outsideBits) != 0)
     {
-      this->Leave(outside, outsideBits, doneBits);
+      this->Leave(outside, outsideBits, opaqueBits | this->KeepDone(pastBits));
     }
+  }
+
+  /// Of rays past their end those that meet no cells before it that they have still to enter: cells
+  /// that overlap with the ones they are in. The others go on without effect until they leave.
+  unsigned KeepDone(unsigned pastBits) const
+  {
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      const Crossing* list = this->GetCrossings(lane);
+      for (int k = this->Cursor[lane]; (pastBits >> lane & 1u) && k < this->Crossings.Count[lane];
+           ++k)
+      {
+        if (list[k].Entry >= 0 && list[k].Distance <= this->FarOf[lane])
+        {
+          pastBits &= ~(1u << lane);
+        }
+      }
+    }
+    return pastBits;
   }
 
   /// Imaginary cells come after those of the mesh, and contribute nothing.

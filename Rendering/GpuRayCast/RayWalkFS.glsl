@@ -316,12 +316,13 @@ void main()
     walking = !outside && (tells || along < limits.y) && gathered.a < maximumOpacity;
   }
 
-  // Where the part of the ray ends, the next one begins anew: by the first entry into the mesh.
-  partEnded = partEnded || (!tells && along >= limits.y) || gathered.a >= maximumOpacity;
+  // Where the part of the ray ends, the next one begins anew: by the first entry into the mesh. Up
+  // to there cells may be entered that overlap with those that were walked through.
+  bool passed = outside || (!tells && along >= limits.y);
 #ifdef REENTRY
   bool ended = false;
 #else
-  bool ended = outside;
+  bool ended = passed;
 #endif
   if (gathered.a >= maximumOpacity)
   {
@@ -335,7 +336,7 @@ void main()
   }
   else
   {
-    state = ivec4(a.Id, b.Id, c.Id, outside ? RayNeedsEntry : face);
+    state = ivec4(a.Id, b.Id, c.Id, passed ? RayNeedsEntry : face);
 #ifdef PAIRED
     if (tells && outside)
     {
