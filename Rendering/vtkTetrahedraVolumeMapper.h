@@ -8,6 +8,12 @@
  * counts them, see GetStatistics(); one warning names types that are not supported. Cells that
  * touch a scalar that is not a finite number are empty.
  *
+ * A ray goes through connected cells (cells that share faces) until it leaves them, then comes in
+ * at the next boundary face, in the order of the entries' distances. Parts that overlap thus
+ * contribute each, one after the other, in the order in which the ray enters them. Cells that can't
+ * be seen may be left out; they then connect nothing. The depth of a pixel is the nearest
+ * contribution.
+ *
  * Optical model: attenuation per world unit is the scalar opacity over the property's
  * ScalarOpacityUnitDistance. Radiance is the integral of attenuation x colour x exp(-optical
  * depth). VTK's own mappers of unstructured grids have the same model; its mappers of image data

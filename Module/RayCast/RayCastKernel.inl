@@ -21,6 +21,9 @@
 //   two of its four triangles. Steps are thus a pairing of faces: a walk that starts at a boundary
 //   face visits no cell twice and ends at another boundary face.
 //
+// What does not share points is not projected alike: where faces touch that are not the same, rays
+// that pass edges of the boundary within rounding are displaced, see RayDisplacements.h.
+//
 // Boundary crossings are found by the same determinants, so they come in pairs, too: walking from
 // the nearest one strikes off the one where the walk ends, and the next one left is a re-entry.
 

@@ -10,7 +10,7 @@ uniform isamplerBuffer boundaryEntries; // WalkTexels::Entries
 struct FaceTest
 {
   bool Crossed; // whether the ray comes in through the face
-  bool Near;    // whether it passes an edge of the face, or its line beside the face, within EdgeReach
+  bool Near;    // whether it passes an edge, or the line of one beside the face, within EdgeReach
   float Distance;
 };
 

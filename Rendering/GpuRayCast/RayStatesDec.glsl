@@ -4,8 +4,8 @@
 const int RayIsDone = -1;
 const int RayNeedsEntry = -2; // it has not come into the mesh yet, or left it
 
-// Instead of a boundary entry: there is none; or, below, which displacement the ray is to start anew
-// with, see View/RayDisplacements.h.
+// Instead of a boundary entry: there is none; or, below, which displacement the ray is to start
+// anew with, see View/RayDisplacements.h.
 const int NoEntry = -1;
 
 // The last number of a ray's entries: whether its walk is to tell only, and its displacement.

@@ -76,9 +76,9 @@ struct ReferenceImage
 ///   is in exactly one cell; a ray along the outer boundary is either inside or outside.
 /// - Segments composite in the order in which the ray goes through the cells. A ray goes through
 ///   connected cells (cells that share faces) until it leaves them, then comes in at the next
-///   boundary face, in the order of the entries' distances. Parts that overlap thus contribute each,
-///   one after the other, in the order in which the ray enters them. See ReferenceRuns.h. The parts
-///   of a ray that cropping keeps come one after the other.
+///   boundary face, in the order of the entries' distances. Parts that overlap thus contribute
+///   each, one after the other, in the order in which the ray enters them. See ReferenceRuns.h. The
+///   parts of a ray that cropping keeps come one after the other.
 /// - A ray in a cropping plane belongs to the middle region, as in VTK.
 /// - A surface is met in a cell where the scalar is below its value at one end of what is kept of
 ///   the ray there, and not below it at the other: one that lies in faces of the mesh is met once.
