@@ -51,8 +51,8 @@ TETRALUX_INLINE TriangleHit<Real> TestTriangle(
   return t;
 }
 
-/// What the projection of a point may be off by across a ray, in radii: four times the rounding of a
-/// coordinate, which is rounded in the tables and by each of the three sums that project it.
+/// What the projection of a point may be off by across a ray, in radii: four times the rounding of
+/// a coordinate, which is rounded in the tables and by each of the three sums that project it.
 template <class Real>
 constexpr double ProjectionRounding = 2. * std::numeric_limits<Real>::epsilon();
 
@@ -202,8 +202,8 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
   return true;
 }
 
-/// Finds where rays cross the boundary, and displaces those first that pass edges of it too closely,
-/// see RayDisplacements.
+/// Finds where rays cross the boundary, and displaces those first that pass edges of it too
+/// closely, see RayDisplacements.
 template <class Real>
 inline void FindClearCrossings(const KernelInput& in, Rays<Real>& rays, Mask8 active,
   CrossingBuffer& buffer, PacketCrossings& crossings)

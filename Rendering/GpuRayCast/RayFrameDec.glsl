@@ -11,8 +11,8 @@
 //   2^24, which single precision holds, in whatever order or fusion they are computed.
 // * Zero, a ray through an edge or a vertex, is decided as if the ray were displaced by (e, e^2), e
 //   infinitely small; where two points are in the same place, by their ids.
-// * Faces that touch but do not share their points are rounded each on its own. Rays that pass edges
-//   of the boundary within that rounding are displaced, see View/RayDisplacements.h.
+// * Faces that touch but do not share their points are rounded each on its own. Rays that pass
+//   edges of the boundary within that rounding are displaced, see View/RayDisplacements.h.
 
 #ifdef GL_ARB_gpu_shader5
 #define SAME_EVERYWHERE precise

@@ -135,7 +135,8 @@ protected:
     EXPECT_GT(covered, 0.3);
     EXPECT_LE(largest, tolerance) << off << " pixels";
     // The graphics card keeps the segment that begins nearest, not its surface.
-    if (mapper != this->Gpu.Get() || mapper->GetBlendMode() != vtkVolumeMapper::ISOSURFACE_BLEND)
+    if (mapper != this->Gpu.Get() ||
+      mapper->GetBlendMode() != vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND)
     {
       EXPECT_LE(largestDepth, DepthTolerance);
     }
