@@ -17,9 +17,10 @@ namespace tetralux
 /// edges in many directions beside it; an edge bars less of the farther ones. The first ones are
 /// not in the direction of any edge of a lattice that is seen along an axis, and on the side of it
 /// on which rays through edges are taken to pass. The last one is still far less than a pixel.
-constexpr int NumberOfRayDisplacements = 8;
-constexpr int RayDisplacements[NumberOfRayDisplacements][2] = { { 5, 2 }, { -9, 3 }, { 7, -14 },
-  { 6, 25 }, { -30, -18 }, { 45, -8 }, { -34, 44 }, { -6, -64 } };
+constexpr int NumberOfRayDisplacements = 12;
+constexpr int RayDisplacements[NumberOfRayDisplacements][2] = { { 5, 2 }, { -9, 3 }, { 6, -12 },
+  { 4, 15 }, { -15, -10 }, { 20, -4 }, { -13, 18 }, { -3, -24 }, { 15, 21 }, { 23, -16 },
+  { -30, 5 }, { 6, -31 } };
 
 } // namespace tetralux
 
