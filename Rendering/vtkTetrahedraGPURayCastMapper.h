@@ -14,7 +14,8 @@
  *
  * Only what changed is sent to the graphics card: topology, or points with their scalars. The
  * picture is read back when GetOutputImage() asks for it. If segments are looked up in a table, its
- * Depth is that of the first cell that contributes.
+ * Depth is that of the first cell that contributes. Where cells overlap, Depth is what is first in
+ * the cell that contributes and begins nearest.
  *
  * @warning A mesh has at most a quarter as many tetrahedra as the driver's texture buffers have
  * texels (2^27 on most), and must fit into free memory if the driver tells how much there is. Both

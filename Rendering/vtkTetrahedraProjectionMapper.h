@@ -6,7 +6,8 @@
  * Draws each cell's silhouette as triangles in visibility order. Each fragment finds where its ray
  * enters and leaves the cell, with which scalars, and what that adds to the picture (Kraus et al.,
  * Projecting Tetrahedra without Rendering Artifacts, 2004). With the defaults the picture is that
- * of ray casting, except for cells that occlude each other in a cycle. Each of the paper's
+ * of ray casting, except for cells that occlude each other in a cycle, and for the colours of cells
+ * that overlap: the order of cells is one for all rays, see VisibilityOrder. Each of the paper's
  * corrections can be turned off, so that its artifact can be studied:
  *
  * - perspective interpolation (section 2): PerspectiveInterpolation;

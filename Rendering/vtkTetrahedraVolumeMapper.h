@@ -8,6 +8,12 @@
  * counts them, see GetStatistics(); one warning names types that are not supported. Cells that
  * touch a scalar that is not a finite number are empty.
  *
+ * A ray goes through connected cells (cells that share faces) until it leaves them, then comes in
+ * at the next boundary face, in the order of the entries' distances. Parts that overlap thus
+ * contribute each, one after the other, in the order in which the ray enters them. Cells that can't
+ * be seen may be left out; they then connect nothing. The depth of a pixel is the nearest
+ * contribution.
+ *
  * Optical model: attenuation per world unit is the scalar opacity over the property's
  * ScalarOpacityUnitDistance. Radiance is the integral of attenuation x colour x exp(-optical
  * depth). VTK's own mappers of unstructured grids have the same model; its mappers of image data
@@ -427,7 +433,9 @@ public:
    * not 0, pixels that graze are not covered: those in which the exact picture itself changes by
    * more than the estimate where the ray moves across by 2^-22 of the mesh's radius. Their rays
    * touch the boundary, a face between cells of different constant scalars, or a surface along
-   * which the transfer function jumps. They are some forty of a million.
+   * which the transfer function jumps. They are some forty of a million. Rays that pass an edge of
+   * the boundary within rounding are displaced by up to 2^-18 of the radius, most by 2^-20, so that
+   * they go through one of the faces beside it where these do not share their points.
    *
    * Not covered either: interpolation between rays more than a pixel apart,
    * PerspectiveInterpolation off, isosurfaces, which rays meet or miss, and nodes of the transfer

@@ -147,9 +147,8 @@ public:
     cell.Type = this->Layout.CellType;
     cell.Points = { p, p + 1, p + 1 + pointsX, p + pointsX, q, q + 1, q + 1 + pointsX,
       q + pointsX };
-    // Counted in the whole extent, so that neighbouring pieces cut their common face alike.
-    cell.Parity = static_cast<int>(
-      (i + this->Layout.Extent[0] + j + this->Layout.Extent[2] + k + this->Layout.Extent[4]) & 1);
+    cell.Parity =
+      this->Layout.GetParity(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
   }
 
   template <class AddFaceT>

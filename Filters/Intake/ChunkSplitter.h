@@ -31,6 +31,7 @@ struct BlockContext
   const unsigned char* PointGhosts = nullptr;
   bool HasRationalWeights = false;           ///< whether Bezier cells are rational ones
   const std::int32_t* FirstPoints = nullptr; ///< for each point the one that is taken; none: itself
+  bool Alternates = true; ///< whether cells of structured grids are cut by their parity
 };
 
 /// Share of a tetrahedron's volume below which a point lies on a face of it: above the rounding of
@@ -200,8 +201,7 @@ private:
         break;
       case CellKind::Voxel:
       case CellKind::Hexahedron:
-        // A seam, or a block that is next, need not alternate alike: ids cut both sides alike.
-        if (this->Current.Parity >= 0 && !this->Context.FirstPoints)
+        if (this->Current.Parity >= 0 && this->Context.Alternates)
         {
           count = SplitStructuredHexahedron(points.data(), this->Current.Parity == 1, tets);
           break;

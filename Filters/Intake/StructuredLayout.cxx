@@ -18,6 +18,18 @@ bool StructuredLayout::IsThreeDimensional() const
   return *std::min_element(this->Dimensions, this->Dimensions + 3) > 1;
 }
 
+int StructuredLayout::GetParity(int i, int j, int k) const
+{
+  return (i + this->Extent[0] + j + this->Extent[2] + k + this->Extent[4]) & 1;
+}
+
+int StructuredLayout::GetParityOfPoint(std::int64_t point) const
+{
+  const std::int64_t row = point / this->Dimensions[0];
+  return this->GetParity(static_cast<int>(point % this->Dimensions[0]),
+    static_cast<int>(row % this->Dimensions[1]), static_cast<int>(row / this->Dimensions[1]));
+}
+
 bool GetStructuredLayout(vtkDataSet* dataSet, StructuredLayout& layout)
 {
   if (auto image = vtkImageData::SafeDownCast(dataSet))

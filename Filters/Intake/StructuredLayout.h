@@ -17,6 +17,11 @@ struct StructuredLayout
   int CellType;
 
   bool IsThreeDimensional() const;
+
+  /// 0 or 1: whether i + j + k is odd. Of a point, or of a cell by its first point. Counted in the
+  /// whole extent, so that neighbouring pieces cut their common face alike.
+  int GetParity(int i, int j, int k) const;
+  int GetParityOfPoint(std::int64_t point) const;
 };
 
 /// Fills layout where a data set is a structured grid.

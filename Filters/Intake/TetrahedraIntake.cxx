@@ -95,6 +95,7 @@ public:
         this->FirstPoints[this->Merged.Points[i]] =
           static_cast<std::int32_t>(this->Merged.Firsts[i]);
       }
+      this->Alternates = this->MergesAlternateAlike(blocks);
     }
     else if (blocks.size() == 1 && this->TakeTetrahedraAsTheyAre(blocks[0].DataSet))
     {
@@ -130,6 +131,37 @@ private:
     {
       this->Result.Aborted = true;
       return false;
+    }
+    return true;
+  }
+
+  /// Whether all merged points are of structured grids and have the parity of those that they are
+  /// merged into: diagonals of faces join points of one parity.
+  bool MergesAlternateAlike(const std::vector<DataSetBlock>& blocks) const
+  {
+    std::vector<StructuredLayout> layouts;
+    for (const DataSetBlock& block : blocks)
+    {
+      StructuredLayout layout;
+      if (!GetStructuredLayout(block.DataSet, layout))
+      {
+        return false;
+      }
+      layouts.push_back(layout);
+    }
+    const auto getParity = [&](std::int64_t point)
+    {
+      const auto next = std::upper_bound(blocks.begin(), blocks.end(), point,
+        [](std::int64_t id, const DataSetBlock& block) { return id < block.FirstPoint; });
+      const auto block = next - 1;
+      return layouts[block - blocks.begin()].GetParityOfPoint(point - block->FirstPoint);
+    };
+    for (std::size_t i = 0; i < this->Merged.Points.size(); ++i)
+    {
+      if (getParity(this->Merged.Points[i]) != getParity(this->Merged.Firsts[i]))
+      {
+        return false;
+      }
     }
     return true;
   }
@@ -181,6 +213,7 @@ private:
       context.PointGhosts = pointGhosts->GetPointer(0);
     }
 
+    context.Alternates = this->Alternates;
     context.FirstPoints = this->FirstPoints.empty() ? nullptr : this->FirstPoints.data();
     context.HasRationalWeights = block.DataSet->GetPointData()->GetRationalWeights() != nullptr;
 
@@ -272,6 +305,7 @@ private:
   const std::function<bool(double)>& Progress;
   const CoincidentPoints& Merged;
   std::vector<std::int32_t> FirstPoints; ///< see BlockContext; empty where nothing is merged
+  bool Alternates = true;                ///< see BlockContext
   std::vector<IntakeChunk> Chunks;
   std::int64_t NumberOfTetrahedra = 0;
   std::int64_t NumberOfAddedPoints = 0;

@@ -53,8 +53,8 @@ struct TetrahedraIntake
 /// 2^31 - 1 points and more than 2^29 - 1 tetrahedra, with a line in Error.
 ///
 /// merged: points for which cells take the first one at their place. Tetrahedra that repeat a point
-/// by that are left out; cells of structured grids are then split as hexahedra, so that blocks and
-/// seams are cut alike from both sides.
+/// by that are left out. If seams or blocks do not alternate alike, cells of structured grids are
+/// then split as hexahedra, so that faces are cut alike from both sides.
 ///
 /// progress, where given, is called from the calling thread with a fraction 0..1 now and then; when
 /// it returns false the work ends with Aborted set. Linear time, parallel through vtkSMPTools, the

@@ -63,7 +63,10 @@ int CellProjector::Project(const ScreenPoint* const (&points)[4], ProjectedCell&
     seen[i] = cell.FindFace(i, faces[i], front[i]);
     allSeen = allSeen && seen[i];
     const double slope = faces[i].SlopeX * faces[i].SlopeX + faces[i].SlopeY * faces[i].SlopeY;
-    if (seen[i] && slope < leastSlope)
+    // A face in whose plane the eye is, to rounding, is not steep where it is parallel to the
+    // picture, but differences to its z would be rounding alone.
+    const bool passesEye = std::abs(faces[i].Value) > 1 / ScreenFrame::SmallestDepth;
+    if (seen[i] && !passesEye && slope < leastSlope)
     {
       leastSlope = slope;
       base = i;

@@ -5,6 +5,9 @@
 // Where the rays of a packet cross the boundary.
 
 #include "RayCast/RayCastFrame.h"
+#include "View/RayDisplacements.h"
+
+#include <limits>
 
 namespace tetralux
 {
@@ -48,18 +51,87 @@ TETRALUX_INLINE TriangleHit<Real> TestTriangle(
   return t;
 }
 
+/// What the projection of a point may be off by across a ray, in radii: four times the rounding of
+/// a coordinate, which is rounded in the tables and by each of the three sums that project it.
+template <class Real>
+constexpr double ProjectionRounding = 2. * std::numeric_limits<Real>::epsilon();
+
 /// The number of each ray's crossings with the boundary, which CrossingBuffer holds in ascending
-/// distance.
+/// distance; and which rays pass an edge of the boundary so closely that rounding may decide on
+/// which side.
 struct PacketCrossings
 {
   int Count[LaneCount];
+  unsigned NearEdges;
 };
+
+/// Which rays pass the line through a and b within a distance, by det(a, b), behind a begin.
+template <class Real>
+TETRALUX_INLINE Mask8 IsNearLine(const Corner<Real>& a, const Corner<Real>& b,
+  typename LanesOf<Real>::Type det, typename LanesOf<Real>::Type distance,
+  typename LanesOf<Real>::Type begin)
+{
+  using V = typename LanesOf<Real>::Type;
+  const V x = b.X - a.X;
+  const V y = b.Y - a.Y;
+  // The length by the sum of its coordinates: up to 1.4 times too long.
+  const V length = Abs(x) + Abs(y);
+  const Mask8 near = Abs(det) <= distance * length;
+  if (!Any(near))
+  {
+    return near;
+  }
+  // Where along the ray; of an edge that is all near to it, the far end.
+  const V zero = Real(0);
+  const V share = Min(Max((zero - Fma(a.X, x, a.Y * y)) / Fma(x, x, y * y), zero), V(Real(1)));
+  const V z = Select(length <= distance * V(Real(8)), Max(a.Z, b.Z), Fma(share, b.Z - a.Z, a.Z));
+  return near & (begin < z);
+}
+
+/// Where along the rays edges begin to count: a little behind the start. All rays from a point of
+/// the boundary pass edges there, and are displaced by nothing that is worth it.
+template <class Real>
+TETRALUX_INLINE typename LanesOf<Real>::Type GetBeginOfEdges(const Rays<Real>& rays)
+{
+  using V = typename LanesOf<Real>::Type;
+  const V radius = Sqrt(Dot(rays.W, rays.W[0], rays.W[1], rays.W[2])); // world units
+  V start;
+  if constexpr (sizeof(Real) == sizeof(float))
+  {
+    start = ToFloat(rays.Start);
+  }
+  else
+  {
+    start = rays.Start;
+  }
+  return Fma(V(static_cast<Real>(FarthestDisplacement)), radius, V(Real(0)) - start);
+}
+
+/// Which rays pass an edge of a triangle, or its line beside the triangle, within
+/// ProjectionRounding.
+template <class Real>
+TETRALUX_INLINE Mask8 AreNearEdges(const TriangleHit<Real>& t, const Corner<Real>& a,
+  const Corner<Real>& b, const Corner<Real>& c, typename LanesOf<Real>::Type begin)
+{
+  using V = typename LanesOf<Real>::Type;
+  const V distance = static_cast<Real>(ProjectionRounding<Real> * ProjectionScale);
+  const Mask8 near = IsNearLine(b, c, t.BC, distance, begin) |
+    IsNearLine(c, a, t.CA, distance, begin) | IsNearLine(a, b, t.AB, distance, begin);
+  if (!Any(near))
+  {
+    return near;
+  }
+  const V lowest = V(Real(0)) - distance;
+  return near & (Min(a.X, Min(b.X, c.X)) <= distance) & (lowest <= Max(a.X, Max(b.X, c.X))) &
+    (Min(a.Y, Min(b.Y, c.Y)) <= distance) & (lowest <= Max(a.Y, Max(b.Y, c.Y)));
+}
 
 /// Adds where rays cross a face of the boundary. False where the buffer was too small; it is larger
 /// then.
 template <class Real>
 TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 active,
-  std::int32_t entryId, CrossingBuffer& buffer, PacketCrossings& crossings)
+  typename LanesOf<Real>::Type beginOfEdges, std::int32_t entryId, CrossingBuffer& buffer,
+  PacketCrossings& crossings)
 {
   const WalkEntry& entry = in.Entries[entryId];
   const auto* points = static_cast<const WalkPoint<Real>*>(in.Points);
@@ -70,6 +142,8 @@ TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays,
     corners[c] = Project(rays, p.X, p.Y, p.Z, p.S, Int8(entry.Points[c]));
   }
   const TriangleHit<Real> t = TestTriangle(corners[0], corners[1], corners[2]);
+  crossings.NearEdges |=
+    Bits(AreNearEdges(t, corners[0], corners[1], corners[2], beginOfEdges) & active);
   const Mask8 hit = t.Hit & active;
   unsigned bits = Bits(hit);
   if (bits == 0)
@@ -112,6 +186,7 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
   {
     n = 0;
   }
+  crossings.NearEdges = 0;
   if (!in.Nodes)
   {
     return true;
@@ -127,6 +202,7 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
     absU[a] = Abs(u[a]);
     absV[a] = Abs(v[a]);
   }
+  const auto beginOfEdges = GetBeginOfEdges(rays);
   // One child waits for each level above.
   std::int32_t stack[BoundaryBvh::MaximumDepth + 1];
   int top = 0;
@@ -153,13 +229,39 @@ inline bool FindCrossings(const KernelInput& in, const Rays<Real>& rays, Mask8 a
     }
     for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
     {
-      if (!AddCrossings(in, rays, active, in.Triangles[i], buffer, crossings))
+      if (!AddCrossings(in, rays, active, beginOfEdges, in.Triangles[i], buffer, crossings))
       {
         return false;
       }
     }
   }
   return true;
+}
+
+/// Finds where rays cross the boundary, and displaces those first that pass edges of it too
+/// closely, see RayDisplacements.
+template <class Real>
+inline void FindClearCrossings(const KernelInput& in, Rays<Real>& rays, Mask8 active,
+  CrossingBuffer& buffer, PacketCrossings& crossings)
+{
+  using V = typename LanesOf<Real>::Type;
+  const V u = rays.U[3];
+  const V v = rays.V_[3];
+  for (int next = 0;; ++next)
+  {
+    while (!FindCrossings(in, rays, active, buffer, crossings))
+    {
+    }
+    if (crossings.NearEdges == 0 || next == NumberOfRayDisplacements)
+    {
+      return;
+    }
+    const double unit = ProjectionRounding<Real> * ProjectionScale;
+    const Mask8 near = MaskFromBits(crossings.NearEdges);
+    rays.U[3] = Select(near, u - V(static_cast<Real>(unit * RayDisplacements[next][0])), rays.U[3]);
+    rays.V_[3] =
+      Select(near, v - V(static_cast<Real>(unit * RayDisplacements[next][1])), rays.V_[3]);
+  }
 }
 
 } // namespace

@@ -21,6 +21,9 @@
 //   two of its four triangles. Steps are thus a pairing of faces: a walk that starts at a boundary
 //   face visits no cell twice and ends at another boundary face.
 //
+// What does not share points is not projected alike: where faces touch that are not the same, rays
+// that pass edges of the boundary within rounding are displaced, see RayDisplacements.h.
+//
 // Boundary crossings are found by the same determinants, so they come in pairs, too: walking from
 // the nearest one strikes off the one where the walk ends, and the next one left is a re-entry.
 
@@ -178,14 +181,33 @@ private:
     this->Counts.Segments += __builtin_popcount(this->Running);
 
     // Rays that are opaque or past their end are done; rays that left the mesh may enter again.
-    const Mask8 done = this->Gathered.IsDone(this->In) | (this->Far <= z1);
     const Mask8 outside = Int8(0) > this->Cell;
-    const unsigned doneBits = Bits(done) & this->Running;
+    const unsigned opaqueBits = Bits(this->Gathered.IsDone(this->In)) & this->Running;
+    const unsigned pastBits = Bits(this->Far <= z1) & this->Running;
     const unsigned outsideBits = Bits(outside);
-    if ((doneBits | outsideBits) != 0)
+    if ((opaqueBits | pastBits | outsideBits) != 0)
     {
-      this->Leave(outside, outsideBits, doneBits);
+      this->Leave(outside, outsideBits, opaqueBits | this->KeepDone(pastBits));
     }
+  }
+
+  /// Of rays past their end those that meet no cells before it that they have still to enter: cells
+  /// that overlap with the ones they are in. The others go on without effect until they leave.
+  unsigned KeepDone(unsigned pastBits) const
+  {
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      const Crossing* list = this->GetCrossings(lane);
+      for (int k = this->Cursor[lane]; (pastBits >> lane & 1u) && k < this->Crossings.Count[lane];
+           ++k)
+      {
+        if (list[k].Entry >= 0 && list[k].Distance <= this->FarOf[lane])
+        {
+          pastBits &= ~(1u << lane);
+        }
+      }
+    }
+    return pastBits;
   }
 
   /// Imaginary cells come after those of the mesh, and contribute nothing.
@@ -251,10 +273,7 @@ private:
       const unsigned active =
         this->Inside & Bits(begin < end) & ~Bits(this->Gathered.IsDone(this->In));
       // Walking strikes crossings off, so each part of the rays finds them anew.
-      while (
-        !FindCrossings(this->In, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings))
-      {
-      }
+      FindClearCrossings(this->In, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings);
       unsigned hit = 0;
       for (int i = 0; i < LaneCount; ++i)
       {

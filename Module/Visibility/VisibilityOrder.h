@@ -56,8 +56,13 @@ enum class VisibilityDirection
 /// Of two cells with a common face, the one on the viewer's side of the face's plane is in front.
 /// The sign is exact for the coordinates in double precision, without tolerances. A viewer in
 /// the plane of a face sees nothing through it, and the face orders nothing. Cells without volume
-/// and slightly inverted cells take part as if they had a little volume. Among cells that overlap
-/// the order is not defined. The viewer may be inside the mesh.
+/// and slightly inverted cells take part as if they had a little volume. The viewer may be inside
+/// the mesh.
+///
+/// Cells that overlap have no order that is right for all rays. What neither faces nor gaps order
+/// is ordered as in MeshedNonConvex: the cell that rays enter whose centroid is farthest is placed
+/// behind all others, with all that it hides, then of those that are left the next one. What rays
+/// enter nowhere, as around a viewer who is inside of all parts, comes in the order of the cells.
 class TETRALUXCORE_EXPORT VisibilityOrder
 {
 public:

@@ -7,8 +7,50 @@
 
 uniform isamplerBuffer boundaryEntries; // WalkTexels::Entries
 
-// Whether the ray comes in through a boundary face of three points, and at which distance.
-bool TestFace(RayFrame frame, ivec3 ids, out float distance)
+// View/RayDisplacements.h
+const float FarthestDisplacement = 3.814697265625e-06;
+
+struct FaceTest
+{
+  bool Crossed; // whether the ray comes in through the face
+  bool Near;    // whether it passes an edge, or the line of one beside the face, within EdgeReach
+  float Distance;
+};
+
+vec2 GetAcross(Corner corner)
+{
+  return HalfScale * corner.High + corner.Low;
+}
+
+// Whether a ray passes the line of an edge within EdgeReach, by the determinant of its ends, behind
+// the begin of edges: all rays from a point of the boundary pass edges there.
+bool IsNearLine(vec2 a, vec2 b, float alongA, float alongB, float determinant, float begin)
+{
+  vec2 edge = b - a;
+  // The length by the sum of its coordinates: up to 1.4 times too long.
+  float size = abs(edge.x) + abs(edge.y);
+  if (abs(determinant) > EdgeReach * size)
+  {
+    return false;
+  }
+  // Where along the ray; of an edge that is all near to it, the far end.
+  float share = clamp(-dot(a, edge) / dot(edge, edge), 0.0, 1.0);
+  float along = size <= 8.0 * EdgeReach ? max(alongA, alongB) : mix(alongA, alongB, share);
+  return along > begin;
+}
+
+// See FaceTest::Near; by the determinants of the corners.
+bool IsNear(vec2 a, vec2 b, vec2 c, vec3 along, vec3 determinants, float begin)
+{
+  return all(lessThanEqual(min(a, min(b, c)), vec2(EdgeReach))) &&
+    all(greaterThanEqual(max(a, max(b, c)), vec2(-EdgeReach))) &&
+    (IsNearLine(b, c, along.y, along.z, determinants.x, begin) ||
+      IsNearLine(c, a, along.z, along.x, determinants.y, begin) ||
+      IsNearLine(a, b, along.x, along.y, determinants.z, begin));
+}
+
+// A boundary face of three points.
+FaceTest TestFace(RayFrame frame, ivec3 ids)
 {
   Corner a = LoadCorner(frame, ids.x);
   Corner b = LoadCorner(frame, ids.y);
@@ -20,17 +62,21 @@ bool TestFace(RayFrame frame, ivec3 ids, out float distance)
     vec3(GetDeterminant(b, c, p), GetDeterminant(c, a, q), GetDeterminant(a, b, r));
   SAME_EVERYWHERE vec3 shares = GetShares(weights);
   SAME_EVERYWHERE float along = shares.x * a.Along + shares.y * b.Along + shares.z * c.Along;
-  distance = along;
+  FaceTest test;
+  test.Distance = along;
+  test.Near = IsNear(GetAcross(a), GetAcross(b), GetAcross(c), vec3(a.Along, b.Along, c.Along),
+    weights, FarthestDisplacement * length(frame.Along) - frame.Start);
 #ifdef DIRECTED
-  return p && q && r;
+  test.Crossed = p && q && r;
 #else
-  return p == q && q == r;
+  test.Crossed = p == q && q == r;
 #endif
+  return test;
 }
 
-bool TestEntry(RayFrame frame, int entry, out float distance)
+FaceTest TestEntry(RayFrame frame, int entry)
 {
-  return TestFace(frame, texelFetch(boundaryEntries, entry).xyz, distance);
+  return TestFace(frame, texelFetch(boundaryEntries, entry).xyz);
 }
 
 // The order of crossings at one distance: by the index of the face.

@@ -2,6 +2,7 @@
 #include "GpuRayCast/GpuRayCaster.h"
 
 #include "BoundaryEntryDec.h"
+#include "BoundaryNodesDec.h"
 #include "FirstPieceDec.h"
 #include "FirstSurfaceDec.h"
 #include "GpuIntegral/GpuLighting.h"
@@ -17,6 +18,7 @@
 #include "RayPictureFS.h"
 #include "RayStatesDec.h"
 #include "RayWalkFS.h"
+#include "View/RayDisplacements.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -38,6 +40,20 @@ namespace
 /// graphics card never waits for the processor, and an abort not for long.
 constexpr std::size_t PassesAhead = 2;
 
+/// Of rays, the first one is none.
+constexpr int NumberOfDisplacements = 1 + NumberOfRayDisplacements;
+
+void SetDisplacements(vtkShaderProgram* program)
+{
+  float displacements[NumberOfDisplacements][2] = { { 0, 0 } };
+  for (int k = 0; k < NumberOfRayDisplacements; ++k)
+  {
+    std::transform(RayDisplacements[k], RayDisplacements[k] + 2, displacements[k + 1],
+      [](double x) { return static_cast<float>(x); });
+  }
+  program->SetUniform2fv("displacements", NumberOfDisplacements, displacements);
+}
+
 /// A program's source from its file.
 std::string MakeSource(const char* file, const std::vector<std::string>& defines,
   const std::string& rays = {}, const std::string& integral = {}, const std::string& lighting = {})
@@ -46,6 +62,7 @@ std::string MakeSource(const char* file, const std::vector<std::string>& defines
   std::string system = "#version 150\n";
   // What RayFrameDec.glsl needs `precise` from, where there is any.
   system += "#extension GL_ARB_gpu_shader5 : enable\n";
+  system += "#define NUMBER_OF_DISPLACEMENTS " + std::to_string(NumberOfDisplacements) + '\n';
   for (const std::string& define : defines)
   {
     system += "#define " + define + '\n';
@@ -55,6 +72,7 @@ std::string MakeSource(const char* file, const std::vector<std::string>& defines
   vtkShaderProgram::Substitute(source, "//VTK::GetRay::Dec", rays);
   vtkShaderProgram::Substitute(source, "//VTK::RayFrame::Dec", RayFrameDec);
   vtkShaderProgram::Substitute(source, "//VTK::BoundaryEntry::Dec", BoundaryEntryDec);
+  vtkShaderProgram::Substitute(source, "//VTK::BoundaryNodes::Dec", BoundaryNodesDec);
   vtkShaderProgram::Substitute(source, "//VTK::Lighting::Dec", lighting);
   vtkShaderProgram::Substitute(source, "//VTK::RayIntegral::Dec", integral);
   return source;
@@ -261,8 +279,16 @@ private:
 
   std::vector<std::string> GetEntryDefines() const
   {
-    return this->MayEnterAgain() && this->Options.Oriented ? std::vector<std::string>{ "DIRECTED" }
-                                                           : std::vector<std::string>();
+    std::vector<std::string> names;
+    if (this->MayEnterAgain()) // else nothing touches the boundary
+    {
+      names.emplace_back("DISPLACES");
+      if (this->Options.Oriented)
+      {
+        names.emplace_back("DIRECTED");
+      }
+    }
+    return names;
   }
 
   std::string GetLighting() const
@@ -306,6 +332,7 @@ private:
       MakeSource(RayEntryFS, this->GetEntryDefines(), this->Limits.GetDeclarations()));
     this->Limits.Activate(program);
     this->Mesh.ActivateForEntry(program);
+    SetDisplacements(program);
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
@@ -324,7 +351,7 @@ private:
       MakeSource(RayLayerFS, this->GetEntryDefines(), this->Limits.GetDeclarations()),
       MakeSource(RayLayerVS, {}));
     this->Limits.Activate(program);
-    this->Mesh.ActivateForLayer(program);
+    this->Mesh.ActivateForEntry(program);
     float rows[3][4];
     for (int row = 0; row < 3; ++row)
     {
@@ -336,6 +363,7 @@ private:
     const float size[2] = { static_cast<float>(settings.Width),
       static_cast<float>(settings.Height) };
     program->SetUniform2f("pictureSize", size);
+    SetDisplacements(program);
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
@@ -378,6 +406,7 @@ private:
       this->Options.Lighting->Set(program);
     }
     this->Integral.Activate(program);
+    SetDisplacements(program);
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
     const ActiveTexture entries(
       program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));

@@ -14,7 +14,8 @@ void main()
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   int state = texelFetch(rayStates, pixel, 0).w;
   bool lastPart = texelFetch(rayEntries, pixel, 0).y + 1 == NUMBER_OF_PARTS;
-  bool noEntry = lastPart && state == RayNeedsEntry && texelFetch(nextEntries, pixel, 0).x < 0;
+  bool noEntry =
+    lastPart && state == RayNeedsEntry && texelFetch(nextEntries, pixel, 0).x == NoEntry;
   if (state != RayIsDone && !noEntry)
   {
     discard;

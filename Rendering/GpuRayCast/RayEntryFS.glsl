@@ -3,59 +3,32 @@
 // Where rays that are outside of the mesh come in next: the boundary face whose crossing is the
 // nearest one behind that of the last entry, by the hierarchy over the boundary, the nearer box
 // first.
+//
+// DISPLACES: rays that pass an edge of the boundary too closely ask for a displacement.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
 //VTK::RayFrame::Dec
 //VTK::BoundaryEntry::Dec
+//VTK::BoundaryNodes::Dec
 
 uniform isampler2D rayStates;
 uniform isampler2D rayEntries;
 
-uniform samplerBuffer boundaryBoxes;    // WalkTexels::Boxes
-uniform isamplerBuffer boundaryLinks;   // WalkTexels::Links
-uniform int numberOfBoundaryNodes;
-
 out ivec4 fragOutput0; // gl_FragData[0]
-
-// Boxes are grown by what distances along the ray may be rounded by, as the hierarchy's margin is
-// for those across: radii.
-const float AlongMargin = 1.9073486328125e-06; // 2^-19
-
-// BoundaryBvh::MaximumDepth + 1: one box waits for each level.
-const int StackSize = 73;
-
-// Whether a ray meets the box of a node, and from which distance on.
-bool TestBox(RayFrame frame, int node, out float begin, out float end)
-{
-  vec4 box0 = texelFetch(boundaryBoxes, 2 * node);
-  vec2 box1 = texelFetch(boundaryBoxes, 2 * node + 1).xy;
-  vec3 halfEdges = vec3(box0.w, box1);
-  // The box projected to the bounds of its shadow, and its extent along the ray.
-  vec4 middle = vec4(box0.xyz, 1.0);
-  vec2 across = vec2(dot(frame.Across[0], middle), dot(frame.Across[1], middle));
-  vec2 reach = vec2(
-    dot(abs(frame.Across[0].xyz), halfEdges), dot(abs(frame.Across[1].xyz), halfEdges));
-  float along = dot(frame.Along, box0.xyz);
-  float alongReach = dot(abs(frame.Along), halfEdges + AlongMargin);
-  begin = along - alongReach;
-  end = along + alongReach;
-  return all(lessThanEqual(abs(across), reach));
-}
 
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  int next = -1;
+  int next = NoEntry;
   if (numberOfBoundaryNodes > 0 && texelFetch(rayStates, pixel, 0).w == RayNeedsEntry)
   {
-    RayFrame frame = MakeRayFrame(GetRay(gl_FragCoord.xy));
-    int last = texelFetch(rayEntries, pixel, 0).x;
-    float lastDistance = -LargestFloat;
-    if (last >= 0)
-    {
-      TestEntry(frame, last, lastDistance);
-    }
+    ivec4 lastEntry = texelFetch(rayEntries, pixel, 0);
+    int displacement = GetDisplacement(lastEntry.w);
+    RayFrame frame = DisplaceFrame(MakeRayFrame(GetRay(gl_FragCoord.xy)), displacement);
+    int last = lastEntry.x;
+    float lastDistance = last >= 0 ? TestEntry(frame, last).Distance : -LargestFloat;
+    bool near = false;
     float nearest = LargestFloat;
     int nodes[StackSize];
     float begins[StackSize];
@@ -107,20 +80,27 @@ void main()
       {
         for (int entry = link.y >> 3; entry < (link.y >> 3) + (link.y & 7); ++entry)
         {
-          float distance;
+          FaceTest test = TestEntry(frame, entry);
+          near = near || test.Near;
           // In the order of distances, and of faces where they are the same.
-          if (TestEntry(frame, entry, distance) && entry != last &&
-            (distance > lastDistance ||
-              (distance == lastDistance && GetFaceOfEntry(entry) > GetFaceOfEntry(last))) &&
-            (distance < nearest ||
-              (distance == nearest && GetFaceOfEntry(entry) < GetFaceOfEntry(next))))
+          if (test.Crossed && entry != last &&
+            (test.Distance > lastDistance ||
+              (test.Distance == lastDistance && GetFaceOfEntry(entry) > GetFaceOfEntry(last))) &&
+            (test.Distance < nearest ||
+              (test.Distance == nearest && GetFaceOfEntry(entry) < GetFaceOfEntry(next))))
           {
-            nearest = distance;
+            nearest = test.Distance;
             next = entry;
           }
         }
       }
     }
+#ifdef DISPLACES
+    if (near && displacement == 0)
+    {
+      next = AskForDisplacement(frame);
+    }
+#endif
   }
   fragOutput0 = ivec4(next);
 }

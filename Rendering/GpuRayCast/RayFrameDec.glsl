@@ -11,6 +11,8 @@
 //   2^24, which single precision holds, in whatever order or fusion they are computed.
 // * Zero, a ray through an edge or a vertex, is decided as if the ray were displaced by (e, e^2), e
 //   infinitely small; where two points are in the same place, by their ids.
+// * Faces that touch but do not share their points are rounded each on its own. Rays that pass
+//   edges of the boundary within that rounding are displaced, see View/RayDisplacements.h.
 
 #ifdef GL_ARB_gpu_shader5
 #define SAME_EVERYWHERE precise
@@ -55,6 +57,23 @@ RayFrame MakeRayFrame(Ray ray)
   frame.Along = ray.Direction / squared;
   frame.Start = ray.Distance + nearest;
   return frame;
+}
+
+// Those of View/RayDisplacements.h, in units of EdgeReach, behind one that is none.
+uniform vec2 displacements[NUMBER_OF_DISPLACEMENTS];
+
+// How far across a ray an edge between two points may be off by their rounding, in grid points:
+// half of one by the grid, and as much by each of the sums that project them.
+const float EdgeReach = 2.0;
+
+RayFrame DisplaceFrame(RayFrame frame, int displacement)
+{
+  SAME_EVERYWHERE vec2 w =
+    vec2(frame.Across[0].w, frame.Across[1].w) - EdgeReach * displacements[displacement];
+  RayFrame displaced = frame;
+  displaced.Across[0].w = w.x;
+  displaced.Across[1].w = w.y;
+  return displaced;
 }
 
 // Where a point is across the ray, in whole numbers.

@@ -27,7 +27,7 @@
 
 // What rays have come to. States: points of the triangle, and index of the face that is crossed
 // next, or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps,
-// whether the walk is to tell only.
+// whether the walk is to tell only and the ray's displacement.
 // Colors: gathered so far, or the largest scalar. Firsts: of the first segment that contributed the
 // distances of its ends from the point nearest to the centre, and the scalars there; or the
 // distance of the largest scalar.
@@ -36,7 +36,7 @@ uniform isampler2D rayEntries;
 uniform sampler2D rayColors;
 uniform sampler2D rayFirsts;
 
-uniform isampler2D nextEntries; // of rays that need one; -1: there is none
+uniform isampler2D nextEntries; // of rays that need one, or what RayStatesDec.glsl says
 
 uniform isamplerBuffer walkFaces;
 uniform int numberOfCells;
@@ -99,10 +99,8 @@ bool EndsBehind(RayFrame frame, int entry, ivec3 ids, int face)
 {
   int low = min(ids.x, min(ids.y, ids.z));
   int high = max(ids.x, max(ids.y, ids.z));
-  float begin;
-  float end;
-  TestEntry(frame, entry, begin);
-  TestFace(frame, ivec3(low, ids.x + ids.y + ids.z - low - high, high), end);
+  float begin = TestEntry(frame, entry).Distance;
+  float end = TestFace(frame, ivec3(low, ids.x + ids.y + ids.z - low - high, high)).Distance;
   return end > begin || (end == begin && face > GetFaceOfEntry(entry));
 }
 #endif
@@ -116,23 +114,34 @@ void main()
   vec4 first = texelFetch(rayFirsts, pixel, 0);
 
   Ray ray = GetRay(gl_FragCoord.xy);
-  RayFrame frame = MakeRayFrame(ray);
+  int displacement = GetDisplacement(entry.w);
+  bool tells = GetTells(entry.w);
+  RayFrame frame = DisplaceFrame(MakeRayFrame(ray), displacement);
   bool walking = state.w >= 0;
   if (state.w == RayNeedsEntry)
   {
     int next = texelFetch(nextEntries, pixel, 0).x;
+    if (next < NoEntry)
+    {
+      // As before the first pass, but for the displacement; a step is counted, so that what it came
+      // to before is the older state.
+      fragOutput0 = ivec4(0, 0, 0, RayNeedsEntry);
+      fragOutput1 = ivec4(NoEntry, 0, entry.z + 1, PackFlags(false, NoEntry - next));
+#ifdef GATHER_LARGEST
+      fragOutput2 = vec4(-LargestFloat, 0.0, 0.0, 0.0);
+#else
+      fragOutput2 = vec4(0.0);
+#endif
+      fragOutput3 = vec4(LargestFloat, 0.0, 0.0, 0.0);
+      return;
+    }
     walking = next >= 0;
 #ifdef PAIRED
-    entry.w = entry.x >= 0 ? 1 : 0; // the nearest crossing of all is an entry
+    tells = entry.x >= 0; // the nearest crossing of all is an entry
 #endif
     entry.x = next;
     state = walking ? texelFetch(boundaryEntries, next) : ivec4(0);
   }
-#ifdef PAIRED
-  bool tells = entry.w == 1;
-#else
-  const bool tells = false;
-#endif
   vec2 limits = GetRayPart(ray, gl_FragCoord.xy, entry.y) - (frame.Start - ray.Distance);
 
   // The triangle. Weights of the corners are areas across, and not normalized.
@@ -307,12 +316,13 @@ void main()
     walking = !outside && (tells || along < limits.y) && gathered.a < maximumOpacity;
   }
 
-  // Where the part of the ray ends, the next one begins anew: by the first entry into the mesh.
-  partEnded = partEnded || (!tells && along >= limits.y) || gathered.a >= maximumOpacity;
+  // Where the part of the ray ends, the next one begins anew: by the first entry into the mesh. Up
+  // to there cells may be entered that overlap with those that were walked through.
+  bool passed = outside || (!tells && along >= limits.y);
 #ifdef REENTRY
   bool ended = false;
 #else
-  bool ended = outside;
+  bool ended = passed;
 #endif
   if (gathered.a >= maximumOpacity)
   {
@@ -321,22 +331,23 @@ void main()
   else if (partEnded || ended)
   {
     state.w = entry.y + 1 < NUMBER_OF_PARTS ? RayNeedsEntry : RayIsDone;
-    entry = ivec4(-1, entry.y + 1, entry.z, 0);
+    entry.xy = ivec2(NoEntry, entry.y + 1);
+    tells = false;
   }
   else
   {
-    state = ivec4(a.Id, b.Id, c.Id, outside ? RayNeedsEntry : face);
+    state = ivec4(a.Id, b.Id, c.Id, passed ? RayNeedsEntry : face);
 #ifdef PAIRED
     if (tells && outside)
     {
-      entry.w = 0;
+      tells = false;
       state =
         EndsBehind(frame, entry.x, state.xyz, face) ? texelFetch(boundaryEntries, entry.x) : state;
     }
 #endif
   }
   fragOutput0 = state;
-  fragOutput1 = ivec4(entry.xy, entry.z + steps, entry.w);
+  fragOutput1 = ivec4(entry.xy, entry.z + steps, PackFlags(tells, displacement));
   fragOutput2 = gathered;
   fragOutput3 = first;
 }

@@ -97,15 +97,10 @@ std::string WalkTextures::FindObstacle(
     DescribeGraphicsCard(window).Limits);
 }
 
-void WalkTextures::ActivateForLayer(vtkShaderProgram* program)
+void WalkTextures::ActivateForEntry(vtkShaderProgram* program)
 {
   this->Points.Activate(program, "walkPoints");
   this->Entries.Activate(program, "boundaryEntries");
-}
-
-void WalkTextures::ActivateForEntry(vtkShaderProgram* program)
-{
-  this->ActivateForLayer(program);
   this->Boxes.Activate(program, "boundaryBoxes");
   this->Links.Activate(program, "boundaryLinks");
   program->SetUniformi("numberOfBoundaryNodes", this->NumberOfNodes);

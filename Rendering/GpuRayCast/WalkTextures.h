@@ -56,7 +56,6 @@ public:
   /// reads, bound to texture units until Deactivate.
   ///@{
   void ActivateForEntry(vtkShaderProgram* program);
-  void ActivateForLayer(vtkShaderProgram* program);
   void ActivateForWalk(vtkShaderProgram* program, bool gradients);
   void Deactivate();
   ///@}

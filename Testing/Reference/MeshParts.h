@@ -22,6 +22,15 @@ TetrahedralMesh SeparateParts(
 /// The same with each cell as a part.
 TetrahedralMesh SeparateCells(const TetrahedralMesh& mesh);
 
+/// A unit cube of cubes, each split into six tetrahedra around its diagonal, that share the points
+/// at their corners. Cubes down to an edge of 2^-depth are split into eight at random, half of
+/// them, next to what is not: larger ones meet any number of smaller ones at a face.
+TetrahedralMesh MakeOctree(int depth, std::uint64_t seed);
+
+/// A cube of edge 0.5 beside eight of half its edge, from the origin to (1, 0.5, 0.5): the smallest
+/// mesh with hanging nodes. Points and tetrahedra as in MakeOctree.
+TetrahedralMesh MakeNineCubes();
+
 } // namespace tetralux
 
 #endif

@@ -2,6 +2,7 @@
 #include "ReferenceRenderer.h"
 
 #include "ReferenceIntegral.h"
+#include "ReferenceRuns.h"
 #include "ReferenceShading.h"
 
 #include <algorithm>
@@ -162,21 +163,32 @@ double EdgeArea(const SeenPoint& a, const SeenPoint& b)
   return std::abs((p - q) + (std::fma(a.U, b.V, -p) - std::fma(b.U, a.V, -q)));
 }
 
-/// Part of a ray in one cell.
+/// Part of a ray in one cell; it has no length where the cell is flat.
 struct Segment
 {
   Real Begin; ///< world distance along the ray
   double Length;
   double BeginScalar;
   double EndScalar;
+  CellPassage Passage;
   std::int32_t Pixel; ///< in the band
   std::int32_t Cell;
 };
 
-/// Clips the ray by a cell; false if the ray misses it. Of the four faces a ray passes none or two.
-bool ClipByCell(
-  const Ray& ray, const double* const points[4], const double scalars[4], Segment& segment)
+/// A cell as the renderer reads it. Its points ascend, so that both cells at a face see the very
+/// same numbers there and no surface slips through between them.
+struct Cell
 {
+  std::int32_t Points[4];
+  const double* Coordinates[4];
+  double Scalars[4];
+};
+
+/// Clips the ray by a cell; false if the ray misses it. Of the four faces a ray passes none or two.
+bool ClipByCell(const Ray& ray, const Cell& cell, Segment& segment)
+{
+  const double* const* points = cell.Coordinates;
+  const double* scalars = cell.Scalars;
   SeenPoint seen[4];
   for (int i = 0; i < 4; ++i)
   {
@@ -207,6 +219,7 @@ bool ClipByCell(
   }
   Real t[2];
   double s[2];
+  CellPassage::Face passed[2];
   int found = 0;
   for (const auto& face : Faces)
   {
@@ -230,9 +243,10 @@ bool ClipByCell(
       s[found] += area[i] / sum * (scalars[face[i]] - scalars[face[0]]);
     }
     t[found] /= sum;
+    passed[found] = { cell.Points[face[0]], cell.Points[face[1]], cell.Points[face[2]] };
     ++found;
   }
-  if (found != 2 || !(t[0] != t[1]))
+  if (found != 2)
   {
     return false;
   }
@@ -241,6 +255,7 @@ bool ClipByCell(
   segment.Length = static_cast<double>(t[1 - begin] - t[begin]);
   segment.BeginScalar = s[begin];
   segment.EndScalar = s[1 - begin];
+  segment.Passage = { { passed[begin], passed[1 - begin] }, { t[begin], t[1 - begin] } };
   return true;
 }
 
@@ -496,7 +511,7 @@ struct SegmentPart
 bool CutSegment(const Segment& segment, Real begin, Real end, SegmentPart& part)
 {
   const Real segmentEnd = segment.Begin + segment.Length;
-  if (begin >= segmentEnd || end <= segment.Begin)
+  if (begin >= segmentEnd || end <= segment.Begin || !(segment.Length > 0))
   {
     return false;
   }
@@ -529,14 +544,16 @@ RayResult Integrate(
 {
   const bool absorbs = optics.Model != OpticalModel::EmissionOnly;
   RayResult result;
+  Real nearest = Infinity;
   double opticalDepth = 0;
   for (const SegmentPart& part : parts)
   {
     ReferenceSegment segment = IntegrateReference(
       optics.Function, part.BeginScalar, part.EndScalar, part.Length, optics.Model);
-    if (opticalDepth == 0 && segment.OpticalDepth > 0)
+    if (segment.OpticalDepth > 0)
     {
-      result.Depth = static_cast<double>(part.Begin + segment.FirstContribution * part.Length);
+      nearest = std::min(nearest, part.Begin + segment.FirstContribution * part.Length);
+      result.Depth = static_cast<double>(nearest);
     }
     light(part, segment);
     const double transmittance = absorbs ? std::exp(-opticalDepth) : 1;
@@ -616,15 +633,6 @@ void Check(const ReferenceMesh& mesh, const ReferenceOptics& optics, const RayGr
     "RenderReference: pixels must hold one value for each pixel");
 }
 
-/// A cell as the renderer reads it. Its points ascend, so that both cells at a face see the very
-/// same numbers there and no surface slips through between them.
-struct Cell
-{
-  std::int32_t Points[4];
-  const double* Coordinates[4];
-  double Scalars[4];
-};
-
 /// False if the cell is unusable.
 bool GetCell(const ReferenceMesh& mesh, std::size_t id, Cell& cell)
 {
@@ -690,15 +698,8 @@ public:
   {
     const std::vector<Ray> rays = this->MakeRays(rows);
     std::vector<Segment> segments = this->CollectSegments(rows, rays);
-
-    // Of segments that begin together only one has a length worth mentioning: it goes last.
-    std::sort(segments.begin(), segments.end(),
-      [](const Segment& a, const Segment& b)
-      {
-        return a.Pixel != b.Pixel ? a.Pixel < b.Pixel
-          : a.Begin != b.Begin    ? a.Begin < b.Begin
-                                  : a.Length < b.Length;
-      });
+    std::stable_sort(segments.begin(), segments.end(),
+      [](const Segment& a, const Segment& b) { return a.Pixel < b.Pixel; });
     const std::size_t firstPixel = static_cast<std::size_t>(rows.First) * this->Grid.Width;
     for (auto first = segments.begin(), last = first; first != segments.end(); first = last)
     {
@@ -707,7 +708,8 @@ public:
       const Span<const Segment> ofPixel(&*first, last - first);
       this->Composite(ofPixel, rays[first->Pixel], firstPixel + first->Pixel, image);
     }
-    return static_cast<std::int64_t>(segments.size());
+    return std::count_if(
+      segments.begin(), segments.end(), [](const Segment& segment) { return segment.Length > 0; });
   }
 
 private:
@@ -755,7 +757,7 @@ private:
           segment.Pixel = (j - rows.First) * this->Grid.Width + i;
           segment.Cell = static_cast<std::int32_t>(id);
           const Ray& ray = rays[segment.Pixel];
-          if (ray.Valid && ClipByCell(ray, cell.Coordinates, cell.Scalars, segment))
+          if (ray.Valid && ClipByCell(ray, cell, segment))
           {
             segments.push_back(segment);
           }
@@ -765,23 +767,27 @@ private:
     return segments;
   }
 
-  /// segments: those of the pixel, in order.
+  /// segments: those of the pixel, in any order.
   void Composite(
     Span<const Segment> segments, const Ray& ray, std::size_t pixel, ReferenceImage& image) const
   {
+    Real begin = Infinity;
     Real end = -Infinity;
+    std::vector<CellPassage> passages;
     for (const Segment& segment : segments)
     {
+      begin = std::min(begin, segment.Begin);
       end = std::max(end, segment.Begin + segment.Length);
+      passages.push_back(segment.Passage);
     }
-    const Intervals kept = ApplyLimits(this->Limits, ray, pixel, segments[0].Begin, end);
+    const std::vector<std::size_t> order = OrderPassages(passages);
     std::vector<SegmentPart> parts;
-    for (const Segment& segment : segments)
+    for (const auto& interval : ApplyLimits(this->Limits, ray, pixel, begin, end))
     {
-      for (const auto& interval : kept)
+      for (const std::size_t k : order)
       {
         SegmentPart part;
-        if (CutSegment(segment, interval[0], interval[1], part))
+        if (CutSegment(segments[k], interval[0], interval[1], part))
         {
           parts.push_back(part);
           image.Length[pixel] += part.Length;
@@ -799,7 +805,7 @@ private:
     image.Depth[pixel] = result.Depth;
   }
 
-  /// The surfaces that the ray meets, front to back, also where cells overlap.
+  /// The surfaces that the ray meets.
   RayResult CompositeSurfaces(const Ray& ray, const std::vector<SegmentPart>& parts) const
   {
     struct Crossing
@@ -827,16 +833,15 @@ private:
         std::reverse(crossings.begin() + first, crossings.end());
       }
     }
-    std::stable_sort(crossings.begin(), crossings.end(),
-      [](const Crossing& a, const Crossing& b) { return a.T < b.T; });
-
     RayResult result;
+    Real nearest = Infinity;
     for (const Crossing& crossing : crossings)
     {
       const double opacity = crossing.Surface->Opacity;
-      if (result.Depth == -1 && opacity > 0)
+      if (opacity > 0)
       {
-        result.Depth = static_cast<double>(crossing.T);
+        nearest = std::min(nearest, crossing.T);
+        result.Depth = static_cast<double>(nearest);
       }
       const std::array<double, 3> color =
         this->GetColor(ray, crossing.T, crossing.Cell, *crossing.Surface);
@@ -1031,7 +1036,7 @@ private:
 };
 
 /// Rows are rendered in bands of about this many pixels, one at a time for each thread: bounds the
-/// memory for segments to some 64 bytes times the depth complexity times this.
+/// memory for segments to some 128 bytes times the depth complexity times this.
 constexpr int PixelsPerBand = 4096;
 
 } // namespace

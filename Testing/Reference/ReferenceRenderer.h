@@ -52,7 +52,7 @@ struct ReferenceImage
 {
   std::vector<double> Rgba; ///< premultiplied, four for each pixel, lower row first
 
-  /// World distance along the ray to the first contribution; -1: nowhere. That is where the
+  /// World distance along the ray to the nearest contribution; -1: nowhere. That is where the
   /// attenuation first is more than zero, where the largest scalar is met first, if its opacity is
   /// more than zero, or the first surface whose opacity is.
   /// Negative behind the begin of the ray, which only planes of the limits cut off.
@@ -65,7 +65,8 @@ struct ReferenceImage
 };
 
 /// The oracle for every other method: each ray is clipped by every tetrahedron on its own, in
-/// extended precision; nothing is known about neighbours, nothing is tabulated, no ray ends early.
+/// extended precision; nothing is known about neighbours but the ids of their points, nothing is
+/// tabulated, no ray ends early.
 /// See ReferenceIntegral.h for the integral over a segment, ReferenceShading.h for lit surfaces.
 ///
 /// - Cells with point ids out of range, with infinite or undefined coordinates or scalars add
@@ -73,7 +74,11 @@ struct ReferenceImage
 /// - A ray exactly through a vertex, an edge or a face is taken as a ray that passes it at an
 ///   infinitesimal distance, always on the same side. So each point of a ray in a conforming mesh
 ///   is in exactly one cell; a ray along the outer boundary is either inside or outside.
-/// - Segments composite in the order of their begins; so do cells that overlap.
+/// - Segments composite in the order in which the ray goes through the cells. A ray goes through
+///   connected cells (cells that share faces) until it leaves them, then comes in at the next
+///   boundary face, in the order of the entries' distances. Parts that overlap thus contribute
+///   each, one after the other, in the order in which the ray enters them. See ReferenceRuns.h. The
+///   parts of a ray that cropping keeps come one after the other.
 /// - A ray in a cropping plane belongs to the middle region, as in VTK.
 /// - A surface is met in a cell where the scalar is below its value at one end of what is kept of
 ///   the ray there, and not below it at the other: one that lies in faces of the mesh is met once.

@@ -567,10 +567,9 @@ TEST(ReferenceModels, SurfacesInFacesOfTheMeshAreMetOnce)
   }
 }
 
-TEST(ReferenceModels, SurfacesOfOverlappingCellsAreMetFrontToBack)
+TEST(ReferenceModels, SurfacesOfOverlappingCellsAreMetCellByCell)
 {
-  // Two nested tetrahedra, z up to 1 and 2: at the axis their surfaces of z = 0.5
-  // |scale| alternate.
+  // Two nested tetrahedra, z up to 1 and 1.9: at the axis their surfaces alternate.
   const std::vector<double> points{ -1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 1, //
     -2, -2, -0.1, 2, -2, -0.1, 0, 2, -0.1, 0, 0, 1.9 };
   const std::vector<std::int32_t> cells{ 0, 1, 2, 3, 4, 5, 6, 7 };
@@ -581,9 +580,10 @@ TEST(ReferenceModels, SurfacesOfOverlappingCellsAreMetFrontToBack)
   const RayGrid grid =
     MakeParallelGrid({ 0.01, 0.02, 5 }, { 0.01, 0.02, 0 }, { 0, 1, 0 }, 0.001, 1, 1);
   const ReferenceImage image = RenderReference({ points, cells, scalars, false }, optics, grid);
-  // From above: outer 0.5 at 0.9, inner 0.5 at 0.5, outer 0.25 at 0.4, inner 0.25 at 0.25.
-  EXPECT_NEAR(image.Rgba[1], 0.5 + 0.25, 1e-15);
-  EXPECT_NEAR(image.Rgba[0], 0.125 + 0.0625, 1e-15);
+  // From above: the ray enters the outer one first, and meets its surfaces of 0.5 and 0.25, then
+  // those of the inner one.
+  EXPECT_NEAR(image.Rgba[1], 0.5 + 0.125, 1e-15);
+  EXPECT_NEAR(image.Rgba[0], 0.25 + 0.0625, 1e-15);
   EXPECT_NEAR(image.Depth[0], 4.1, 1e-14);
 }
 

@@ -172,7 +172,8 @@ struct SeamCase
 {
   std::string Name;
   std::function<vtkSmartPointer<vtkStructuredGrid>()> Make;
-  bool Conforms; ///< faces on both sides of the seam are at the same places
+  bool Conforms;   ///< faces on both sides of the seam are at the same places
+  bool Alternates; ///< diagonals of both sides agree, to the last bits
 };
 
 void PrintTo(const SeamCase& seamCase, std::ostream* stream) { *stream << seamCase.Name; }
@@ -180,7 +181,7 @@ void PrintTo(const SeamCase& seamCase, std::ostream* stream) { *stream << seamCa
 std::vector<SeamCase> MakeCases()
 {
   std::vector<SeamCase> cases;
-  const auto add = [&](const char* shape, bool conforms, const auto& make)
+  const auto add = [&](const char* shape, bool conforms, bool alternates, const auto& make)
   {
     for (const Seam seam : { Seam::Exact, Seam::LastBits, Seam::SinglePrecision })
     {
@@ -188,15 +189,16 @@ std::vector<SeamCase> MakeCases()
         : seam == Seam::LastBits                     ? "LastBits"
                                                      : "SinglePrecision";
       cases.push_back({ std::string(shape) + suffix, [make, seam] { return make(seam); },
-        conforms && seam == Seam::Exact });
+        conforms && seam == Seam::Exact, alternates });
     }
   };
-  add("Round", true, [](Seam seam) { return MakeRoundGrid({ 3, 12, 2 }, 0.3, seam); });
+  add("Round", true, true, [](Seam seam) { return MakeRoundGrid({ 3, 12, 2 }, 0.3, seam); });
   // Where it closes the diagonals of both sides do not agree.
-  add("RoundOdd", false, [](Seam seam) { return MakeRoundGrid({ 3, 11, 2 }, 0.3, seam); });
-  add("Solid", true, [](Seam seam) { return MakeRoundGrid({ 3, 12, 2 }, 0, seam); });
-  add("InBox", true, [](Seam seam) { return MakeGridInBox({ 3, 16, 2 }, seam); });
-  add("Wake", true, [](Seam seam) { return MakeWakeGrid(3, 4, 8, seam); });
+  add("RoundOdd", false, false, [](Seam seam) { return MakeRoundGrid({ 3, 11, 2 }, 0.3, seam); });
+  // The points of the axis become one.
+  add("Solid", true, false, [](Seam seam) { return MakeRoundGrid({ 3, 12, 2 }, 0, seam); });
+  add("InBox", true, true, [](Seam seam) { return MakeGridInBox({ 3, 16, 2 }, seam); });
+  add("Wake", true, true, [](Seam seam) { return MakeWakeGrid(3, 4, 8, seam); });
   return cases;
 }
 
@@ -340,14 +342,18 @@ TEST_P(Seams, AreNotSeen)
       { static_cast<vtkDataObject*>(separate), static_cast<vtkDataObject*>(structured) })
     {
       SCOPED_TRACE(input->GetClassName());
+      // Where diagonals do not agree, a merged structured grid is cut otherwise.
+      const int merge = input == structured && !GetParam().Alternates
+        ? vtkTetrahedraVolumeMapper::MERGE_OFF
+        : merging;
       vtkNew<vtkTetrahedraRayCastMapper> rayCast;
-      rayCast->SetMergePoints(merging);
+      rayCast->SetMergePoints(merge);
       rayCast->AutoAdjustSampleDistancesOff();
       vtkNew<vtkTetrahedraGPURayCastMapper> gpuRayCast;
-      gpuRayCast->SetMergePoints(merging);
+      gpuRayCast->SetMergePoints(merge);
       gpuRayCast->SetMaximumError(DisplayTolerance);
       vtkNew<vtkTetrahedraProjectionMapper> projection;
-      projection->SetMergePoints(merging);
+      projection->SetMergePoints(merge);
       projection->SetMaximumError(DisplayTolerance);
       ExpectSamePicture(Render(scene, rayCast, input), expected, RayCastTolerance, "ray cast");
       ExpectSamePicture(

@@ -5,6 +5,7 @@
 #include "RayScene.h"
 
 #include "Generate/GeneratedMeshes.h"
+#include "View/RayDisplacements.h"
 
 #include <gtest/gtest.h>
 
@@ -782,7 +783,7 @@ constexpr double LengthError = 2e-5;
 constexpr double FaceError = 1. / (1 << 22);
 
 /// Largest error of a length along a direction: a face that is met at a slant is found late by more
-/// than it was moved.
+/// than it was moved, or the ray that passes an edge of it was displaced, at most twice here.
 double GetLengthError(const double (&direction)[3])
 {
   constexpr double Parallel = 1e-6; // such a ray is along a face, and not in the hull
@@ -792,7 +793,8 @@ double GetLengthError(const double (&direction)[3])
   {
     slant = std::abs(d) > Parallel * length ? std::min(slant, std::abs(d) / length) : slant;
   }
-  return LengthError + FaceError / slant;
+  const double displacement = std::hypot(RayDisplacements[1][0], RayDisplacements[1][1]);
+  return LengthError + (1 + displacement) * FaceError / slant;
 }
 
 RayScene MakeConstantCube()
