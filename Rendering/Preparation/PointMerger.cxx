@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace tetralux
@@ -14,6 +15,8 @@ namespace
 {
 
 /// Roundings that scalars of one place may have behind them: a few operations, as a magnitude has.
+/// Each is one of the array's type, and one of a double where terms cancelled that are as large as
+/// the largest scalar.
 constexpr double ScalarRoundings = 4;
 
 /// Points for each tetrahedron from which on most points are no others' too: a shared lattice has
@@ -62,6 +65,12 @@ public:
     : Points(points)
     , Scalars(scalars)
   {
+    for (const double scalar : scalars.Values)
+    {
+      const double size = std::abs(scalar);
+      this->Cancelled = std::isfinite(size) ? std::max(this->Cancelled, size) : this->Cancelled;
+    }
+    this->Cancelled *= std::numeric_limits<double>::epsilon();
   }
 
   CoincidentPoints Split()
@@ -118,13 +127,14 @@ private:
 
   bool Agree(double a, double b) const
   {
-    const double tolerance =
-      ScalarRoundings * this->Scalars.Rounding * std::max(std::abs(a), std::abs(b));
+    const double rounding = this->Scalars.Rounding * std::max(std::abs(a), std::abs(b));
+    const double tolerance = ScalarRoundings * (rounding + this->Cancelled);
     return a == b || std::abs(a - b) <= tolerance || (std::isnan(a) && std::isnan(b));
   }
 
   const CoincidentPoints& Points;
   const ExtractedScalars& Scalars;
+  double Cancelled = 0; ///< rounding of a double of the size of the largest scalar
 };
 
 } // namespace
