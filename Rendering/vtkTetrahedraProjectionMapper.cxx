@@ -10,6 +10,7 @@
 #include "GpuIntegral/ShaderError.h"
 #include "GpuProjection/ProjectionPicture.h"
 #include "Integral/SegmentWeightError.h"
+#include "Projection/PerspectiveShift.h"
 #include "Projection/ScreenFrame.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
@@ -160,6 +161,7 @@ private:
   bool IsOrderExact() const;
 
   ChannelFormat ChooseFormat(const MapperFrame& frame) const;
+  double EstimatePerspectiveError(VolumeScene& volume) const;
   void Describe(MapperFrame& frame);
   void WarnOfOrder(const std::string& refusal);
 
@@ -406,6 +408,19 @@ void vtkTetrahedraProjectionMapper::Internals::WarnOfOrder(const std::string& re
 }
 
 //------------------------------------------------------------------------------------------------
+double vtkTetrahedraProjectionMapper::Internals::EstimatePerspectiveError(VolumeScene& volume) const
+{
+  if (this->Scene.Interpolate || !this->Scene.Frame->IsPerspective())
+  {
+    return 0;
+  }
+  const tetralux::WalkMesh& mesh = *volume.Mesh.GetMesh();
+  const double shift = tetralux::FindPerspectiveShift(
+    *this->Scene.Frame, this->Points, mesh.GetMesh(), this->DrawnCells);
+  return volume.EstimateShiftError(this->WorldRadius, shift / mesh.GetRadius());
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
 {
   VolumeScene& volume = *frame.Scene;
@@ -451,6 +466,7 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
     { "summation", EstimateSummationError(volume, scene.Format, this->WorldRadius, scene.Dither) },
     { "table", IsTabulated(integrator) ? volume.Optics.GetTableError() : 0 },
     { "geometry", volume.EstimateGeometryError(this->WorldRadius, tetralux::CellShaderRounding) },
+    { "perspective", this->EstimatePerspectiveError(volume) },
     { "order", isOrderWrong ? volume.EstimateOrderError(this->WorldRadius) : 0 } };
 
   frame.ReportOmission(!this->Sorted, "order", "what cells add commutes");

@@ -427,7 +427,8 @@ public:
    * Estimated largest error of a channel in the last frame, absolute, 0..1. The sum of what
    * GetStatistics() has below "error": ending rays early, the integrals, adding segments up in
    * single precision or in the colour buffer, tables, rounding coordinates and scalars
-   * ("geometry"), a wrong order of cells, and colour functions that were subdivided.
+   * ("geometry"), PerspectiveInterpolation off, a wrong order of cells, and colour functions that
+   * were subdivided.
    *
    * Tables and "geometry" are measured on some thousand rays through the mesh. Where "geometry" is
    * not 0, pixels that graze are not covered: those in which the exact picture itself changes by
@@ -437,9 +438,9 @@ public:
    * the boundary within rounding are displaced by up to 2^-18 of the radius, most by 2^-20, so that
    * they go through one of the faces beside it where these do not share their points.
    *
-   * Not covered either: interpolation between rays more than a pixel apart,
-   * PerspectiveInterpolation off, isosurfaces, which rays meet or miss, and nodes of the transfer
-   * function that are nearer to each other than 1e-6 of its range: they are rounded to 6e-8 of it.
+   * Not covered either: interpolation between rays more than a pixel apart, isosurfaces, which
+   * rays meet or miss, and nodes of the transfer function that are nearer to each other than 1e-6
+   * of its range: they are rounded to 6e-8 of it.
    */
   double GetErrorEstimate();
 

@@ -283,16 +283,33 @@ double VolumeScene::EstimateGeometryError(double worldRadius, const GeometryRoun
         FindSteepestColor(this->Optics.GetIntervalTable());
     }
     default:
-      return this->EstimateRounding(worldRadius, rounding);
+      return this->EstimateRounding(worldRadius, rounding, this->GeometryError);
   }
 }
 
-double VolumeScene::EstimateRounding(double worldRadius, const GeometryRounding& rounding)
+double VolumeScene::EstimateShiftError(double worldRadius, double shift)
+{
+  const OpticalModel model = this->Optics.GetModel();
+  if (model == OpticalModel::Isosurfaces || model == OpticalModel::MaximumIntensity || shift == 0)
+  {
+    return 0;
+  }
+  if (!(shift < 1))
+  {
+    return 1;
+  }
+  // So that a camera which moves a little changes nothing.
+  const double rounded = std::exp2(std::ceil(4 * std::log2(shift)) / 4);
+  return std::min(1., this->EstimateRounding(worldRadius, { rounded, 0 }, this->ShiftError));
+}
+
+double VolumeScene::EstimateRounding(
+  double worldRadius, const GeometryRounding& rounding, Cached<double>& result)
 {
   // Rounded, so that a volume which is only turned keeps its estimate.
   const double radius = static_cast<float>(worldRadius);
   const bool absorbs = this->Optics.GetModel() != OpticalModel::EmissionOnly;
-  this->GeometryError.Update(
+  result.Update(
     CacheKey::Of(this->Mesh.GetPointsVersion(), this->Mesh.GetScalarsVersion(),
       this->Optics.GetFunctionVersion(), absorbs, radius, rounding.Across, rounding.Scalar),
     [&]
@@ -302,7 +319,7 @@ double VolumeScene::EstimateRounding(double worldRadius, const GeometryRounding&
       return EstimateRoundingError(
         *this->Mesh.DrawRays(1), units, this->Optics.GetTransferFunction(), absorbs, rounding);
     });
-  return this->GeometryError.Get();
+  return result.Get();
 }
 
 double VolumeScene::EstimateOrderError(double worldRadius)

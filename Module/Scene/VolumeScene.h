@@ -102,6 +102,10 @@ public:
   /// depends on, on a sample of the mesh's rays. After Prepare.
   double EstimateGeometryError(double worldRadius, const GeometryRounding& rounding);
 
+  /// The same where values are taken from up to shift radii beside the ray, instead of by rounding;
+  /// at most 1. Measured once for each doubling of the shift's fourth power.
+  double EstimateShiftError(double worldRadius, double shift);
+
   /// EstimateOrderError of emission and absorption; 0 of other models. Measured once, as above.
   double EstimateOrderError(double worldRadius);
 
@@ -123,7 +127,8 @@ private:
   void PrepareVisibleCells();
   void PrepareVisibleTables();
   double GetLargestMappedScalar() const;
-  double EstimateRounding(double worldRadius, const GeometryRounding& rounding);
+  double EstimateRounding(
+    double worldRadius, const GeometryRounding& rounding, Cached<double>& result);
 
   Cached<IntegrationPlan> Plan;
   Cached<std::vector<CellValue>> CellValues;
@@ -132,6 +137,7 @@ private:
   WalkTables VisibleTables; ///< empty: rays are walked through all cells
   CacheStamp VisibleTopology;
   Cached<double> GeometryError;
+  Cached<double> ShiftError;
   Cached<double> OrderError;
   Cached<EightBitErrors> EightBits;
   std::uint64_t VisiblePointsVersion = 0; ///< of the mesh that the boxes of VisibleTables are of
