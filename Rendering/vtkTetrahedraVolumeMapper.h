@@ -267,7 +267,8 @@ public:
    * sharing points become neighbours: pieces and blocks of a file, cells with points of their own,
    * seams of O-grids. Points are at the same place if their coordinates differ by no more than a
    * few roundings of the largest one, in the precision of the input's arrays. They are merged only
-   * if their scalars agree to a few roundings of their array, so that jumps of a field stay. Default AUTOMATIC_MERGE.
+   * if their scalars agree to a few roundings of their array, so that jumps of a field stay.
+   * Default AUTOMATIC_MERGE.
    *
    * - MERGE_OFF (0): points stay apart. The picture is the same: rays enter touching cells again.
    * - MERGE_ON (1): all points are merged whose scalars agree. Cells that become the same by that
