@@ -14,16 +14,16 @@ NUMBERS = range(-3, 21)  # more than any enumeration has
 
 CLASSES = {
     tetralux.vtkTetrahedraRayCastMapper: [
-        "BlendMode", "Integration", "Precision", "Reentry", "TableFormat", "TableLengthScale",
-        "TableScalarAxis", "VectorMode",
+        "BlendMode", "Integration", "MergePoints", "Precision", "Reentry", "TableFormat",
+        "TableLengthScale", "TableScalarAxis", "VectorMode",
     ],
     tetralux.vtkTetrahedraGPURayCastMapper: [
-        "BlendMode", "Integration", "Reentry", "TableFormat", "TableLengthScale",
+        "BlendMode", "Integration", "MergePoints", "Reentry", "TableFormat", "TableLengthScale",
         "TableScalarAxis", "VectorMode",
     ],
     tetralux.vtkTetrahedraProjectionMapper: [
-        "BlendMode", "ColorBuffer", "Integration", "Order", "TableFormat", "TableLengthScale",
-        "TableScalarAxis", "VectorMode",
+        "BlendMode", "ColorBuffer", "Integration", "MergePoints", "Order", "TableFormat",
+        "TableLengthScale", "TableScalarAxis", "VectorMode",
     ],
     tetralux.vtkPreIntegrationTableSource: ["BlendMode", "Format", "LengthScale", "ScalarAxis"],
     tetralux.vtkMeshedPolyhedraVisibilitySort: ["Order"],
