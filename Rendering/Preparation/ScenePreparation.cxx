@@ -134,6 +134,10 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   this->Last.IntakeSeconds = intakeStopwatch.GetSeconds();
 
   const Stopwatch meshStopwatch;
+  // What was found belongs to this input: if it is aborted, nothing is known of the last one's mesh.
+  this->CellsKey = CacheKey();
+  this->PointsKey = CacheKey();
+  this->Cells = CellsDigest();
   this->Merger.Start(settings.Merging, input, intake.Mesh);
   this->Merging.Reset();
   const CoincidentPoints merged = this->Merger.Choose(settings.Merging, input, settings.Scalars);
