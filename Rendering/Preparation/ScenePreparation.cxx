@@ -134,7 +134,7 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   this->Last.IntakeSeconds = intakeStopwatch.GetSeconds();
 
   const Stopwatch meshStopwatch;
-  // What was found belongs to this input: if it is aborted, nothing is known of the last one's mesh.
+  // What is found belongs to this input: if it is aborted, the mesh of the last one is of no use.
   this->CellsKey = CacheKey();
   this->PointsKey = CacheKey();
   this->Cells = CellsDigest();
