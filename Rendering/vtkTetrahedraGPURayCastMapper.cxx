@@ -173,7 +173,17 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     frame.ReportProgress(1); // too late to abort
     this->Compositor.Composite(
       frame.Window, rays.GetVisible(), this->Caster.GetPicture().GetTexture(0));
-    frame.ReadPicture = [this](vtkImageData* image) { this->Read(image); };
+    frame.ReadPicture = [this, window = vtkWeakPointer<vtkOpenGLRenderWindow>(frame.Window)](
+                          vtkImageData* image)
+    {
+      if (!window || this->Window != window)
+      {
+        image->Initialize(); // it went with its window
+        return;
+      }
+      window->MakeCurrent();
+      this->Read(image);
+    };
   }
   frame.Seconds.emplace_back("cast", castStopwatch.GetSeconds());
 
@@ -398,6 +408,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::ReleaseGraphicsResources(vtkWindo
   this->Limits.ReleaseGraphicsResources(window);
   this->Caster.ReleaseGraphicsResources(window);
   this->Compositor.ReleaseGraphicsResources(window);
+  this->Window = nullptr;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -181,7 +181,7 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
 {
   frame.Method = "projection";
   const CameraRays rays(frame.Renderer, 1);
-  if (rays.GetVisible().Width == 0)
+  if (rays.GetVisible().Width == 0 || frame.Scene->Mesh.GetMesh()->GetNumberOfCells() == 0)
   {
     frame.Image->Initialize(); // a tile that shows nothing of the viewport
     return;

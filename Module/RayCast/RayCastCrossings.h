@@ -94,7 +94,9 @@ template <class Real>
 TETRALUX_INLINE typename LanesOf<Real>::Type GetBeginOfEdges(const Rays<Real>& rays)
 {
   using V = typename LanesOf<Real>::Type;
-  const V radius = Sqrt(Dot(rays.W, rays.W[0], rays.W[1], rays.W[2])); // world units
+  // World units. By the sum of its coordinates, up to 1.8 times too long: their squares may be more
+  // or less than single precision has numbers for.
+  const V radius = Abs(rays.W[0]) + Abs(rays.W[1]) + Abs(rays.W[2]);
   V start;
   if constexpr (sizeof(Real) == sizeof(float))
   {

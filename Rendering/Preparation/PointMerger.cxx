@@ -172,9 +172,13 @@ bool PointMerger::Follow(vtkDataObject* input)
   {
     if (!(std::abs(points[i] - points[half + i]) <= this->Found->Distance))
     {
+      if (!this->Merged.Points.empty())
+      {
+        return false;
+      }
       this->Found.reset();
       this->Fits = true;
-      return this->Merged.Points.empty();
+      return true;
     }
   }
   return true;

@@ -134,6 +134,10 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   this->Last.IntakeSeconds = intakeStopwatch.GetSeconds();
 
   const Stopwatch meshStopwatch;
+  // What is found belongs to this input: if it is aborted, the mesh of the last one is of no use.
+  this->CellsKey = CacheKey();
+  this->PointsKey = CacheKey();
+  this->Cells = CellsDigest();
   this->Merger.Start(settings.Merging, input, intake.Mesh);
   this->Merging.Reset();
   const CoincidentPoints merged = this->Merger.Choose(settings.Merging, input, settings.Scalars);

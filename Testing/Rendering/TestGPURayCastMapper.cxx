@@ -591,6 +591,24 @@ TEST(GPURayCastMapper, SeveralWindows)
   EXPECT_TRUE(third.Render().Colors == expected.Colors);
 }
 
+TEST(GPURayCastMapper, PicturesGoWithTheirWindow)
+{
+  vtkNew<vtkTetrahedraGPURayCastMapper> mapper;
+  for (const bool finalized : { false, true })
+  {
+    {
+      GPUScene scene;
+      scene.Use(mapper);
+      scene.Window->Render();
+      if (finalized)
+      {
+        scene.Window->Finalize();
+      }
+    }
+    EXPECT_EQ(mapper->GetOutputImage()->GetNumberOfPoints(), 0);
+  }
+}
+
 // Beside a second volume, and with translucent geometry that VTK peels in layers: as with the
 // mapper on the processor.
 TEST(GPURayCastMapper, AmongOtherProps)

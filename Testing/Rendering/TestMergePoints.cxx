@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -135,14 +136,19 @@ protected:
     this->Property->SetScalarOpacity(opacity);
   }
 
-  /// Returns the stages that were made anew.
-  std::vector<std::string> Update(vtkDataObject* data)
+  bool TryUpdate(vtkDataObject* data, const std::function<bool(double)>& progress)
   {
     tetralux::SceneInput input;
     input.Data = data;
     input.Property = this->Property;
     input.Matrix = this->Matrix;
-    EXPECT_TRUE(this->Preparation.Update(this->Settings, input, {}));
+    return this->Preparation.Update(this->Settings, input, progress);
+  }
+
+  /// Returns the stages that were made anew.
+  std::vector<std::string> Update(vtkDataObject* data)
+  {
+    EXPECT_TRUE(this->TryUpdate(data, {}));
     return this->Preparation.GetLast().Rebuilt;
   }
 
@@ -246,6 +252,29 @@ TEST_F(MergePoints, PointsThatComeApartAreNotMerged)
   move(1, -0.125);
   EXPECT_EQ(this->Update(grid), std::vector<std::string>({ "mesh", "scalars" }));
   EXPECT_EQ(this->CountMerged(), all - 1);
+}
+
+TEST_F(MergePoints, AbortedMeshesLeaveNoPointsToMerge)
+{
+  const auto small = SeparateCells(MakeSharedCells(VTK_HEXAHEDRON));
+  this->Update(small);
+  const std::size_t all = this->CountMerged();
+  // An input with ids that the first one does not have.
+  vtkNew<vtkMultiBlockDataSet> large;
+  for (int block = 0; block < 4; ++block)
+  {
+    large->SetBlock(block, small);
+  }
+  int calls = 0;
+  for (int last = 1, aborted = true; aborted; ++last)
+  {
+    SCOPED_TRACE(last);
+    calls = 0;
+    aborted = !this->TryUpdate(large, [&calls, last](double) { return ++calls < last; });
+    this->Update(small);
+    EXPECT_EQ(this->CountMerged(), all);
+  }
+  EXPECT_GT(calls, 2) << "the mesh was made once only";
 }
 
 TEST_F(MergePoints, CellsThatOverlapStayApart)

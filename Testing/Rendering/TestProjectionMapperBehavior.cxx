@@ -77,6 +77,20 @@ double FindLargestDifference(const std::vector<float>& a, const std::vector<floa
 /// As for every scene of the tests: nothing but rounding.
 constexpr double Exact = 1e-4;
 
+TEST(ProjectionMapper, EmptyGridsAreSaidToBe)
+{
+  ProjectionMapperScene scene;
+  vtkNew<vtkUnstructuredGrid> empty;
+  scene.Projection->SetInputData(empty);
+  const MessageObserver warnings(scene.Projection, { vtkCommand::WarningEvent });
+  const MessageObserver errors(scene.Projection);
+  // VTK itself does not draw a volume without bounds.
+  scene.Projection->Render(scene.Renderer, scene.Volume);
+  EXPECT_NE(warnings.Text.find("nothing is drawn"), std::string::npos);
+  EXPECT_EQ(errors.Text, "");
+  EXPECT_EQ(scene.Projection->GetOutputImage()->GetNumberOfPoints(), 0);
+}
+
 TEST(ProjectionMapper, OrderIndependentModelsAreNotSorted)
 {
   ProjectionMapperScene scene;

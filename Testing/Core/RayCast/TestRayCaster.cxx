@@ -5,6 +5,7 @@
 #include "RayScene.h"
 
 #include "Generate/GeneratedMeshes.h"
+#include "MeshParts.h"
 #include "View/RayDisplacements.h"
 
 #include <gtest/gtest.h>
@@ -914,6 +915,41 @@ TEST(RayCaster, OpticalDepthIsTheLengthOfRaysThroughVerticesEdgesAndFaces)
           << target[0] << " " << target[1] << " " << target[2] << ", " << GetName(precision)
           << " precision";
       }
+    }
+  }
+}
+
+/// Of units of length whose squares single precision has no numbers for, too.
+TEST(RayCaster, OpticalDepthIsTheLengthAmongHangingNodesInAnyUnit)
+{
+  const TetrahedralMesh octree = MakeOctree(3, 2);
+  const RayGrid rays =
+    MakePerspectiveGrid({ 0.5, 4.5, 0.5 }, { 0.5, 0.5, 0.5 }, { 0, 0, 1 }, 18, 63, 63);
+  for (const int exponent : { -66, 0, 66 })
+  {
+    SCOPED_TRACE(exponent);
+    const double length = std::ldexp(1, exponent);
+    RayScene scene;
+    scene.Mesh = octree;
+    std::transform(octree.Points.begin(), octree.Points.end(), scene.Mesh.Points.begin(),
+      [length](double x) { return length * x; });
+    scene.Scalars = std::vector<double>(octree.GetNumberOfPoints(), 0.5);
+    scene.Function = MakeConstantFunction(ThinAttenuation / length, { 1, 0.5, 0.25 });
+    scene.Grid = rays;
+    for (double& x : scene.Grid.Origin)
+    {
+      x *= length;
+    }
+    VolumeScene volume = scene.MakeVolumeScene();
+    RayCastOptions options;
+    options.Arithmetic = Precision::Single;
+    const RayPicture picture = Cast(volume, scene, options);
+    for (int p = 0; p < rays.Width * rays.Height; ++p)
+    {
+      // Of all rays, those of the middle row and column run in the faces of cubes.
+      ASSERT_NEAR(
+        GetLength(picture, p), GetChord(rays, p % rays.Width, p / rays.Width), LengthError)
+        << "pixel " << p;
     }
   }
 }
