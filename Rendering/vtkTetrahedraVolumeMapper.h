@@ -270,15 +270,17 @@ public:
    * if their scalars agree to a few roundings of their array, so that jumps of a field stay.
    * Default AUTOMATIC_MERGE.
    *
-   * - MERGE_OFF (0): points stay apart. The picture is the same: rays enter touching cells again.
+   * - MERGE_OFF (0): points stay apart. Rays enter touching cells again, and the picture is the
+   *   same if faces that touch are cut alike: those of hexahedra, wedges and pyramids by their
+   *   smallest point id, which is another one on either side.
    * - MERGE_ON (1): all points are merged whose scalars agree. Cells that become the same by that
    *   count once.
    * - AUTOMATIC_MERGE (2): all points are merged or none: none if scalars at one place differ, or
    *   if cells become the same or three of them share a face, as where cells overlap.
    *
-   * Points inside the mesh, and points that only come to the same place later, are not looked for.
-   * It costs nothing to speak of where cells share their points; else a frame that needs a new mesh
-   * makes it twice.
+   * Points inside the mesh are not looked for, nor are further ones that come together after some
+   * were merged, until cells change. It costs nothing to speak of where cells share their points;
+   * else a frame that needs a new mesh makes it twice, or once if most points are not shared.
    */
   virtual void SetMergePoints(int merge);
   vtkGetMacro(MergePoints, int);

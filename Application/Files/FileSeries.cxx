@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -48,7 +50,16 @@ Steps ReadCollection(const std::string& fileName)
     if (std::strcmp(entry->GetName(), "DataSet") == 0 && file)
     {
       double time = 0; // that of a file without
-      entry->GetScalarAttribute("timestep", time);
+      if (const char* text = entry->GetAttribute("timestep"))
+      {
+        const char* end = text + std::strlen(text);
+        const std::from_chars_result result = std::from_chars(text, end, time);
+        if (result.ec != std::errc() || result.ptr != end || !std::isfinite(time))
+        {
+          throw WorkError(
+            "cannot read '" + fileName + "': timestep '" + text + "' of '" + file + "' is no time");
+        }
+      }
       steps[time].push_back(Resolve(fileName, file));
     }
   }

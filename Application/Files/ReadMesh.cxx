@@ -17,6 +17,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -127,6 +128,10 @@ MeshData ReadParts(const std::vector<std::string>& files, const InputFile& input
 MeshData ReadSeriesStep(const InputFile& input)
 {
   std::vector<SeriesStep> series;
+  if (!input.Plot3dSolution.empty())
+  {
+    throw WorkError("'" + input.Name + "' is a series, for which there is no PLOT3D solution");
+  }
   Guard(input.Name, [&] { series = ReadSeries(input.Name); });
   std::vector<double> times;
   times.reserve(series.size());
@@ -135,7 +140,18 @@ MeshData ReadSeriesStep(const InputFile& input)
     times.push_back(step.Time);
   }
   const std::size_t timeStep = ChooseTimeStep(input, times);
-  MeshData mesh = ReadParts(series[timeStep].Files, {}); // the files have their own times, or none
+  std::vector<std::string> files; // all pieces, which a series may name each or by one of them
+  for (const std::string& file : series[timeStep].Files)
+  {
+    for (const std::string& piece : ListPieces(file))
+    {
+      if (std::find(files.begin(), files.end(), piece) == files.end())
+      {
+        files.push_back(piece);
+      }
+    }
+  }
+  MeshData mesh = ReadParts(files, {}); // the files have their own times, or none
   mesh.Times = times;
   mesh.TimeStep = timeStep;
   return mesh;

@@ -5,6 +5,7 @@
 #include "Base/RadixSort.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -15,64 +16,110 @@ namespace tetralux
 namespace
 {
 
-/// A direction in which points of lattices do not line up: powers of the inverse of the plastic
-/// number.
-constexpr double Direction[3] = { 1, 0.7548776662466927, 0.5698402909980532 };
-constexpr double DirectionSum = 2.324717957244746;
+/// Edge of a box of the grid that points are sorted into, in tolerances: so large that most points
+/// are near to no side of their box, and so small that few are in one.
+constexpr double BoxSize = 16;
 
-/// Largest rounding of a place along the direction, relative to the largest coordinate: of three
-/// products and two sums.
-constexpr double PlaceRounding = 4 * std::numeric_limits<double>::epsilon();
-
-/// Points by where they are along the direction.
-struct SortedPoints
+/// Three whole numbers as one. Boxes that share a number by chance cost comparisons, no more.
+std::uint32_t Mix(const std::array<std::int64_t, 3>& numbers)
 {
-  std::vector<std::int32_t> Points;
-  std::vector<double> Places; ///< in units of the largest coordinate
+  std::uint64_t mixed = 0;
+  for (const std::int64_t number : numbers)
+  {
+    mixed = (mixed ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
+    mixed ^= mixed >> 29;
+  }
+  return static_cast<std::uint32_t>(mixed >> 32);
+}
+
+/// Points sorted by the boxes that they are in or within the tolerance of.
+class BoxedPoints
+{
+public:
+  /// tolerance: 0 for points that are the same exactly.
+  BoxedPoints(
+    const TetrahedralMesh& mesh, const std::vector<std::int32_t>& points, double tolerance)
+  {
+    for (const std::int32_t point : points)
+    {
+      const double* x = &mesh.Points[std::size_t{ 3 } * point];
+      if (tolerance > 0)
+      {
+        this->AddNear(point, x, BoxSize * tolerance);
+      }
+      else
+      {
+        this->AddExact(point, x);
+      }
+    }
+    std::vector<KeyedItem> buffer;
+    SortByKey(this->Entries, buffer);
+  }
+
+  /// Calls visit(i, j) for entries of one box, i before j, until it returns false for i.
+  template <class Visit>
+  void ForEachPair(const Visit& visit) const
+  {
+    const std::size_t count = this->Entries.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      for (std::size_t j = i + 1; j < count && this->Entries[j].Key == this->Entries[i].Key; ++j)
+      {
+        if (!visit(this->Entries[i].Item, this->Entries[j].Item))
+        {
+          break;
+        }
+      }
+    }
+  }
+
+private:
+  void AddExact(std::int32_t point, const double* x)
+  {
+    std::array<std::int64_t, 3> bits;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double number = x[a] + 0.; // no -0, which equals 0
+      std::memcpy(&bits[a], &number, sizeof number);
+    }
+    this->Entries.push_back({ Mix(bits), point });
+  }
+
+  void AddNear(std::int32_t point, const double* x, double size)
+  {
+    std::array<std::int64_t, 3> box;
+    std::array<std::int64_t, 3> beside; // the box beside it along an axis, or the same one
+    for (int a = 0; a < 3; ++a)
+    {
+      const double place = x[a] / size;
+      const double below = std::floor(place);
+      const double rest = place - below;
+      box[a] = static_cast<std::int64_t>(below);
+      // A little more than the tolerance, for the rounding of the place.
+      constexpr double Reach = 1.5 / BoxSize;
+      beside[a] = rest < Reach ? box[a] - 1 : rest > 1 - Reach ? box[a] + 1 : box[a];
+    }
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      std::array<std::int64_t, 3> other = box;
+      bool isNew = true;
+      for (int a = 0; a < 3; ++a)
+      {
+        if ((corner >> a & 1) != 0)
+        {
+          other[a] = beside[a];
+          isNew = isNew && beside[a] != box[a];
+        }
+      }
+      if (isNew)
+      {
+        this->Entries.push_back({ Mix(other), point });
+      }
+    }
+  }
+
+  std::vector<KeyedItem> Entries;
 };
-
-/// Bits whose order as an unsigned integer is that of the numbers.
-std::uint64_t GetSortableBits(double value)
-{
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  constexpr std::uint64_t Sign = std::uint64_t{ 1 } << 63;
-  return (bits & Sign) != 0 ? ~bits : bits | Sign;
-}
-
-SortedPoints SortPoints(
-  const TetrahedralMesh& mesh, const std::vector<std::int32_t>& points, double unit)
-{
-  const std::int64_t count = static_cast<std::int64_t>(points.size());
-  std::vector<double> places(count);
-  std::vector<KeyedItem> order(count);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const double* x = &mesh.Points[std::size_t{ 3 } * points[i]];
-    places[i] =
-      Direction[0] * (x[0] / unit) + Direction[1] * (x[1] / unit) + Direction[2] * (x[2] / unit);
-    order[i] = { static_cast<std::uint32_t>(GetSortableBits(places[i])),
-      static_cast<std::int32_t>(i) };
-  }
-  // By the lower half of the bits, then by the upper one.
-  std::vector<KeyedItem> buffer;
-  SortByKey(order, buffer);
-  for (KeyedItem& item : order)
-  {
-    item.Key = static_cast<std::uint32_t>(GetSortableBits(places[item.Item]) >> 32);
-  }
-  SortByKey(order, buffer);
-  SortedPoints sorted;
-  sorted.Points.resize(count);
-  sorted.Places.resize(count);
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    sorted.Points[i] = points[order[i].Item];
-    sorted.Places[i] = places[order[i].Item];
-  }
-  return sorted;
-}
 
 bool AreTogether(const TetrahedralMesh& mesh, std::int32_t a, std::int32_t b, double tolerance)
 {
@@ -84,25 +131,21 @@ bool AreTogether(const TetrahedralMesh& mesh, std::int32_t a, std::int32_t b, do
 
 /// Sets of points that are together.
 DisjointSets Unite(
-  const TetrahedralMesh& mesh, const SortedPoints& sorted, double tolerance, double unit)
+  const TetrahedralMesh& mesh, const std::vector<std::int32_t>& points, double tolerance)
 {
   DisjointSets sets(mesh.GetNumberOfPoints());
-  const double reach = DirectionSum * (tolerance + PlaceRounding);
-  const std::size_t count = sorted.Points.size();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    for (std::size_t j = i + 1; j < count && sorted.Places[j] - sorted.Places[i] <= reach; ++j)
-    {
-      if (AreTogether(mesh, sorted.Points[i], sorted.Points[j], tolerance * unit))
+  BoxedPoints(mesh, points, tolerance)
+    .ForEachPair(
+      [&](std::int32_t a, std::int32_t b)
       {
-        sets.Unite(sorted.Points[i], sorted.Points[j]);
-        if (AreTogether(mesh, sorted.Points[i], sorted.Points[j], 0))
+        if (!AreTogether(mesh, a, b, tolerance))
         {
-          break; // the other one goes on with all that is near to both
+          return true;
         }
-      }
-    }
-  }
+        sets.Unite(a, b);
+        // Where both are the same exactly, the other one goes on with all that is near to both.
+        return !AreTogether(mesh, a, b, 0);
+      });
   return sets;
 }
 
@@ -134,7 +177,7 @@ CoincidentPoints FindCoincidentPoints(
 {
   CoincidentPoints result;
   std::vector<std::int32_t> points;
-  double unit = std::numeric_limits<double>::min(); // never 0, so that it can divide
+  double unit = 0; // the largest coordinate
   for (const std::int32_t point : candidates)
   {
     const double* x = &mesh.Points[std::size_t{ 3 } * point];
@@ -146,8 +189,7 @@ CoincidentPoints FindCoincidentPoints(
       unit = std::max(unit, largest);
     }
   }
-  const SortedPoints sorted = SortPoints(mesh, points, unit);
-  DisjointSets sets = Unite(mesh, sorted, tolerance, unit);
+  DisjointSets sets = Unite(mesh, points, tolerance * unit);
   const auto isAlone = [&sets](std::int32_t point) { return sets.Find(point) == point; };
   if (std::all_of(points.begin(), points.end(), isAlone))
   {
@@ -157,7 +199,7 @@ CoincidentPoints FindCoincidentPoints(
   if (tolerance > 0 && AnyCellShrinks(mesh, sets))
   {
     result.Distance = 0;
-    sets = Unite(mesh, sorted, 0, unit);
+    sets = Unite(mesh, points, 0);
   }
 
   const auto originalOf = [&mesh](std::int32_t point)

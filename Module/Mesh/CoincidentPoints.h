@@ -31,7 +31,8 @@ struct CoincidentPoints
 /// largest coordinate of the candidates; points that differ by more are together where others
 /// connect them.
 /// If a cell would lose a point by that, only points whose coordinates are the same exactly are
-/// together. O(n log n), deterministic.
+/// together. Linear time but where many points are within a few tolerances of each other;
+/// deterministic.
 TETRALUXCORE_EXPORT CoincidentPoints FindCoincidentPoints(
   const TetrahedralMesh& mesh, Span<const std::int32_t> candidates, double tolerance);
 

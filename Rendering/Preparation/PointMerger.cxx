@@ -162,8 +162,10 @@ void PointMerger::Find(vtkDataObject* input, const WalkMesh& mesh)
 
 bool PointMerger::Follow(vtkDataObject* input)
 {
-  if (!this->Found || this->Found->Points.empty())
+  if (this->Merged.Points.empty())
   {
+    this->Found.reset();
+    this->Fits = true;
     return true;
   }
   const std::vector<double> points = ExtractPoints(input, SelectPoints(*this->Found));
@@ -172,16 +174,16 @@ bool PointMerger::Follow(vtkDataObject* input)
   {
     if (!(std::abs(points[i] - points[half + i]) <= this->Found->Distance))
     {
-      if (!this->Merged.Points.empty())
-      {
-        return false;
-      }
-      this->Found.reset();
-      this->Fits = true;
-      return true;
+      return false;
     }
   }
   return true;
+}
+
+void PointMerger::CompareWith(const WalkMesh& mesh)
+{
+  this->Misfits = CountMisfits(mesh);
+  this->Fits = this->MergedMisfits <= this->Misfits;
 }
 
 CoincidentPoints PointMerger::Choose(
@@ -208,10 +210,12 @@ CoincidentPoints PointMerger::Choose(
 
 bool PointMerger::Accept(PointMerging merging, const CoincidentPoints& merged, const WalkMesh& mesh)
 {
-  const bool fits = CountMisfits(mesh) <= this->Misfits;
+  const std::int64_t misfits = CountMisfits(mesh);
+  const bool fits = misfits <= this->Misfits;
   if (merged == *this->Found)
   {
     this->Fits = fits;
+    this->MergedMisfits = misfits;
   }
   if (merging == PointMerging::Automatic && !fits)
   {

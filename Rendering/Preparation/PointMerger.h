@@ -34,8 +34,12 @@ public:
   /// The points that the mesh takes as one; none after Start.
   const CoincidentPoints& GetMerged() const { return this->Merged; }
 
+  /// After Start found points and Accept refused to merge them; mesh: without merged points. If it
+  /// does not fit together either, merging is not to blame.
+  void CompareWith(const WalkMesh& mesh);
+
   /// The points of the input have moved. Returns false if merged ones came apart, so that the mesh
-  /// has to be made anew. If others did, what was found is forgotten.
+  /// has to be made anew. If none are merged, what was found is forgotten.
   bool Follow(vtkDataObject* input);
 
   /// The points to merge, of those that were found.
@@ -50,6 +54,7 @@ public:
 private:
   std::optional<CoincidentPoints> Found; ///< once they were looked for
   std::int64_t Misfits = 0;              ///< of the mesh without merged points
+  std::int64_t MergedMisfits = 0;        ///< of a mesh in which all that was found is merged
   bool Fits = true;                      ///< false once a mesh of all that was found was refused
   CoincidentPoints Merged;
 };

@@ -149,6 +149,10 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   if (!used)
   {
     this->SetMesh(std::move(intake));
+    if (!merged.Points.empty())
+    {
+      this->Merger.CompareWith(*this->Scene.Mesh.GetMesh());
+    }
   }
   this->CellsKey = std::move(cellsKey);
   this->PointsKey = std::move(pointsKey);

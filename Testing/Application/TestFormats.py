@@ -76,6 +76,14 @@ class Formats(ToolTest):
                 self.expect_failure(1, "info", "a.e.3.0", says=f"a.e.3.{i + 1}")
         for name in ("a.e.3.0", "a.e.3.2"):
             self.expect_cube(name, volume="3", field="0 .. 21")
+        # A series may name one piece of a step, or each.
+        for names in (["a.e.3.1"], ["a.e.3.0", "a.e.3.1", "a.e.3.2"]):
+            files = "".join(f'<DataSet file="{name}"/>' for name in names)
+            self.write(
+                "a.pvd",
+                f'<VTKFile type="Collection"><Collection>{files}</Collection></VTKFile>',
+            )
+            self.expect_cube("a.pvd", volume="3", field="0 .. 21")
 
     def write_text_formats(self):
         self.write(
@@ -250,6 +258,17 @@ class Formats(ToolTest):
                 self.expect_failure(
                     1, "info", name, "--time-step", 3, says=["--time-step", name, "0 .. 2"]
                 )
+
+    def test_series_that_are_wrong(self):
+        self.write_series()
+        for time in ("nan", "inf", "noon", ""):
+            self.write(
+                "b.pvd",
+                '<VTKFile type="Collection"><Collection>'
+                f'<DataSet timestep="{time}" file="a0.vtu"/></Collection></VTKFile>',
+            )
+            self.expect_failure(1, "info", "b.pvd", says=["b.pvd", f"'{time}'", "is no time"])
+        self.expect_failure(1, "info", "a.pvd", "--plot3d-q", "a.q", says=["a.pvd", "PLOT3D"])
 
     def test_render_says_that_there_are_more_time_steps(self):
         self.write_series()

@@ -302,6 +302,45 @@ TEST_F(MergePoints, CellsThatOverlapStayApart)
   EXPECT_EQ(this->CountMerged(), 0U);
 }
 
+TEST_F(MergePoints, DefectsOfTheMeshDoNotKeepItApart)
+{
+  const auto grid = SeparateCells(MakeSharedCells(VTK_HEXAHEDRON));
+  this->Update(grid);
+  const std::size_t all = this->CountMerged();
+  ASSERT_GT(all, 0U);
+  // The same cell twice, by the same points.
+  vtkNew<vtkIdList> ids;
+  grid->GetCellPoints(5, ids);
+  const vtkSmartPointer<vtkUnstructuredGrid> twice = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  twice->DeepCopy(grid);
+  twice->InsertNextCell(VTK_HEXAHEDRON, ids);
+  this->Update(twice);
+  EXPECT_GT(this->Preparation.Scene.Mesh.GetMesh()->GetRemovedCells().Duplicates, 0);
+  EXPECT_EQ(this->CountMerged(), all);
+}
+
+TEST_F(MergePoints, PointsThatComeTogetherAreMerged)
+{
+  const auto grid = SeparateCells(MakeSharedCells(VTK_HEXAHEDRON));
+  double place[3];
+  const vtkIdType moved = grid->GetNumberOfPoints() / 2;
+  grid->GetPoint(moved, place);
+  this->Settings.Merging = PointMerging::Never;
+  grid->GetPoints()->SetPoint(moved, place[0] + 0.1, place[1], place[2]);
+  this->Update(grid);
+  this->Settings.Merging = PointMerging::Always;
+  this->Update(grid);
+  const std::size_t apart = this->CountMerged();
+  this->Settings.Merging = PointMerging::Never;
+  this->Update(grid);
+  grid->GetPoints()->SetPoint(moved, place);
+  grid->GetPoints()->Modified();
+  this->Update(grid);
+  this->Settings.Merging = PointMerging::Always;
+  this->Update(grid);
+  EXPECT_EQ(this->CountMerged(), apart + 1);
+}
+
 /// A ring whose first and last plane of points are at the same place, to rounding.
 vtkSmartPointer<vtkStructuredGrid> MakeWrappedRing(int cellsAround)
 {

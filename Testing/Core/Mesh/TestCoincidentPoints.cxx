@@ -117,6 +117,23 @@ TEST(CoincidentPoints, CellsSmallerThanTheToleranceKeepTheirPoints)
   EXPECT_EQ(found.Distance, 0);
 }
 
+TEST(CoincidentPoints, FarFromTheOriginInSinglePrecision)
+{
+  // As coordinates of a map: rounded to half a unit, cells of 50. Many distinct points are within
+  // the tolerance of each other in any one direction.
+  TetrahedralMesh mesh = tetralux::SeparateCells(
+    tetralux::MakeBox(20, 20, 20, { 5e6, 5e6, 5e6 }, { 5e6 + 1e3, 5e6 + 1e3, 5e6 + 1e3 }));
+  mesh.OriginalPoints.clear();
+  const CoincidentPoints expected = FindByMap(mesh);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> bits(-0.49, 0.49);
+  for (double& x : mesh.Points)
+  {
+    x += bits(random) * FloatTolerance * 5e6;
+  }
+  EXPECT_TRUE(FindAll(mesh, FloatTolerance) == expected);
+}
+
 TEST(CoincidentPoints, OnlyCandidatesAndPointsOfTheInput)
 {
   TetrahedralMesh mesh;
