@@ -33,6 +33,15 @@
  * the input change, scalars until the array or the choice of it changes, the transfer function
  * until the property changes. A new camera rebuilds nothing.
  *
+ * The superclass is that of VTK's own mappers of unstructured grids, since vtkVolumeMapper takes
+ * only image data and rectilinear grids; vtkVolume and renderers treat both alike. Of
+ * vtkVolumeMapper there are, by the same names and numbers, BlendMode (composite, maximum
+ * intensity, additive, isosurface), Cropping, CroppingRegionPlanes and CroppingRegionFlags; of its
+ * subclasses VectorMode and VectorComponent, and on the processor ImageSampleDistance with its
+ * limits and AutoAdjustSampleDistances. There are no minimum, average and slice blending, no
+ * masks, no gradient opacity and no independent components. There is no SampleDistance: rays are
+ * not sampled.
+ *
  * Mappers are created by name; there is no object factory behind them. Each cause of an error is
  * reported once; the volume is then not drawn. Setters clamp numbers to the range that is stated,
  * and refuse, with an error that names the right values, any other value of an enumeration and NaN.
