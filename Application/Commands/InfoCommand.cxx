@@ -154,8 +154,9 @@ std::int64_t CountCoincidentPoints(vtkDataObject* data, const tetralux::Tetrahed
     tetralux::FindCoincidentPoints(mesh, points, tetralux::GetPointTolerance(data)).Points.size());
 }
 
-/// Prints what it takes to make the mesh convex, or why it can't be made convex.
-void PrintConvexification(tetralux::WalkMesh& walk)
+/// Prints what it takes to make the mesh convex, or why it can't be made convex. coincident: points
+/// that render may merge.
+void PrintConvexification(tetralux::WalkMesh& walk, std::int64_t coincident)
 {
   {
     ProgressLine progress("convexifying");
@@ -175,7 +176,9 @@ void PrintConvexification(tetralux::WalkMesh& walk)
   }
   if (!convex.Refusal.empty())
   {
-    PrintRow("convexification", "not possible: " + convex.Refusal + ", " + seconds);
+    PrintRow("convexification",
+      "not possible: " + convex.Refusal + ", " + seconds +
+        (coincident > 0 ? "; where render merges points it may be" : ""));
     return;
   }
   const double cells = static_cast<double>(walk.GetNumberOfCells());
@@ -231,7 +234,8 @@ void PrintInfo(const InputFile& input)
   PrintBounds(intake.Mesh.Points);
   PrintArrays(data);
 
-  PrintCount("points at others' places", CountCoincidentPoints(data, intake.Mesh));
+  const std::int64_t coincident = CountCoincidentPoints(data, intake.Mesh);
+  PrintCount("points at others' places", coincident);
 
   const std::size_t tetrahedra = intake.Mesh.GetNumberOfCells();
   PrintRow("tetrahedra", tetrahedra);
@@ -273,7 +277,7 @@ void PrintInfo(const InputFile& input)
       " microseconds a tetrahedron";
   }
   PrintRow("time to prepare", time);
-  PrintConvexification(*walk);
+  PrintConvexification(*walk, coincident);
 }
 
 } // namespace
