@@ -87,6 +87,8 @@ void AddMesh(TetrahedralMesh& mesh, const TetrahedralMesh& other)
   {
     mesh.Cells.push_back(point + first);
   }
+  mesh.OriginalPoints.clear();
+  mesh.OriginalCells.clear();
 }
 
 TetrahedralMesh SeparateParts(

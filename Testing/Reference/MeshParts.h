@@ -10,7 +10,8 @@
 namespace tetralux
 {
 
-/// Appends the points and the cells of another mesh. Points at the same place stay apart.
+/// Appends the points and the cells of another mesh. Points at the same place stay apart. All are
+/// those of an input of its own: there are no OriginalPoints and OriginalCells.
 void AddMesh(TetrahedralMesh& mesh, const TetrahedralMesh& other);
 
 /// The same cells, but the cells of each part have points of their own, as the pieces of a file
