@@ -29,10 +29,9 @@ struct CoincidentPoints
 /// once. Added points (TetrahedralMesh::OriginalPoints below 0) and points with a coordinate that
 /// is not finite are left out. tolerance: largest difference of a coordinate, as a share of the
 /// largest coordinate of the candidates; points that differ by more are together where others
-/// connect them.
-/// If a cell would lose a point by that, only points whose coordinates are the same exactly are
-/// together. Linear time but where many points are within a few tolerances of each other;
-/// deterministic.
+/// connect them. If a cell would lose a point by that, only points whose coordinates are the same
+/// exactly are together. Linear time but where many points are within a few tolerances of each
+/// other; deterministic.
 TETRALUXCORE_EXPORT CoincidentPoints FindCoincidentPoints(
   const TetrahedralMesh& mesh, Span<const std::int32_t> candidates, double tolerance);
 

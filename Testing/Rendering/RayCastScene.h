@@ -36,6 +36,10 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
 std::vector<double> MakeField(
   const tetralux::TetrahedralMesh& mesh, const Vector& lower, double size);
 
+/// Expects that something is drawn, and that no channel differs by more than a tolerance.
+void ExpectSamePicture(const std::vector<float>& picture, const std::vector<float>& expected,
+  double tolerance, const char* name);
+
 /// A volume in a window of its own, and what the reference renderer needs to know about it.
 class RayCastScene
 {

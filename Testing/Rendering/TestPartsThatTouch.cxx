@@ -10,8 +10,6 @@
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -79,22 +77,6 @@ std::vector<float> Render(RayCastScene& scene, vtkTetrahedraVolumeMapper* mapper
   scene.Window->Render();
   const std::size_t pixels = scene.GetMapper()->GetOutputImage()->GetNumberOfPoints();
   return { scene.GetColors(), scene.GetColors() + 4 * pixels };
-}
-
-void ExpectSamePicture(const std::vector<float>& picture, const std::vector<float>& expected,
-  double tolerance, const char* name)
-{
-  SCOPED_TRACE(name);
-  ASSERT_EQ(picture.size(), expected.size());
-  double largest = 0;
-  double covered = 0;
-  for (std::size_t c = 0; c < picture.size(); ++c)
-  {
-    largest = std::max(largest, std::abs(static_cast<double>(picture[c]) - expected[c]));
-    covered = std::max(covered, static_cast<double>(expected[c]));
-  }
-  EXPECT_GT(covered, 0.1);
-  EXPECT_LE(largest, tolerance);
 }
 
 void ExpectWholePicture(TetrahedralMesh (*separate)(const TetrahedralMesh&))

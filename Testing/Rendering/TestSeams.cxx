@@ -300,21 +300,6 @@ std::vector<float> Render(
   return { scene.GetColors(), scene.GetColors() + 4 * pixels };
 }
 
-void ExpectSamePicture(const std::vector<float>& picture, const std::vector<float>& expected,
-  double tolerance, const char* name)
-{
-  ASSERT_EQ(picture.size(), expected.size());
-  double largest = 0;
-  double covered = 0;
-  for (std::size_t c = 0; c < picture.size(); ++c)
-  {
-    largest = std::max(largest, std::abs(static_cast<double>(picture[c]) - expected[c]));
-    covered = std::max(covered, static_cast<double>(expected[c]));
-  }
-  EXPECT_GT(covered, 0.1);
-  EXPECT_LE(largest, tolerance) << name;
-}
-
 class Seams : public testing::TestWithParam<SeamCase>
 {
 };
