@@ -132,7 +132,8 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
   const Integrator integrator = this->Integral.GetIntegrator();
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError,
-    { EndsEarly(integrator), IsTabulated(integrator), false, scene.Optics.GetFunctionError() > 0 });
+    { EndsEarly(integrator), IsTabulated(integrator), false, scene.Optics.GetFunctionError() > 0,
+      integrator == Integrator::VaryingLight });
   frame.Budget.CoverGeometry(geometryError);
   tetralux::GpuRayCastOptions options;
   options.Reentry = reentry;
@@ -152,8 +153,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     EndsEarly(integrator) ? static_cast<float>(1 - frame.Budget.Termination / brightness) : 2.f;
   if (frame.Shaded)
   {
-    this->Lighting.Update(frame.Lights, frame.Surface, grid, scene.Mesh.GetMesh()->GetCenter(),
-      scene.Mesh.GetMesh()->GetRadius());
+    this->Lighting.Update(frame.Lights, frame.Surface,
+      tetralux::FindLightSteps(frame.Lights, frame.Surface, frame.Budget.Light), grid,
+      scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
     options.Lighting = &this->Lighting;
     options.SmoothGradients = frame.Settings.SmoothShading;
   }
@@ -194,7 +196,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
     { "summation", segments * std::numeric_limits<float>::epsilon() / 2 },
     { "table", IsTabulated(integrator) ? scene.Optics.GetTableError() : 0 },
-    { "geometry", geometryError } };
+    { "light", frame.Budget.Light }, { "geometry", geometryError } };
   frame.ReportOmission(
     tables == scene.GetVisibleTables(), "transparent tetrahedra", "nothing of them is seen");
   frame.ReportOmission(reentry != GpuReentry::Imaginary, "imaginary cells",
@@ -377,7 +379,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
       tetralux::CacheKey::Of(pointsVersion, scene.Mesh.GetScalarsVersion(), numberOfPoints));
   }
 
-  tetralux::SegmentSource source = tetralux::MakeSegmentSource(scene, frame.Shaded);
+  tetralux::SegmentSource source = tetralux::MakeSegmentSource(scene, frame.GetLighting());
   source.LongestSegment = scene.Mesh.GetLongestEdge() *
     tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest; // no segment is longer
   this->Integral.Update(frame.Window, source);

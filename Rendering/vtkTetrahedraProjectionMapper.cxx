@@ -250,8 +250,10 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   scene.Format = this->ChooseFormat(frame);
   scene.FrontToBack = scene.Format == ChannelFormat::Float;
 
-  scene.Shaded = frame.Shaded;
+  scene.Lighting = frame.GetLighting();
   scene.SmoothShading = frame.Settings.SmoothShading;
+  scene.Steps = tetralux::FindLightSteps(frame.Lights, frame.Surface,
+    tetralux::MakeErrorBudget(frame.MaximumError, { false, false, false, false, true }).Light);
   scene.Lights = frame.Lights;
   scene.Surface = frame.Surface;
 
@@ -331,7 +333,7 @@ ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(const Mappe
 bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
 {
   const tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
-  this->Scene.Commutes = Commutes(tetralux::ChooseIntegrator(*frame.Scene, frame.Shaded));
+  this->Scene.Commutes = Commutes(tetralux::ChooseIntegrator(*frame.Scene, frame.GetLighting()));
   this->Sorted = !this->Scene.Commutes;
   if (this->Sorted)
   {
@@ -461,10 +463,11 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   const Integrator integrator = frame.Integration;
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError,
     { false, IsTabulated(integrator), scene.Format != ChannelFormat::Float,
-      volume.Optics.GetFunctionError() > 0 });
+      volume.Optics.GetFunctionError() > 0, integrator == Integrator::VaryingLight });
   frame.Errors = { { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
     { "summation", EstimateSummationError(volume, scene.Format, this->WorldRadius, scene.Dither) },
     { "table", IsTabulated(integrator) ? volume.Optics.GetTableError() : 0 },
+    { "light", frame.Budget.Light },
     { "geometry", volume.EstimateGeometryError(this->WorldRadius, tetralux::CellShaderRounding) },
     { "perspective", this->EstimatePerspectiveError(volume) },
     { "order", isOrderWrong ? volume.EstimateOrderError(this->WorldRadius) : 0 } };

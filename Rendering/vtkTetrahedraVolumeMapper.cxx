@@ -131,6 +131,13 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
   input.Property = volume->GetProperty();
   input.Matrix = volume->GetMatrix();
   input.Interactive = volume->GetAllocatedRenderTime() < InteractiveSeconds;
+  if (volume->GetProperty()->GetShade(0))
+  {
+    frame.Lights = tetralux::GetRendererLights(renderer);
+    frame.Surface = tetralux::GetMaterial(volume->GetProperty());
+    input.LightVaries = tetralux::FindLighting(true, frame.Settings.SmoothShading, frame.Lights) ==
+      tetralux::Lighting::Varying;
+  }
   const bool ready = this->Preparation.Update(
     settings, input, [&](double fraction) { return report(vtkCommand::ProgressEvent, fraction); });
   frame.Progress = [&](double fraction)
@@ -140,11 +147,6 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
   if (ready)
   {
     frame.Shaded = this->Preparation.IsShaded(volume->GetProperty());
-    if (frame.Shaded)
-    {
-      frame.Lights = tetralux::GetRendererLights(renderer);
-      frame.Surface = tetralux::GetMaterial(volume->GetProperty());
-    }
     this->Self->DrawFrame(frame);
     this->ReadPicture = frame.ReadPicture;
   }
@@ -244,6 +246,7 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   budget["early_termination"] = frame.Budget.Termination;
   budget["table"] = frame.Budget.Table;
   budget["buffer"] = frame.Budget.Buffer;
+  budget["light"] = frame.Budget.Light;
   Json error;
   error["maximum"] = this->Self->MaximumError;
   error["budget"] = budget;
@@ -267,7 +270,10 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
       ? "absorption has none"
       : "all that is visible has one colour");
   frame.ReportOmission(!scene.Optics.GetTable(), "table",
-    scene.GetPlan().ConstantColor ? "one colour needs none" : "see segments");
+    scene.GetPlan().ConstantColor ? "one colour needs none"
+      : frame.Integration == tetralux::Integrator::VaryingLight
+      ? "light varies in cells, and a table does not tell where in a cell its light comes from"
+      : "see segments");
   frame.ReportOmission(!frame.Shaded, "shading",
     frame.Volume->GetProperty()->GetShade(0) ? "it needs a gradient, and composite or isosurface "
                                                "blending"

@@ -10,9 +10,10 @@ namespace tetralux
 enum class Integrator
 {
   ClosedForm,    ///< emission and absorption
-  LitClosedForm, ///< emission and absorption, lit; scalars at points only
+  LitClosedForm, ///< emission and absorption, lit alike all through a cell; scalars at points only
+  VaryingLight,  ///< emission and absorption, lit; scalars at points only
   Table,         ///< emission and absorption, by pre-integration; scalars at points only
-  LitTable,      ///< emission and absorption, by pre-integration, lit; scalars at points only
+  LitTable,      ///< as LitClosedForm, by pre-integration
   OpticalDepth,  ///< emission and absorption of a constant colour, or absorption alone
   Emission,      ///< emission alone
   Maximum,       ///< the largest scalar
@@ -27,7 +28,8 @@ inline bool IsTabulated(Integrator integrator)
 
 inline bool IsLit(Integrator integrator)
 {
-  return integrator == Integrator::LitClosedForm || integrator == Integrator::LitTable;
+  return integrator == Integrator::LitClosedForm || integrator == Integrator::VaryingLight ||
+    integrator == Integrator::LitTable;
 }
 
 /// Whether a ray may end before it leaves the mesh: what is in front hides what is behind.

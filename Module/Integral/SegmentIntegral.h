@@ -121,41 +121,58 @@ TETRALUX_INLINE void IntegrateConstant(Float8 depth, Float8& opacity, Float8& tr
     Select(Float8(ThinDepth) < depth, Float8(1.f) - transmittance, Float8(2.f) * root * Sinh(half));
 }
 
-/// Weights of a segment from its optical depths, both at least 0 and at most LargestSingleDepth.
-TETRALUX_INLINE SegmentWeights IntegrateSegment(Float8 d0, Float8 d1)
+/// Weights of a thin segment from its optical depths, both at least 0 and their mean at most
+/// ThinDepth; above that any number.
+TETRALUX_INLINE SegmentWeights IntegrateThinSegment(Float8 d0, Float8 d1)
 {
   const Float8 depth = Float8(0.5f) * (d0 + d1);
   const Float8 b = Float8(0.5f) * (d1 - d0);
-
-  SegmentWeights w;
   const Float8 half = Float8(0.5f) * depth;
   const Float8 root = ExpMinus(half); // exp(-D/2)
+  // The bracket as a polynomial in b and D^2, by iteratively reweighted least squares over
+  // |b| <= D <= ThinDepth, relative to the opacity. The terms of its power series are
+  // -(integral of x^2m q^n) / ((2m)! n!) b^n D^2m, and for n = 0 those of cosh(D/2) more; the
+  // first one, -b / 6, is kept as it is for the smallest depths.
+  static constexpr float p0[] = { -1.f / 6, -0.0166666904f, -0.00119011029f, -6.6211389e-5f,
+    -3.11817831e-6f };
+  static constexpr float p1[] = { 0.0833334742f, -0.0041663916f, -0.000297384474f, -1.68304107e-5f,
+    -9.80885306e-7f };
+  static constexpr float p2[] = { 0.00208277594f, -3.77287079e-5f, -2.03036638e-6f };
+  static constexpr float p3 = 1.89982749e-5f;
+  const Float8 d2 = depth * depth;
+  Float8 bracket = Fma(d2, Float8(p3), Polynomial(b, p2));
+  bracket = Fma(d2, bracket, Polynomial(b, p1));
+  bracket = Fma(d2, bracket, b * Polynomial(b, p0));
+  const Float8 mean = Sinh(half);
+  SegmentWeights w;
+  w.Front = root * (mean + bracket);
+  w.Back = root * (mean - bracket);
   w.Transmittance = root * root;
-  {
-    // The bracket as a polynomial in b and D^2, by iteratively reweighted least squares over
-    // |b| <= D <= ThinDepth, relative to the opacity. The terms of its power series are
-    // -(integral of x^2m q^n) / ((2m)! n!) b^n D^2m, and for n = 0 those of cosh(D/2) more; the
-    // first one, -b / 6, is kept as it is for the smallest depths.
-    static constexpr float p0[] = { -1.f / 6, -0.0166666904f, -0.00119011029f, -6.6211389e-5f,
-      -3.11817831e-6f };
-    static constexpr float p1[] = { 0.0833334742f, -0.0041663916f, -0.000297384474f,
-      -1.68304107e-5f, -9.80885306e-7f };
-    static constexpr float p2[] = { 0.00208277594f, -3.77287079e-5f, -2.03036638e-6f };
-    static constexpr float p3 = 1.89982749e-5f;
-    const Float8 d2 = depth * depth;
-    Float8 bracket = Fma(d2, Float8(p3), Polynomial(b, p2));
-    bracket = Fma(d2, bracket, Polynomial(b, p1));
-    bracket = Fma(d2, bracket, b * Polynomial(b, p0));
-    const Float8 mean = Sinh(half);
-    w.Front = root * (mean + bracket);
-    w.Back = root * (mean - bracket);
-  }
+  return w;
+}
 
+/// The weight of a colour 4 w (1 - w) along a thin segment, as a share of its opacity: 2 / 3 in the
+/// limit. By iteratively reweighted least squares over |b| <= D <= ThinDepth; error 2.4e-4.
+TETRALUX_INLINE Float8 FindBulgeShare(Float8 d0, Float8 d1)
+{
+  const Float8 depth = Float8(0.5f) * (d0 + d1);
+  const Float8 b = Float8(0.5f) * (d1 - d0);
+  static constexpr float p0[] = { 0.66644458f, 0.06649459f, 0.00453237f };
+  static constexpr float p1[] = { -0.01047766f, -0.00124714f };
+  return Fma(depth * depth, Polynomial(b, p1), Polynomial(b, p0));
+}
+
+/// Weights of a segment from its optical depths, both at least 0 and at most LargestSingleDepth.
+TETRALUX_INLINE SegmentWeights IntegrateSegment(Float8 d0, Float8 d1)
+{
+  SegmentWeights w = IntegrateThinSegment(d0, d1);
+  const Float8 depth = Float8(0.5f) * (d0 + d1);
   const Mask8 thick = Float8(ThinDepth) < depth;
   if (Any(thick))
   {
     // Equal ends would divide 0 by 0. Any smaller slope leaves the same limit, 1 / D0 - ..., since
     // both functions are then at arguments where they are 1 / x to rounding.
+    const Float8 b = Float8(0.5f) * (d1 - d0);
     const Float8 floor = Float8(1e-12f) * depth;
     const Float8 slopeRoot = Sqrt(Max(Abs(b), floor));
     const Float8 scale = Float8(0.5f) / slopeRoot;

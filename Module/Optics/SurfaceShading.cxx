@@ -35,7 +35,7 @@ bool Normalize(double a[3])
 }
 
 /// Direction of the scalar's gradient in a cell, in the coordinates of the mesh; not of length 1.
-void FindGradient(const SurfaceShading& shading, std::int32_t cell, double gradient[3])
+void FindCellGradient(const SurfaceShading& shading, std::int32_t cell, double gradient[3])
 {
   const std::int32_t* ids = &shading.Mesh->Cells[4 * static_cast<std::size_t>(cell)];
   const double* origin = &shading.Mesh->Points[3 * static_cast<std::size_t>(ids[0])];
@@ -111,32 +111,9 @@ void InterpolateGradient(
 }
 
 /// The normal in the world, turned to the viewer.
-void FindNormal(const SurfaceShading& shading, std::int32_t cell, const double position[3],
-  const double direction[3], double normal[3])
+void FindNormal(const double gradient[3], const double direction[3], double normal[3])
 {
-  double gradient[3];
-  if (shading.Gradients)
-  {
-    double inMesh[3];
-    for (int row = 0; row < 3; ++row)
-    {
-      const double* m = shading.MeshFromWorld[row];
-      inMesh[row] = Dot(m, position) + m[3];
-    }
-    InterpolateGradient(shading, cell, inMesh, gradient);
-  }
-  else
-  {
-    FindGradient(shading, cell, gradient);
-  }
-  for (int a = 0; a < 3; ++a)
-  {
-    normal[a] = 0;
-    for (int row = 0; row < 3; ++row)
-    {
-      normal[a] += shading.MeshFromWorld[row][a] * gradient[row];
-    }
-  }
+  std::copy_n(gradient, 3, normal);
   const bool known = Normalize(normal);
   const double sign = !known || Dot(normal, direction) > 0 ? -1 : 1;
   for (int a = 0; a < 3; ++a)
@@ -175,12 +152,41 @@ double FindShare(const Light& light, const double position[3], double toLight[3]
 
 } // namespace
 
-LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell, const double position[3],
-  const double direction[3])
+void FindGradient(
+  const SurfaceShading& shading, std::int32_t cell, const double position[3], double gradient[3])
+{
+  double inMesh[3];
+  if (shading.Gradients)
+  {
+    double place[3];
+    for (int row = 0; row < 3; ++row)
+    {
+      const double* m = shading.MeshFromWorld[row];
+      place[row] = Dot(m, position) + m[3];
+    }
+    InterpolateGradient(shading, cell, place, inMesh);
+  }
+  else
+  {
+    FindCellGradient(shading, cell, inMesh);
+  }
+  // Gradients are transformed by the transpose of what takes positions into the mesh.
+  for (int a = 0; a < 3; ++a)
+  {
+    gradient[a] = 0;
+    for (int row = 0; row < 3; ++row)
+    {
+      gradient[a] += shading.MeshFromWorld[row][a] * inMesh[row];
+    }
+  }
+}
+
+LightFactors Illuminate(const SurfaceShading& shading, const double gradient[3],
+  const double position[3], const double direction[3])
 {
   const Material& surface = shading.Surface;
   double normal[3];
-  FindNormal(shading, cell, position, direction, normal);
+  FindNormal(gradient, direction, normal);
   double scale[3] = { 0, 0, 0 };
   double add[3] = { 0, 0, 0 };
   for (const Light& light : shading.Lights)
@@ -216,6 +222,14 @@ LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell, const d
     factors.Add[c] = static_cast<float>(add[c]);
   }
   return factors;
+}
+
+LightFactors FindLight(const SurfaceShading& shading, std::int32_t cell, const double position[3],
+  const double direction[3])
+{
+  double gradient[3];
+  FindGradient(shading, cell, position, gradient);
+  return Illuminate(shading, gradient, position, direction);
 }
 
 } // namespace tetralux

@@ -105,7 +105,8 @@ void FillKernelInput(const VolumeScene& scene, const RayGrid& grid, const RayLim
   {
     in.Light = { &mesh.GetMesh(), scene.Mesh.GetScalars().data(),
       choices.SmoothShading ? scene.Mesh.GetPointGradients().data() : nullptr, grid.MeshFromWorld,
-      options.Lights, options.Surface };
+      options.Lights, options.Surface,
+      FindLightSteps(options.Lights, options.Surface, choices.LightError) };
     in.Shading = &in.Light;
   }
   if (IsTabulated(choices.Method))

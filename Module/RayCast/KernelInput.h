@@ -22,6 +22,7 @@ struct CastChoices
   bool SmoothShading = false; ///< what is lit is lit by gradients of points
   bool DoublePrecision = false;
   double WorldRadius = 0;             ///< of the mesh, where the world stretches it most
+  double LightError = 0;              ///< of light that varies in cells
   double TerminationError = 0;        ///< what may be lost behind a ray's early end; 0: rays go on
   const WalkTables* Tables = nullptr; ///< what rays are walked through
 };

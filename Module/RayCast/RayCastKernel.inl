@@ -33,6 +33,7 @@
 #include "RayCast/RayCastMaximum.h"
 #include "RayCast/RayCastModels.h"
 #include "RayCast/RayCastTable.h"
+#include "RayCast/RayCastVaryingLight.h"
 
 #include <limits>
 
@@ -498,6 +499,7 @@ RayCastKernels MakeRayCastKernels()
   };
   set(Integrator::ClosedForm, MakePair<ClosedForm, false>(), MakePair<ClosedForm, true>());
   set(Integrator::LitClosedForm, MakePair<LitClosedForm, false>(), {});
+  set(Integrator::VaryingLight, MakePair<VaryingLight, false>(), {});
   set(Integrator::Table, MakePair<Table, false>(), {});
   set(Integrator::LitTable, MakePair<LitTable, false>(), {});
   set(Integrator::OpticalDepth, MakePair<OpticalDepth, false>(), MakePair<OpticalDepth, true>());

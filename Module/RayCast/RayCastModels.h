@@ -27,7 +27,7 @@ public:
     this->Gathered.Enter(in, valid, cell, z0, z1);
   }
 
-  TETRALUX_INLINE void AddPiece(Mask8 contributes, const Piece& piece)
+  TETRALUX_INLINE void AddPiece(const KernelInput&, Mask8 contributes, const Piece& piece, V, V)
   {
     const SegmentWeights w = IntegrateSegment(piece.D0, piece.D1);
     const auto mix = [&](int c)
@@ -86,9 +86,10 @@ template <class Real>
 class OpticalDepth : public PieceModel<Real, DepthSum, OpticalDepth<Real>>
 {
 public:
+  using V = LanesOfReal<Real>;
   using PieceModel<Real, DepthSum, OpticalDepth>::PieceModel;
 
-  TETRALUX_INLINE void AddPiece(Mask8 contributes, const Piece& piece)
+  TETRALUX_INLINE void AddPiece(const KernelInput&, Mask8 contributes, const Piece& piece, V, V)
   {
     this->Gathered.Add(contributes, Float8(0.5f) * (piece.D0 + piece.D1));
   }
@@ -130,9 +131,10 @@ template <class Real>
 class Emission : public PieceModel<Real, EmissionSum, Emission<Real>>
 {
 public:
+  using V = LanesOfReal<Real>;
   using PieceModel<Real, EmissionSum, Emission>::PieceModel;
 
-  TETRALUX_INLINE void AddPiece(Mask8 contributes, const Piece& piece)
+  TETRALUX_INLINE void AddPiece(const KernelInput&, Mask8 contributes, const Piece& piece, V, V)
   {
     // The integral of (d0 + (d1 - d0) w) (c0 + (c1 - c0) w) over w from 0 to 1.
     const Float8 front = Fma(Float8(1.f / 3), piece.D0, Float8(1.f / 6) * piece.D1);

@@ -36,8 +36,8 @@ struct Piece
 };
 
 /// Cuts a cell at the nodes of the transfer function. The scalar runs linearly from s0 at z0 to s1
-/// at z1. Calls add(contributes, z, piece) for each piece that attenuates any ray. interval: the
-/// interval of each ray's last scalar; updated.
+/// at z1. Calls add(contributes, piece, from, to) for each piece that attenuates any ray, between two
+/// distances z. interval: the interval of each ray's last scalar; updated.
 template <class Real, class V, class AddT>
 TETRALUX_INLINE void CutAtNodes(
   const KernelInput& in, Int8& interval, Mask8 valid, V z0, V s0, V z1, V s1, AddT add)
@@ -127,7 +127,7 @@ TETRALUX_INLINE void CutAtNodes(
     const Mask8 contributes = valid & (zero < piece.D0 + piece.D1);
     if (Any(contributes))
     {
-      add(contributes, z0, piece);
+      add(contributes, piece, z0, z);
     }
     if (!Any(more))
     {
@@ -156,7 +156,7 @@ TETRALUX_INLINE Float8 LoadCell(const KernelInput& in, V z0, V z1, Int8 cell, Fl
 /// A model that integrates pieces. Derived has
 ///
 ///   Enter        prepares for what is added next, from z0 to z1 in a cell
-///   AddPiece     adds a piece
+///   AddPiece     adds a piece, between two distances z
 ///   AddConstant  adds a cell of constant scalar, by its optical depth and colour
 ///
 /// the last two for the rays that contribute.
@@ -172,10 +172,10 @@ public:
   {
     this->GetDerived().Enter(in, valid, cell, z0, z1);
     CutAtNodes<Real>(in, this->Interval, valid, z0, s0, z1, s1,
-      [this](Mask8 contributes, V z, const Piece& piece)
+      [&](Mask8 contributes, const Piece& piece, V from, V to)
       {
-        this->GetDerived().AddPiece(contributes, piece);
-        this->First.Add(contributes, z);
+        this->GetDerived().AddPiece(in, contributes, piece, from, to);
+        this->First.Add(contributes, from);
       });
   }
 

@@ -101,10 +101,12 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
   scene.Prepare({});
   CastChoices choices;
   choices.CellData = scene.Mesh.HasCellScalars();
-  choices.Method = ChooseIntegrator(scene, options.Shaded);
+  choices.Method =
+    ChooseIntegrator(scene, FindLighting(options.Shaded, options.SmoothShading, options.Lights));
   const bool tabulated = IsTabulated(choices.Method);
   const ErrorBudget budget = MakeErrorBudget(options.MaximumError,
-    { EndsEarly(choices.Method), tabulated, false, scene.Optics.GetFunctionError() > 0 });
+    { EndsEarly(choices.Method), tabulated, false, scene.Optics.GetFunctionError() > 0,
+      choices.Method == Integrator::VaryingLight });
   choices.WorldRadius =
     scene.Mesh.GetMesh()->GetRadius() * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
   const double geometryError = options.Arithmetic == Precision::Double
@@ -121,6 +123,7 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
   statistics.TerminationError = choices.TerminationError;
   statistics.IntegralError = HasWeights(choices.Method) ? SegmentWeightError : 0;
   statistics.GeometryError = choices.DoublePrecision ? 0 : geometryError;
+  choices.LightError = budget.Light;
   statistics.TableError = tabulated ? scene.Optics.GetTableError() : 0;
   choices.Tables = ChooseTables(scene, options, statistics);
   if (choices.Tables)

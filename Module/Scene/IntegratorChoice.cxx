@@ -6,7 +6,7 @@
 namespace tetralux
 {
 
-Integrator ChooseIntegrator(const VolumeScene& scene, bool shaded)
+Integrator ChooseIntegrator(const VolumeScene& scene, Lighting lighting)
 {
   switch (scene.Optics.GetModel())
   {
@@ -22,10 +22,14 @@ Integrator ChooseIntegrator(const VolumeScene& scene, bool shaded)
       break;
   }
   const bool ofCells = scene.Mesh.HasCellScalars();
-  const bool lit = shaded && !ofCells; // constant cells have no gradient
+  const bool lit = lighting != Lighting::None && !ofCells; // constant cells have no gradient
   if (scene.GetPlan().ConstantColor && !lit)
   {
     return Integrator::OpticalDepth;
+  }
+  if (lit && lighting == Lighting::Varying)
+  {
+    return Integrator::VaryingLight;
   }
   if (scene.Optics.GetTable() && !ofCells)
   {

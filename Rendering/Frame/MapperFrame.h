@@ -7,6 +7,7 @@
 #include "Frame/FrameSettings.h"
 #include "Integral/ErrorBudget.h"
 #include "Integral/Integrator.h"
+#include "Optics/LightSteps.h"
 #include "Optics/OpticalModel.h"
 #include "Report/Json.h"
 #include "View/RayGrid.h"
@@ -43,6 +44,10 @@ struct MapperFrame
   bool Shaded = false;
   std::vector<Light> Lights;
   Material Surface;
+  tetralux::Lighting GetLighting() const
+  {
+    return FindLighting(this->Shaded, this->Settings.SmoothShading, this->Lights);
+  }
 
   /// Told how much of the drawing is done, 0..1; returns whether to go on. Empty: go on.
   std::function<bool(double)> Progress;

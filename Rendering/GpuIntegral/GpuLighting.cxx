@@ -2,6 +2,7 @@
 #include "GpuIntegral/GpuLighting.h"
 
 #include "GpuIntegral/RayGridUniforms.h"
+#include "LightAlongRayDec.h"
 #include "LightingDec.h"
 
 #include "vtkMatrix3x3.h"
@@ -41,7 +42,7 @@ float ToSingle(double x)
 } // namespace
 
 void GpuLighting::Update(const std::vector<Light>& lights, const Material& surface,
-  const RayGrid& grid, const double center[3], double radius)
+  const LightSteps& steps, const RayGrid& grid, const double center[3], double radius)
 {
   double meshFromWorld[9];
   Vector offset;
@@ -76,6 +77,8 @@ void GpuLighting::Update(const std::vector<Light>& lights, const Material& surfa
   }
   // 0 to the power of 0 is 1, in shaders too: see LightingDec.glsl.
   this->SpecularPower = surface.SpecularPower;
+  this->Turn = static_cast<float>(std::tan(steps.Turn));
+  this->Approach = static_cast<float>(steps.Approach);
   for (auto* vectors : { &this->Positions, &this->Cones, &this->Falloffs })
   {
     vectors->clear();
@@ -113,7 +116,8 @@ void GpuLighting::Update(const std::vector<Light>& lights, const Material& surfa
 
 std::string GpuLighting::GetDeclarations() const
 {
-  return "#define NUMBER_OF_LIGHTS " + std::to_string(this->Positions.size()) + "\n" + LightingDec;
+  return "#define NUMBER_OF_LIGHTS " + std::to_string(this->Positions.size()) + "\n" + LightingDec +
+    LightAlongRayDec;
 }
 
 void GpuLighting::Set(vtkShaderProgram* program) const
@@ -126,6 +130,8 @@ void GpuLighting::Set(vtkShaderProgram* program) const
   program->SetUniformMatrix3x3("worldFromRay", const_cast<float*>(this->WorldFromRay)); // only read
   program->SetUniformMatrix3x3("normalFromMesh", const_cast<float*>(this->NormalFromMesh));
   program->SetUniformf("specularPower", this->SpecularPower);
+  program->SetUniformf("lightTurn", this->Turn);
+  program->SetUniformf("lightApproach", this->Approach);
   program->SetUniform4fv("lightPositions", count, this->Positions.front().data());
   program->SetUniform4fv("lightCones", count, this->Cones.front().data());
   program->SetUniform4fv("lightFalloffs", count, this->Falloffs.front().data());

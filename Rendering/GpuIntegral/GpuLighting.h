@@ -3,6 +3,7 @@
 #define tetralux_GpuLighting_h
 
 #include "Base/Span.h"
+#include "Optics/LightSteps.h"
 #include "Optics/OpticalModel.h"
 #include "TetraluxRenderingModule.h"
 #include "View/RayGrid.h"
@@ -20,13 +21,14 @@ namespace tetralux
 ///
 ///   LightFactors FindLight(vec3 point, vec3 gradient, vec3 direction)
 ///
-/// see LightingDec.glsl. Single precision throughout.
+/// see LightingDec.glsl, and for light that varies in cells LightAlongRayDec.glsl. Single precision
+/// throughout.
 class TETRALUXRENDERING_EXPORT GpuLighting
 {
 public:
-  /// For one frame. center and radius: see WalkMesh.
-  void Update(const std::vector<Light>& lights, const Material& surface, const RayGrid& grid,
-    const double center[3], double radius);
+  /// For one frame. center and radius: see WalkMesh. steps: of light that varies in cells.
+  void Update(const std::vector<Light>& lights, const Material& surface, const LightSteps& steps,
+    const RayGrid& grid, const double center[3], double radius);
 
   /// To be put into a shader before the functions of GpuSegmentIntegral.
   std::string GetDeclarations() const;
@@ -41,6 +43,8 @@ private:
   float WorldFromRay[9]; ///< column by column
   float NormalFromMesh[9];
   float SpecularPower = 1;
+  float Turn = 1;     ///< tangent of LightSteps::Turn
+  float Approach = 1; ///< LightSteps::Approach
   std::vector<Vector4> Positions, Cones, Falloffs;
   std::vector<Vector3> Ambient, Diffuse, Specular;
 };

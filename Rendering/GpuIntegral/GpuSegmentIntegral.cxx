@@ -13,6 +13,7 @@
 #include "IntegrateOpticalDepthDec.h"
 #include "IntegrateShadedIsosurfacesDec.h"
 #include "IntegrateShadedSegmentDec.h"
+#include "IntegrateVaryingLightDec.h"
 #include "IsosurfacesDec.h"
 #include "ScalarBucketsDec.h"
 #include "Scene/IntegratorChoice.h"
@@ -64,10 +65,10 @@ void Refresh(
 
 } // namespace
 
-SegmentSource MakeSegmentSource(const VolumeScene& scene, bool shaded)
+SegmentSource MakeSegmentSource(const VolumeScene& scene, Lighting lighting)
 {
   SegmentSource source;
-  source.Integrator = ChooseIntegrator(scene, shaded);
+  source.Integrator = ChooseIntegrator(scene, lighting);
   source.Intervals = &scene.Optics.GetIntervalTable();
   if (scene.Optics.GetModel() == OpticalModel::EmissionAbsorption)
   {
@@ -77,7 +78,7 @@ SegmentSource MakeSegmentSource(const VolumeScene& scene, bool shaded)
   {
     const ScalarMap map = scene.GetScalarMap();
     source.Key = CacheKey::Of(scene.Optics.GetSurfacesVersion(), map.Offset, map.Scale);
-    source.ShadedSurfaces = shaded;
+    source.ShadedSurfaces = lighting != Lighting::None;
     source.Surfaces = scene.Optics.GetIsosurfaces();
     for (Isosurface& surface : source.Surfaces)
     {
@@ -102,8 +103,8 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
   this->Integrator = source.Integrator;
   this->Shaded = source.ShadedSurfaces || IsLit(source.Integrator);
   this->OfCells = !source.CellValues.empty();
-  const bool emitsAndAbsorbs =
-    source.Integrator == Integrator::ClosedForm || source.Integrator == Integrator::LitClosedForm;
+  const bool emitsAndAbsorbs = source.Integrator == Integrator::ClosedForm ||
+    source.Integrator == Integrator::LitClosedForm || source.Integrator == Integrator::VaryingLight;
   this->OnlyThin = emitsAndAbsorbs && source.Intervals &&
     source.Intervals->MaximumAttenuation * source.LongestSegment <= ThinDepth;
   for (int c = 0; c < 3; ++c)
@@ -173,6 +174,7 @@ void GpuSegmentIntegral::UploadSurfaces(
 std::string GpuSegmentIntegral::GetDeclarations() const
 {
   const char* shaded = this->Integrator == Integrator::Isosurfaces ? IntegrateShadedIsosurfacesDec
+    : this->Integrator == Integrator::VaryingLight                 ? IntegrateVaryingLightDec
                                                                    : IntegrateShadedSegmentDec;
   return this->GetFlatDeclarations() + (this->Shaded ? shaded : "");
 }
@@ -201,6 +203,10 @@ std::string GpuSegmentIntegral::GetFlatDeclarations() const
   {
     code += this->OfCells ? std::string(ScalarBucketsDec) + TransferIntervalsDec : "";
     return code + ClassifyLargestDec;
+  }
+  if (this->Integrator == Integrator::VaryingLight)
+  {
+    return code; // the shaded function integrates by itself
   }
   if (this->Integrator == Integrator::OpticalDepth)
   {

@@ -11,6 +11,7 @@
 #include "Integral/Integrator.h"
 #include "OpenGL/TextureBuffer.h"
 #include "Optics/IntervalTable.h"
+#include "Optics/LightSteps.h"
 #include "Optics/OpticalModel.h"
 #include "TetraluxRenderingModule.h"
 
@@ -69,9 +70,10 @@ struct SegmentSource
   std::uint64_t CellValuesVersion = 0;
 };
 
-/// Of a scene that is prepared, as long as it does not change; its segments of any length. shaded:
-/// whether lights shine on what can be lit.
-TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(const VolumeScene& scene, bool shaded);
+/// Of a scene that is prepared, as long as it does not change; its segments of any length. lighting:
+/// of what can be lit.
+TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(
+  const VolumeScene& scene, Lighting lighting);
 
 /// GLSL 1.50 functions for what a source asks for; all colours are premultiplied.
 ///
@@ -88,7 +90,7 @@ TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(const VolumeScene& scen
 ///     vec3 backGradient, vec3 frontPoint, vec3 backPoint, vec3 direction)
 ///
 /// the same with light, where it is asked for, after the functions of GpuLighting: of a volume the
-/// light in the middle of the segment, of a surface that where it is crossed. Gradients at both
+/// integral of what is lit, of a surface the light where it is crossed. Gradients at both
 /// ends, equal ones for those of cells, are in coordinates of the mesh and of any length; points
 /// and the direction are those of Ray in RayGridDec.glsl.
 ///

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Emission and absorption of a segment that lights shine on: by the light in its middle, so that
-// the integral stays exact. Needs LightingDec.glsl, and IntegrateSegment.
+// Emission and absorption of a segment that is lit alike all along it. Needs LightingDec.glsl, and
+// IntegrateSegment.
 
 vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradient,
   vec3 backGradient, vec3 frontPoint, vec3 backPoint, vec3 direction)

@@ -25,25 +25,30 @@ struct LightFactors
   vec3 Add;
 };
 
-// The normal in the world, turned to the viewer; what has no gradient faces the viewer.
-vec3 FindNormal(vec3 gradient, vec3 direction)
+// What makes gradients of the mesh ones of about 1, whose squares are in any range; 0 where there is
+// none. By the largest component.
+float FindGradientScale(vec3 gradient)
 {
-  // By the largest component first: squares may be beyond any range.
   vec3 size = abs(gradient);
   float largest = max(size.x, max(size.y, size.z));
-  bool known = largest > 0.0 && largest < 3.4e38;
-  vec3 normal = known ? normalFromMesh * (gradient / largest) : -direction;
-  return dot(normal, direction) > 0.0 ? -normalize(normal) : normalize(normal);
+  return largest > 0.0 && largest < 3.4e38 ? 1.0 / largest : 0.0;
 }
 
-// point: where; direction: the change of a ray's point for one unit.
-LightFactors FindLight(vec3 point, vec3 gradient, vec3 direction)
+// The gradient in the world, of any length; 0 where there is none.
+vec3 ToWorld(vec3 gradient, float scale)
+{
+  return scale > 0.0 ? normalFromMesh * (gradient * scale) : vec3(0.0);
+}
+
+// place and gradient: in the world, from the centre of the mesh; view: from the viewer, of length 1.
+// The normal is the gradient turned to the viewer; what has no gradient faces the viewer.
+LightFactors Illuminate(vec3 place, vec3 gradient, vec3 view)
 {
   LightFactors factors = LightFactors(vec3(0.0), vec3(0.0));
 #if NUMBER_OF_LIGHTS > 0
-  vec3 place = worldFromRay * point;
-  vec3 view = worldFromRay * direction;
-  vec3 normal = FindNormal(gradient, view);
+  float steepness = dot(gradient, gradient);
+  vec3 normal = steepness > 0.0 ? gradient * inversesqrt(steepness) : -view;
+  normal = dot(normal, view) > 0.0 ? -normal : normal;
   for (int light = 0; light < NUMBER_OF_LIGHTS; ++light)
   {
     bool positional = lightPositions[light].w > 0.0;
@@ -70,4 +75,11 @@ LightFactors FindLight(vec3 point, vec3 gradient, vec3 direction)
   }
 #endif
   return factors;
+}
+
+// point: where; gradient: of the mesh; direction: the change of a ray's point for one unit.
+LightFactors FindLight(vec3 point, vec3 gradient, vec3 direction)
+{
+  return Illuminate(worldFromRay * point, ToWorld(gradient, FindGradientScale(gradient)),
+    worldFromRay * direction);
 }

@@ -116,15 +116,15 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
     }
     this->Window = window;
   }
-  SegmentSource source = MakeSegmentSource(*scene.Volume, scene.Shaded);
+  SegmentSource source = MakeSegmentSource(*scene.Volume, scene.Lighting);
   source.LongestSegment = scene.Volume->Mesh.GetLongestEdge() *
     MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest; // no segment is longer
   this->Integral.Update(window, source);
-  if (scene.Shaded)
+  if (scene.Lighting != Lighting::None)
   {
     const WalkMesh& mesh = *scene.Volume->Mesh.GetMesh();
     this->Lighting.Update(
-      scene.Lights, scene.Surface, scene.Grid, mesh.GetCenter(), mesh.GetRadius());
+      scene.Lights, scene.Surface, scene.Steps, scene.Grid, mesh.GetCenter(), mesh.GetRadius());
     this->Rays.emplace(scene.Grid, RayLimits(), mesh.GetCenter(), mesh.GetRadius());
   }
   const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
@@ -179,7 +179,7 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   this->SetUniforms(program, scene);
   GpuSegmentIntegral& integral = pass == Pass::FirstDistances ? this->Pieces : this->Integral;
   integral.Activate(program);
-  const bool shaded = scene.Shaded && pass == Pass::Colors;
+  const bool shaded = scene.Lighting != Lighting::None && pass == Pass::Colors;
   if (shaded)
   {
     this->Lighting.Set(program);
@@ -285,7 +285,7 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
         ? "#define GATHER before + added\n"
         : "#define GATHER before + (1.0 - before.a) * added\n";
       defines += "#define NOTHING 0.0\n";
-      if (scene.Shaded)
+      if (scene.Lighting != Lighting::None)
       {
         defines += "#define SHADED\n";
         shader.Segment =
@@ -411,7 +411,7 @@ void ProjectionPicture::Read(const ProjectionScene& scene, Span<float> colors, S
   this->Colors.Read(0, colors);
   const vtkOpenGLState::ScopedglActiveTexture unit(this->Window->GetState());
   // A table does not tell where in a segment the function first contributes.
-  SegmentSource source = MakeSegmentSource(*scene.Volume, false);
+  SegmentSource source = MakeSegmentSource(*scene.Volume, Lighting::None);
   source.Integrator = IsTabulated(source.Integrator) ? Integrator::ClosedForm : source.Integrator;
   this->Pieces.Update(this->Window, source);
   this->Distances.Prepare(this->Window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));

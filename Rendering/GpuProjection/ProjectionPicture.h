@@ -52,10 +52,11 @@ struct ProjectionScene
   vtkTextureObject* OpaqueDepth = nullptr; ///< of the window, 0..1; nullptr: none
   float OpaquePlaces[4][2];                ///< see ProjectedCellFS.glsl
 
-  bool Shaded = false;       ///< lit by Lights
+  tetralux::Lighting Lighting = tetralux::Lighting::None; ///< by Lights
   bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
   std::vector<Light> Lights;
   Material Surface;
+  LightSteps Steps;
 
   bool Interpolate = true; ///< with perspective correction
   ChannelFormat Format = ChannelFormat::Float;

@@ -343,9 +343,10 @@ void ScenePreparation::PrepareTable(const MapperSettings& settings, const SceneI
   SceneOptics& optics = this->Scene.Optics;
   const std::uint64_t function = optics.GetFunctionVersion();
   this->Use = wishes.Use;
-  if (wishes.Use == TableUse::Never || optics.GetModel() != OpticalModel::EmissionAbsorption ||
-    this->Scene.Mesh.HasCellScalars() || this->Scene.Mesh.GetMesh()->GetNumberOfCells() == 0 ||
-    this->Scene.GetPlan().ConstantColor || this->Scene.GetPlan().Transparent)
+  if (wishes.Use == TableUse::Never || input.LightVaries ||
+    optics.GetModel() != OpticalModel::EmissionAbsorption || this->Scene.Mesh.HasCellScalars() ||
+    this->Scene.Mesh.GetMesh()->GetNumberOfCells() == 0 || this->Scene.GetPlan().ConstantColor ||
+    this->Scene.GetPlan().Transparent)
   {
     if (optics.GetTable())
     {

@@ -31,6 +31,7 @@ struct SceneInput
   vtkVolumeProperty* Property = nullptr;
   vtkMatrix4x4* Matrix = nullptr; ///< of the volume: world from mesh
   bool Interactive = false;       ///< a frame that has to be there soon: a coarse table will do
+  bool LightVaries = false;       ///< in cells, where anything is lit: no table will do
 };
 
 /// Makes a VolumeScene of a data set and a property, and keeps it: each stage is done again only if

@@ -117,6 +117,111 @@ void IntegrateEmissionAbsorption(const Piece& piece, double weights[2])
   }
 }
 
+/// What lights make of it and reaches its begin, added to color. light: at a share of the piece.
+class LitPiece
+{
+public:
+  using Light = std::function<ReferenceLight(double share)>;
+
+  LitPiece(const Piece& piece, const Light& light)
+    : Of(piece)
+    , Lights(light)
+  {
+  }
+
+  void Integrate(double color[3]) const
+  {
+    // Parts of at most unit optical depth are smooth but for the light.
+    const double depth = OpticalDepth(this->Of);
+    const double a = this->Of.Begin.Attenuation;
+    const double b = this->Of.End.Attenuation;
+    double begin = 0;
+    for (int k = 0; k < LargestOpticalDepth && k < depth; ++k)
+    {
+      double end = 1;
+      if (k + 1 < depth)
+      {
+        const double y = (k + 1) / this->Of.Length;
+        end = std::min(1.0, 2 * y / (a + std::sqrt(std::max(0.0, a * a + 2 * (b - a) * y))));
+      }
+      double part[3];
+      this->Sum(begin, end, part);
+      constexpr int Halvings = 40;
+      this->Refine(begin, end, part, Halvings, color);
+      begin = end;
+    }
+  }
+
+private:
+  /// The rule over an interval.
+  void Sum(double begin, double end, double sum[3]) const
+  {
+    static const GaussLegendre rule;
+    std::fill_n(sum, 3, 0.);
+    const double a = this->Of.Begin.Attenuation;
+    const double b = this->Of.End.Attenuation;
+    for (int i = 0; i < GaussLegendre::Order; ++i)
+    {
+      const double x = begin + (end - begin) * rule.Points[i];
+      const double absorbed = this->Of.Length * x * (a + (b - a) * x / 2);
+      const double emitted = this->Of.Length * (end - begin) * rule.Weights[i] *
+        (a * (1 - x) + b * x) * std::exp(-absorbed);
+      const ReferenceLight light = this->Lights(x);
+      for (int c = 0; c < 3; ++c)
+      {
+        const double plain = (1 - x) * this->Of.Begin.Color[c] + x * this->Of.End.Color[c];
+        sum[c] += emitted * (plain * light.Scale[c] + light.Add[c]);
+      }
+    }
+  }
+
+  /// Whether light between an end of an interval and the outermost point of the rule, where the
+  /// rule would not see a jump, changes no more than between the two outermost points.
+  bool EndsLike(double begin, double end, int side) const
+  {
+    static const GaussLegendre rule;
+    constexpr double Jump = 1e-3; ///< of light, over a hundredth of an interval
+    const auto at = [&](double share)
+    {
+      const ReferenceLight light =
+        this->Lights(side == 0 ? begin + (end - begin) * share : end - (end - begin) * share);
+      return light.Scale[0] + light.Scale[1] + light.Scale[2] + light.Add[0] + light.Add[1] +
+        light.Add[2];
+    };
+    const double first = at(std::min(rule.Points.front(), rule.Points.back()));
+    const double second = at(std::min(rule.Points[1], rule.Points[GaussLegendre::Order - 2]));
+    return std::abs(at(0) - first) <= std::abs(first - second) + Jump;
+  }
+
+  /// Adds an interval of which the rule has the sum.
+  void Refine(double begin, double end, const double sum[3], int halvings, double color[3]) const
+  {
+    constexpr double Tolerance = 1e-10;
+    const double middle = begin + (end - begin) / 2;
+    double halves[2][3];
+    this->Sum(begin, middle, halves[0]);
+    this->Sum(middle, end, halves[1]);
+    bool fits = this->EndsLike(begin, middle, 0) && this->EndsLike(middle, end, 1);
+    for (int c = 0; c < 3; ++c)
+    {
+      fits = fits && std::abs(halves[0][c] + halves[1][c] - sum[c]) <= Tolerance;
+    }
+    if (fits || halvings == 0)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        color[c] += halves[0][c] + halves[1][c];
+      }
+      return;
+    }
+    this->Refine(begin, middle, halves[0], halvings - 1, color);
+    this->Refine(middle, end, halves[1], halvings - 1, color);
+  }
+
+  const Piece& Of;
+  const Light& Lights;
+};
+
 /// The function in interval k, which lies between nodes k - 1 and k.
 TransferFunction::Value Evaluate(const TransferFunction& function, std::size_t k, double s)
 {
@@ -143,10 +248,9 @@ TransferFunction::Value Evaluate(const TransferFunction& function, std::size_t k
   return value;
 }
 
-} // namespace
-
-ReferenceSegment IntegrateReference(
-  const TransferFunction& function, double s0, double s1, double length, OpticalModel model)
+/// light: of a share of the segment; empty: there is none.
+ReferenceSegment IntegrateAny(const TransferFunction& function, double s0, double s1, double length,
+  OpticalModel model, const std::function<ReferenceLight(double share)>& light)
 {
   const bool absorbs =
     model == OpticalModel::EmissionAbsorption || model == OpticalModel::AbsorptionOnly;
@@ -194,7 +298,15 @@ ReferenceSegment IntegrateReference(
           s0 == s1 ? 0.0 : static_cast<double>((static_cast<long double>(s) - s0) / range);
       }
       double weights[2] = { 0, 0 };
-      if (emits)
+      double lit[3] = { 0, 0, 0 };
+      if (light)
+      {
+        const double from =
+          s0 == s1 ? 0.0 : static_cast<double>((static_cast<long double>(s) - s0) / range);
+        const LitPiece::Light ofPiece = [&](double x) { return light(from + x * share); };
+        LitPiece(piece, ofPiece).Integrate(lit);
+      }
+      else if (emits)
       {
         (absorbs ? IntegrateEmissionAbsorption : IntegrateEmission)(piece, weights);
       }
@@ -202,7 +314,8 @@ ReferenceSegment IntegrateReference(
       for (int channel = 0; channel < 3; ++channel)
       {
         result.Color[channel] += transmittance *
-          (weights[0] * piece.Begin.Color[channel] + weights[1] * piece.End.Color[channel]);
+          (lit[channel] + weights[0] * piece.Begin.Color[channel] +
+            weights[1] * piece.End.Color[channel]);
       }
       result.OpticalDepth += depth;
     }
@@ -215,6 +328,20 @@ ReferenceSegment IntegrateReference(
   }
   result.Alpha = absorbs ? -std::expm1(-result.OpticalDepth) : 0;
   return result;
+}
+
+} // namespace
+
+ReferenceSegment IntegrateReference(
+  const TransferFunction& function, double s0, double s1, double length, OpticalModel model)
+{
+  return IntegrateAny(function, s0, s1, length, model, {});
+}
+
+ReferenceSegment IntegrateLitReference(const TransferFunction& function, double s0, double s1,
+  double length, const std::function<ReferenceLight(double share)>& light)
+{
+  return IntegrateAny(function, s0, s1, length, OpticalModel::EmissionAbsorption, light);
 }
 
 TransferFunction::Value EvaluateReference(const TransferFunction& function, double s)

@@ -4,6 +4,9 @@
 
 #include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
+#include "ReferenceShading.h"
+
+#include <functional>
 
 namespace tetralux
 {
@@ -30,6 +33,12 @@ struct ReferenceSegment
 /// A constant scalar that equals a node's takes the node's Right value.
 ReferenceSegment IntegrateReference(const TransferFunction& function, double s0, double s1,
   double length, OpticalModel model = OpticalModel::EmissionAbsorption);
+
+/// The same of EmissionAbsorption under lights. light: at a share of the segment, 0..1; it may jump.
+/// Each interval of the quadrature is halved until both halves add what it did, to 1e-10, or it is
+/// 2^-40 long.
+ReferenceSegment IntegrateLitReference(const TransferFunction& function, double s0, double s1,
+  double length, const std::function<ReferenceLight(double share)>& light);
 
 /// The function at a scalar; at a node the Right value.
 TransferFunction::Value EvaluateReference(const TransferFunction& function, double s);

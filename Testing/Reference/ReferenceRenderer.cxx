@@ -536,11 +536,10 @@ struct RayResult
   double Depth = -1;
 };
 
-/// Emission and absorption, or one of them, front to back.
-/// light: of a part, or nullptr.
-template <class LightT>
+/// Emission and absorption, or one of them, front to back. integrate: a part.
+template <class IntegrateT>
 RayResult Integrate(
-  const ReferenceOptics& optics, const std::vector<SegmentPart>& parts, LightT light)
+  const ReferenceOptics& optics, const std::vector<SegmentPart>& parts, const IntegrateT& integrate)
 {
   const bool absorbs = optics.Model != OpticalModel::EmissionOnly;
   RayResult result;
@@ -548,14 +547,12 @@ RayResult Integrate(
   double opticalDepth = 0;
   for (const SegmentPart& part : parts)
   {
-    ReferenceSegment segment = IntegrateReference(
-      optics.Function, part.BeginScalar, part.EndScalar, part.Length, optics.Model);
+    const ReferenceSegment segment = integrate(part);
     if (segment.OpticalDepth > 0)
     {
       nearest = std::min(nearest, part.Begin + segment.FirstContribution * part.Length);
       result.Depth = static_cast<double>(nearest);
     }
-    light(part, segment);
     const double transmittance = absorbs ? std::exp(-opticalDepth) : 1;
     for (int channel = 0; channel < 3; ++channel)
     {
@@ -794,13 +791,12 @@ private:
         }
       }
     }
-    const auto light = [&](const SegmentPart& part, ReferenceSegment& ofPart)
-    { this->ShadePart(ray, part, ofPart); };
+    const auto integrate = [&](const SegmentPart& part) { return this->IntegratePart(ray, part); };
     const RayResult result = this->Optics.Model == OpticalModel::Isosurfaces
       ? this->CompositeSurfaces(ray, parts)
       : this->Optics.Model == OpticalModel::MaximumIntensity
       ? FindMaximum(this->Optics, parts)
-      : Integrate(this->Optics, parts, light);
+      : Integrate(this->Optics, parts, integrate);
     std::copy(result.Rgba, result.Rgba + 4, image.Rgba.begin() + 4 * pixel);
     image.Depth[pixel] = result.Depth;
   }
@@ -868,22 +864,22 @@ private:
       place.Normal, place.View);
   }
 
-  /// Lights what a part adds, where lights shine on volumes.
-  void ShadePart(const Ray& ray, const SegmentPart& part, ReferenceSegment& segment) const
+  ReferenceSegment IntegratePart(const Ray& ray, const SegmentPart& part) const
   {
+    const TransferFunction& function = this->Optics.Function;
     if (!this->Optics.Shaded || this->Optics.Model != OpticalModel::EmissionAbsorption ||
       this->Mesh.CellScalars)
     {
-      return;
+      return IntegrateReference(
+        function, part.BeginScalar, part.EndScalar, part.Length, this->Optics.Model);
     }
-    const Place place = this->GetPlace(ray, part.Begin + part.Length / 2, part.Cell);
-    const ReferenceLight light = FindReferenceLight(
-      this->Optics.Surface, this->Optics.Lights, place.Point, place.Normal, place.View);
-    for (int channel = 0; channel < 3; ++channel)
+    const auto light = [&](double share)
     {
-      segment.Color[channel] =
-        segment.Color[channel] * light.Scale[channel] + segment.Alpha * light.Add[channel];
-    }
+      const Place place = this->GetPlace(ray, part.Begin + share * part.Length, part.Cell);
+      return FindReferenceLight(
+        this->Optics.Surface, this->Optics.Lights, place.Point, place.Normal, place.View);
+    };
+    return IntegrateLitReference(function, part.BeginScalar, part.EndScalar, part.Length, light);
   }
 
   /// Where light falls, in the world.

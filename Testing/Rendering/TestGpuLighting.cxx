@@ -132,8 +132,8 @@ public:
   {
     const LightCases cases = this->MakeCases();
     tetralux::GpuLighting lighting;
-    lighting.Update(
-      this->Shading.Lights, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
+    lighting.Update(this->Shading.Lights, this->Shading.Surface, {}, this->Grid,
+      this->Center.data(), this->Radius);
     const std::string gradient = "vec3(" + std::to_string(this->Gradient[0]) + ", " +
       std::to_string(this->Gradient[1]) + ", " + std::to_string(this->Gradient[2]) + ")";
     double worst = 0;
@@ -216,7 +216,7 @@ TEST_F(GpuLightingTest, WithoutAGradientSurfacesFaceTheViewer)
 TEST_F(GpuLightingTest, NoLightsAreBlack)
 {
   tetralux::GpuLighting lighting;
-  lighting.Update({}, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
+  lighting.Update({}, this->Shading.Surface, {}, this->Grid, this->Center.data(), this->Radius);
   const std::vector<Result> results = this->Evaluator.Evaluate(lighting.GetDeclarations(),
     "vec4(FindLight(a.xyz, b.xyz, b.xyz).Scale + FindLight(a.xyz, b.xyz, b.xyz).Add, a.x)",
     { { 0.5f, 0, 0, 0, 0, 0, 1 } }, [&](vtkShaderProgram* program) { lighting.Set(program); });
@@ -229,7 +229,7 @@ TEST_F(GpuLightingTest, LitSegments)
   this->Shading.Lights = { MakeLight({ 0.6, 0, 0.8 }, false) };
   tetralux::GpuLighting lighting;
   lighting.Update(
-    this->Shading.Lights, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
+    this->Shading.Lights, this->Shading.Surface, {}, this->Grid, this->Center.data(), this->Radius);
   tetralux::TransferFunction function;
   function.Nodes = { { -1, { { 1, 0, 0.5 }, 0.5 }, { { 1, 0, 0.5 }, 0.5 } },
     { 1, { { 0, 1, 0.25 }, 2 }, { { 0, 1, 0.25 }, 2 } } };
@@ -281,7 +281,7 @@ TEST_F(GpuLightingTest, GradientsAndPlacesRunAlongASegment)
   this->Shading.Lights[0].Attenuation[2] = 0.1;
   tetralux::GpuLighting lighting;
   lighting.Update(
-    this->Shading.Lights, this->Shading.Surface, this->Grid, this->Center.data(), this->Radius);
+    this->Shading.Lights, this->Shading.Surface, {}, this->Grid, this->Center.data(), this->Radius);
   const LightCases cases = this->MakeCases();
   const std::vector<tetralux::Isosurface> surfaces = { { 0.25, { 1, 0.5f, 0.25f }, 1 } };
   tetralux::SegmentSource source;

@@ -15,14 +15,18 @@ template <class Check>
 void ForEachSpending(const Check& check)
 {
   constexpr double MaximumError = 1e-3;
-  for (int bits = 0; bits < 16; ++bits)
+  for (int bits = 0; bits < 32; ++bits)
   {
     const ErrorSpending spending{ (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0,
-      (bits & 8) != 0 };
+      (bits & 8) != 0, (bits & 16) != 0 };
+    if (spending.Tabulated && spending.LightVaries)
+    {
+      continue; // where light varies in cells no table is used
+    }
     const ErrorBudget budget = MakeErrorBudget(MaximumError, spending);
     check(spending, budget,
       (budget.Functions + budget.Geometry + budget.Rounding + budget.Termination + budget.Table +
-        budget.Buffer) /
+        budget.Buffer + budget.Light) /
         MaximumError);
   }
 }
@@ -37,7 +41,9 @@ TEST(ErrorBudget, SharesAddUpToWhatIsAllowed)
       {
         EXPECT_DOUBLE_EQ(sum, 1) << "what nobody else takes, rays that end early take";
       }
-      EXPECT_GE(std::min({ budget.Functions, budget.Termination, budget.Table, budget.Buffer }), 0);
+      EXPECT_GE(std::min({ budget.Functions, budget.Termination, budget.Table, budget.Buffer,
+                  budget.Light }),
+        0);
       EXPECT_GT(std::min(budget.Geometry, budget.Rounding), 0);
     });
 }
@@ -49,6 +55,7 @@ TEST(ErrorBudget, WhatIsNotSpentHasNoShare)
     {
       EXPECT_EQ(budget.Table > 0, spending.Tabulated);
       EXPECT_EQ(budget.Buffer > 0, spending.Buffered);
+      EXPECT_EQ(budget.Light > 0, spending.LightVaries);
       EXPECT_EQ(budget.Functions > 0, spending.Approximated);
       EXPECT_TRUE(spending.EndsEarly || budget.Termination == 0);
     });

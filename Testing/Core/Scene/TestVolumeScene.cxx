@@ -148,24 +148,26 @@ TEST(VolumeScene, IntegratorFollowsModelColourLightAndTable)
 {
   VolumeScene scene = MakeScene();
   scene.Prepare({});
-  EXPECT_EQ(ChooseIntegrator(scene, false), Integrator::OpticalDepth);
-  EXPECT_EQ(ChooseIntegrator(scene, true), Integrator::LitClosedForm);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::None), Integrator::OpticalDepth);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::Even), Integrator::LitClosedForm);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::Varying), Integrator::VaryingLight);
   TransferFunction colorful = MakeStep(0.5);
   colorful.Nodes.back().Left.Color[1] = 0;
   scene.Optics.SetTransferFunction(colorful);
   scene.Prepare({});
-  EXPECT_EQ(ChooseIntegrator(scene, false), Integrator::ClosedForm);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::None), Integrator::ClosedForm);
   scene.Optics.SetTable(std::make_shared<PreIntegrationTable>(), 0);
-  EXPECT_EQ(ChooseIntegrator(scene, false), Integrator::Table);
-  EXPECT_EQ(ChooseIntegrator(scene, true), Integrator::LitTable);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::None), Integrator::Table);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::Even), Integrator::LitTable);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::Varying), Integrator::VaryingLight);
   scene.Optics.SetModel(OpticalModel::EmissionOnly);
-  EXPECT_EQ(ChooseIntegrator(scene, true), Integrator::Emission);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::Varying), Integrator::Emission);
   scene.Optics.SetModel(OpticalModel::AbsorptionOnly);
-  EXPECT_EQ(ChooseIntegrator(scene, true), Integrator::OpticalDepth);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::Varying), Integrator::OpticalDepth);
   scene.Optics.SetModel(OpticalModel::MaximumIntensity);
-  EXPECT_EQ(ChooseIntegrator(scene, false), Integrator::Maximum);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::None), Integrator::Maximum);
   scene.Optics.SetModel(OpticalModel::Isosurfaces);
-  EXPECT_EQ(ChooseIntegrator(scene, true), Integrator::Isosurfaces);
+  EXPECT_EQ(ChooseIntegrator(scene, Lighting::Varying), Integrator::Isosurfaces);
 }
 
 /// A scene of rays whose points are moved, and the same scene made from the moved points.

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Optics/LightSteps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Largest third derivative of cos(x)^power by x; power of 1 or more.
+double BoundThirdDerivative(double power)
+{
+  // The power is nearly exp(-power x^2 / 2).
+  constexpr double OfGaussian = 1.4;
+  return power > 1 ? OfGaussian * power * std::sqrt(power) : 1;
+}
+
+} // namespace
+
+LightSteps FindLightSteps(const std::vector<Light>& lights, const Material& surface, double error)
+{
+  // Largest third derivatives by angle, and by the logarithm of a distance.
+  double byAngle = 0;
+  double byDistance = 0;
+  for (int c = 0; c < 3; ++c)
+  {
+    double turning = 0;
+    double approaching = 0;
+    for (const Light& light : lights)
+    {
+      const double diffuse = surface.Diffuse * light.Diffuse[c];
+      const double specular = surface.Specular * light.Specular[c];
+      turning += diffuse + specular * BoundThirdDerivative(surface.SpecularPower);
+      if (light.Positional && light.ConeCosine > -1)
+      {
+        turning += (diffuse + specular) * BoundThirdDerivative(light.Exponent);
+      }
+      if (light.Positional && (light.Attenuation[1] != 0 || light.Attenuation[2] != 0))
+      {
+        constexpr double OfInverseSquare = 24;
+        approaching += OfInverseSquare * (diffuse + specular);
+      }
+    }
+    byAngle = std::max(byAngle, turning);
+    byDistance = std::max(byDistance, approaching);
+  }
+  constexpr double OfChebyshevPoints = 192;
+  const auto find = [error](double derivative)
+  { return derivative > 0 ? std::min(1., std::cbrt(OfChebyshevPoints * error / derivative)) : 1; };
+  return { find(byAngle), find(byDistance) };
+}
+
+Lighting FindLighting(bool shaded, bool smoothShading, const std::vector<Light>& lights)
+{
+  if (!shaded)
+  {
+    return Lighting::None;
+  }
+  const bool positional =
+    std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.Positional; });
+  return smoothShading || positional ? Lighting::Varying : Lighting::Even;
+}
+
+} // namespace tetralux

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_LightSteps_h
+#define tetralux_LightSteps_h
+
+#include "Optics/OpticalModel.h"
+#include "TetraluxCoreModule.h"
+
+#include <vector>
+
+namespace tetralux
+{
+
+/// How far light may change on a part of a ray that is lit by a parabola; see LightAlongRay.h.
+struct LightSteps
+{
+  double Turn = 1;     ///< of a direction, radians, at most 1
+  double Approach = 1; ///< of a distance, as a share of it, at most 1
+};
+
+/// Steps with which the light of each part is off by at most an error, of a channel of what is lit.
+TETRALUXCORE_EXPORT LightSteps FindLightSteps(
+  const std::vector<Light>& lights, const Material& surface, double error);
+
+/// How lights change what rays gather.
+enum class Lighting
+{
+  None,   ///< not at all
+  Even,   ///< alike all along a ray's way through a cell: the light anywhere on it is exact
+  Varying ///< on the way through a cell, too
+};
+
+TETRALUXCORE_EXPORT Lighting FindLighting(
+  bool shaded, bool smoothShading, const std::vector<Light>& lights);
+
+/// Where in a part light is found, as shares of it: the Chebyshev points of three.
+constexpr double LightSamples[3] = { 0.06698729810778065, 0.5, 0.9330127018922194 };
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Emission and absorption of a segment under light that varies along it: RayCastVaryingLight.h,
+// which this follows. Needs SegmentWeightsDec.glsl, TransferIntervalsDec.glsl and
+// LightAlongRayDec.glsl.
+
+// There is always an end, whatever a compiler makes of the arithmetic.
+const int LargestNumberOfLightParts = 1024;
+
+// Shares of a segment that are nearer than this are one: half the shortest part.
+const float NearlyLightPart = 0.5 * ShortestPart;
+
+// Opacity behind which single precision keeps nothing.
+const float OpaqueLightPart = 1.0 - 1.0 / 16777216.0;
+
+// Light factors that are parabolas, x = (share - Begin) InverseLength - 1/2 from -1/2 to 1/2.
+struct LightPart
+{
+  float Begin, End, InverseLength;
+  LightFactors Middle, Slope, Bend;
+};
+
+LightPart MakeLightPart(LightPath path, float begin)
+{
+  LightPart part;
+  part.Begin = begin;
+  float end = FindLightEnd(path, begin);
+  float size = end - begin;
+  part.End = end < 1.0 ? end : 2.0; // no share comes there
+  part.InverseLength = 1.0 / size;
+  part.Middle = FindLightAt(path, begin + 0.5 * size);
+  LightFactors first = FindLightAt(path, begin + (0.5 - LightSampleReach) * size);
+  LightFactors last = FindLightAt(path, begin + (0.5 + LightSampleReach) * size);
+  float ofSlope = 0.5 / LightSampleReach;
+  float ofBend = 0.5 / (LightSampleReach * LightSampleReach);
+  part.Slope.Scale = ofSlope * (last.Scale - first.Scale);
+  part.Slope.Add = ofSlope * (last.Add - first.Add);
+  part.Bend.Scale =
+    ofBend * ((first.Scale - part.Middle.Scale) + (last.Scale - part.Middle.Scale));
+  part.Bend.Add = ofBend * ((first.Add - part.Middle.Add) + (last.Add - part.Middle.Add));
+  return part;
+}
+
+vec3 ApplyLight(LightPart part, float share, vec3 color)
+{
+  float x = (share - part.Begin) * part.InverseLength - 0.5;
+  return color * ((part.Bend.Scale * x + part.Slope.Scale) * x + part.Middle.Scale) +
+    ((part.Bend.Add * x + part.Slope.Add) * x + part.Middle.Add);
+}
+
+// As in SegmentIntegral.h.
+float FindBulgeShare(float d0, float d1)
+{
+  float depth = 0.5 * (d0 + d1);
+  float b = 0.5 * (d1 - d0);
+  return 0.66644458 + b * (0.06649459 + b * 0.00453237) +
+    depth * depth * (-0.01047766 - 0.00124714 * b);
+}
+
+vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradient,
+  vec3 backGradient, vec3 frontPoint, vec3 backPoint, vec3 direction)
+{
+  LightPath path =
+    MakeLightPath(frontGradient, backGradient, frontPoint, backPoint, direction);
+  float inverseLength = 1.0 / len;
+  LightPart light;
+  light.End = -1.0;
+  vec4 gathered = vec4(0.0);
+  SegmentWalk walk = StartWalk(front, back, len);
+  do
+  {
+    float before = walk.Length;
+    Piece piece = TakePiece(walk);
+    float segmentBegin = 1.0 - before * inverseLength;
+    float segmentLength = (before - walk.Length) * inverseLength;
+    float slope = piece.BackDepth - piece.FrontDepth;
+    float begin = 0.0;  // as a share of the piece
+    float hidden = 0.0; // opacity of the piece up to there
+    bool more = piece.FrontDepth + piece.BackDepth > 0.0;
+    for (int part = 0; more && part < LargestNumberOfLightParts; ++part)
+    {
+      float share = segmentBegin + begin * segmentLength;
+      if (light.End <= share + NearlyLightPart)
+      {
+        light = MakeLightPart(path, share);
+      }
+      // Up to the end of the part, and no further than the weights of thin segments reach.
+      float frontAttenuation = piece.FrontDepth + slope * begin;
+      float end = 1.0;
+#ifndef ONLY_THIN_SEGMENTS
+      float root =
+        sqrt(max(0.0, frontAttenuation * frontAttenuation + 2.0 * ThinDepth * slope));
+      bool thick = 2.0 * ThinDepth < (frontAttenuation + piece.BackDepth) * (1.0 - begin);
+      end = thick ? begin + 2.0 * ThinDepth / (frontAttenuation + root) : end;
+#endif
+      float ofPart = segmentLength > 0.0 ? (light.End - segmentBegin) / segmentLength : 1.0;
+      end = min(end, max(begin, ofPart));
+      bool last = end >= 1.0;
+      float frontDepth = frontAttenuation * (end - begin);
+      float backDepth = (last ? piece.BackDepth : piece.FrontDepth + slope * end) * (end - begin);
+      vec2 weights = WeighThinSegment(frontDepth, backDepth);
+      float opacity = weights.x + weights.y;
+      float ofBulge = FindBulgeShare(frontDepth, backDepth) * opacity;
+      float middle = 0.5 * (begin + end);
+      vec3 frontColor =
+        ApplyLight(light, share, mix(piece.FrontColor, piece.BackColor, begin));
+      vec3 backColor = ApplyLight(light, segmentBegin + end * segmentLength,
+        mix(piece.FrontColor, piece.BackColor, end));
+      vec3 middleColor = ApplyLight(light, segmentBegin + middle * segmentLength,
+        mix(piece.FrontColor, piece.BackColor, middle));
+      vec3 bulge = middleColor - 0.5 * (frontColor + backColor);
+      vec3 color = weights.x * frontColor + weights.y * backColor + ofBulge * bulge;
+      gathered += (1.0 - gathered.a) * vec4(color, opacity);
+      hidden += (1.0 - hidden) * opacity;
+      begin = end;
+      more = !last && hidden <= OpaqueLightPart;
+    }
+  } while (walk.More);
+  return gathered;
+}
