@@ -338,7 +338,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   tetralux::SceneNeeds needs;
   needs.SinglePoints = true;
   needs.LongestEdge = true;
-  needs.Gradients = frame.Shaded && frame.Settings.SmoothShading;
+  needs.PointGradients = frame.Shaded && frame.Settings.SmoothShading;
   scene.Prepare(needs);
   this->Mesh.ResetUploadedBytes();
   const bool directed = reentry == GpuReentry::Boundary;
@@ -373,7 +373,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
   this->Mesh.UpdatePoints(frame.Window, { points, numberOfPoints },
     tetralux::CacheKey::Of(scene.GetPointsVersion(), numberOfPoints));
 
-  if (needs.Gradients)
+  if (needs.PointGradients)
   {
     this->Mesh.UpdateGradients(frame.Window, scene.Mesh.GetPointGradients(),
       tetralux::CacheKey::Of(pointsVersion, scene.Mesh.GetScalarsVersion(), numberOfPoints));

@@ -234,7 +234,7 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   tetralux::SceneNeeds needs;
   needs.VisibleCells = true;
   needs.LongestEdge = true;
-  needs.Gradients = frame.Shaded && frame.Settings.SmoothShading;
+  needs.PointGradients = frame.Shaded && frame.Settings.SmoothShading;
   volume.Prepare(needs);
   const tetralux::WalkMesh& mesh = *volume.Mesh.GetMesh();
   const tetralux::TetrahedralMesh& tetrahedra = mesh.GetMesh();

@@ -32,7 +32,7 @@
 // to 1e12 and for every ratio of D0 and D1). RayIntegral.h has the same in double precision.
 
 #include "Integral/SegmentWeightError.h"
-#include "Simd/Lanes.h"
+#include "Simd/LaneFunctions.h"
 
 namespace tetralux
 {
@@ -47,21 +47,6 @@ namespace TETRALUX_ISA
 /// Optical depth up to which the power series is used. Its error is 1.3e-7 of the opacity there,
 /// and the thick forms, whose functions are less exact, are divided by no less than 0.78.
 constexpr float ThinDepth = 1.5f;
-
-/// exp(-x) for x >= 0, relative error 2e-7; 0 from x = 87 (below the normal numbers).
-TETRALUX_INLINE Float8 ExpMinus(Float8 x)
-{
-  static constexpr float c[] = { 1.f, -1.f, 1.f / 2, -1.f / 6, 1.f / 24, -1.f / 120, 1.f / 720,
-    -1.f / 5040 };
-  const Float8 bounded = Min(x, Float8(87.f));
-  const Int8 n = RoundToInt(bounded * Float8(1.44269504f)); // 1 / ln 2
-  const Float8 nf = ToFloat(n);
-  // ln 2 in two parts, the first short enough for n * part to be exact.
-  Float8 r = Fma(nf, Float8(-0.693359375f), bounded);
-  r = Fma(nf, Float8(2.12194440e-4f), r);
-  const Float8 power = FromBits(ShiftLeft(Int8(127) - n, 23)); // 2^-n
-  return Keep(x < Float8(87.f), Polynomial(r, c) * power);
-}
 
 /// exp(x^2) erfc(x) for x >= 0, relative error 3e-7: a polynomial in (x - 2) / (x + 2) over 1 + 2 x
 /// (the form of Shepherd and Laframboise 1981, fitted anew for single precision).

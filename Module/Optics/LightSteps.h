@@ -10,7 +10,7 @@
 namespace tetralux
 {
 
-/// How far light may change on a part of a ray that is lit by a parabola; see LightAlongRay.h.
+/// How far light may change on a part of a ray that is lit by a parabola; see RayCastLightParts.h.
 struct LightSteps
 {
   double Turn = 1;     ///< of a direction, radians, at most 1

@@ -88,7 +88,7 @@ void FindGradients(const CellData& data, Span<const ScreenPoint> points, const s
   {
     if (data.Gradients == CellData::Gradient::Points)
     {
-      const PointGradient& gradient = data.PointGradients[cell[i]];
+      const GradientRow& gradient = data.PointGradients[cell[i]];
       gradients[i][0] = gradient.X;
       gradients[i][1] = gradient.Y;
       gradients[i][2] = gradient.Z;

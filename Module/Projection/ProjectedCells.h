@@ -6,7 +6,7 @@
 // graphics card.
 
 #include "Base/Span.h"
-#include "Mesh/PointGradients.h"
+#include "Mesh/Gradients.h"
 #include "Projection/CellProjection.h"
 #include "Projection/FaceScalar.h"
 #include "Projection/ProjectionSettings.h"
@@ -88,7 +88,7 @@ struct CellData
     Points ///< interpolated between points
   };
   Gradient Gradients = Gradient::None;
-  Span<const PointGradient> PointGradients;
+  Span<const GradientRow> PointGradients;
   Span<const double> Coordinates; ///< of the points, three each: for gradients of cells
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCast/KernelInput.h"
 
+#include "Optics/LightSteps.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -67,6 +69,69 @@ void FillTable(const PreIntegrationTable& table, const float* texels, OwningKern
   in.Table = &in.Lookup;
 }
 
+KernelLight MakeLight(const Light& light, const Material& surface, double unit)
+{
+  KernelLight result;
+  result.Positional = light.Positional;
+  result.IsSpot = light.Positional && light.ConeCosine > -1;
+  result.Fades = light.Positional && (light.Attenuation[1] != 0 || light.Attenuation[2] != 0);
+  double power = 1; // of the unit
+  for (int a = 0; a < 3; ++a)
+  {
+    result.Position[a] = light.Position[a];
+    result.Axis[a] = static_cast<float>(light.Axis[a]);
+    result.Falloff[a] = static_cast<float>(power * light.Attenuation[a]);
+    result.Ambient[a] = surface.Ambient * light.Ambient[a];
+    result.Diffuse[a] = surface.Diffuse * light.Diffuse[a];
+    result.Specular[a] = surface.Specular * light.Specular[a];
+    power *= unit;
+  }
+  result.ConeCosine = static_cast<float>(light.ConeCosine);
+  result.Exponent = static_cast<float>(light.Exponent);
+  return result;
+}
+
+void FillLighting(const VolumeScene& scene, const RayGrid& grid, const RayCastOptions& options,
+  const CastChoices& choices, OwningKernelInput& in)
+{
+  KernelLighting& lighting = in.Light;
+  const std::vector<GradientRow>& gradients =
+    choices.SmoothShading ? scene.Mesh.GetPointGradients() : scene.Mesh.GetCellGradients();
+  lighting.Gradients = gradients.data();
+  lighting.NumberOfGradients = static_cast<std::int32_t>(gradients.size());
+  lighting.OfPoints = choices.SmoothShading;
+  double largest = 0;
+  for (const auto& row : grid.MeshFromWorld)
+  {
+    largest = std::max({ largest, std::abs(row[0]), std::abs(row[1]), std::abs(row[2]) });
+  }
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      // Gradients are transformed by the transpose of what takes positions into the mesh.
+      lighting.NormalFromMesh[column][row] =
+        static_cast<float>(grid.MeshFromWorld[row][column] / largest);
+    }
+  }
+  lighting.Unit = choices.WorldRadius;
+  const LightSteps steps = FindLightSteps(options.Lights, options.Surface, choices.LightError);
+  lighting.TurnTangent = static_cast<float>(std::tan(steps.Turn));
+  lighting.Approach = static_cast<float>(steps.Approach);
+  lighting.SpecularPower = options.Surface.SpecularPower;
+  for (const Light& light : options.Lights)
+  {
+    in.Lights.push_back(MakeLight(light, options.Surface, lighting.Unit));
+    for (const float specular : in.Lights.back().Specular)
+    {
+      lighting.Shines = lighting.Shines || specular != 0;
+    }
+  }
+  lighting.Lights = in.Lights.data();
+  lighting.NumberOfLights = static_cast<int>(in.Lights.size());
+  in.Lighting = &lighting;
+}
+
 void FillRays(const RayGrid& grid, const RayLimits& limits, KernelInput& in)
 {
   in.Grid = &grid;
@@ -101,13 +166,9 @@ void FillKernelInput(const VolumeScene& scene, const RayGrid& grid, const RayLim
   FillSurfaces(
     choices.Method == Integrator::Isosurfaces ? optics.GetIsosurfaces() : std::vector<Isosurface>(),
     scene.GetScalarMap(), in);
-  if (options.Shaded)
+  if (choices.Lit)
   {
-    in.Light = { &mesh.GetMesh(), scene.Mesh.GetScalars().data(),
-      choices.SmoothShading ? scene.Mesh.GetPointGradients().data() : nullptr, grid.MeshFromWorld,
-      options.Lights, options.Surface,
-      FindLightSteps(options.Lights, options.Surface, choices.LightError) };
-    in.Shading = &in.Light;
+    FillLighting(scene, grid, options, choices, in);
   }
   if (IsTabulated(choices.Method))
   {

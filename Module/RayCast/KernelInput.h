@@ -19,7 +19,8 @@ struct CastChoices
 {
   Integrator Method = Integrator::ClosedForm;
   bool CellData = false;      ///< scalars are at cells
-  bool SmoothShading = false; ///< what is lit is lit by gradients of points
+  bool Lit = false;           ///< lights shine on what rays gather
+  bool SmoothShading = false; ///< by gradients of points; else of cells
   bool DoublePrecision = false;
   double WorldRadius = 0;             ///< of the mesh, where the world stretches it most
   double LightError = 0;              ///< of light that varies in cells
@@ -32,7 +33,8 @@ struct OwningKernelInput : KernelInput
 {
   std::vector<std::array<float, 2>> NeighborsOfSurfaces;
   std::vector<float> ColorsOfSurfaces;
-  SurfaceShading Light{};
+  KernelLighting Light{};
+  std::vector<KernelLight> Lights;
   KernelTable Lookup{};
 
   OwningKernelInput()

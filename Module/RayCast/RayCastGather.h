@@ -10,6 +10,8 @@
 //   GetColors    returns red, green, blue and opacity of each ray, at its end
 //   NeedsLength  whether a cell adds nothing if the ray has no length in it. Rounding makes such
 //                cells, and a surface between their scalars must not be lost.
+//   NeedsGradients  whether the gradients on a cell's faces are told before it is added:
+//   EnterCell    the distances z of both faces, and the gradients there
 //   First        distance z to the ray's first contribution, or infinity
 
 #include "RayCast/RayCastFrame.h"
@@ -69,6 +71,7 @@ class GatheredModel
 public:
   using V = LanesOfReal<Real>;
   static constexpr bool NeedsLength = true;
+  static constexpr bool NeedsGradients = false;
   FirstContribution<Real> First;
 
   GatheredModel(const WorldRays& rays, Double8 start)

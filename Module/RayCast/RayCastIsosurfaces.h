@@ -4,7 +4,7 @@
 
 // Surfaces of constant scalar.
 
-#include "RayCast/RayCastLight.h"
+#include "RayCast/RayCastRadiance.h"
 
 #include <cstdint>
 
@@ -28,6 +28,7 @@ class Isosurfaces : public GatheredModel<Real, Unlit, Isosurfaces<Real>>
 public:
   using V = LanesOfReal<Real>;
   static constexpr bool NeedsLength = false;
+  static constexpr bool NeedsGradients = true;
 
   Isosurfaces(const WorldRays& rays, Double8 start)
     : GatheredModel<Real, Unlit, Isosurfaces>(rays, start)
@@ -35,8 +36,17 @@ public:
   {
   }
 
-  TETRALUX_INLINE void AddSegment(
-    const KernelInput& in, Mask8 valid, Int8 cell, V z0, V s0, V z1, V s1)
+  /// Where surfaces are lit.
+  TETRALUX_INLINE void EnterCell(
+    V near, V far, const LaneVector& nearGradient, const LaneVector& farGradient)
+  {
+    this->Near = near;
+    this->Far = far;
+    this->NearGradient = nearGradient;
+    this->FarGradient = farGradient;
+  }
+
+  TETRALUX_INLINE void AddSegment(const KernelInput& in, Mask8 valid, Int8, V z0, V s0, V z1, V s1)
   {
     const Mask8 settled = valid & this->IsWaiting() &
       (this->WaitingDistance + V(static_cast<Real>(in.DistanceRounding)) < z0);
@@ -70,7 +80,7 @@ public:
       }
       const V value = Select(up, upper, lower);
       const V z = Fma((value - s0) / (s1 - s0), z1 - z0, z0);
-      this->Cross(in, valid, up, cell, z);
+      this->Cross(in, valid, up, z);
       this->Index = this->Index + Ones(up) - Ones(down);
       this->LoadNeighbors(in, below, above);
     }
@@ -99,7 +109,7 @@ private:
   // Surfaces are crossed seldom: calls keep the step of a packet short.
 
   /// Upwards through the surface above the scalar, or downwards through the one below.
-  TETRALUX_NOINLINE void Cross(const KernelInput& in, Mask8 valid, Mask8 up, Int8 cell, V z)
+  TETRALUX_NOINLINE void Cross(const KernelInput& in, Mask8 valid, Mask8 up, V z)
   {
     const Int8 surface = this->Index - Ones(AndNot(valid, up));
     const Mask8 back = valid & (this->WaitingSurface == surface) &
@@ -110,7 +120,14 @@ private:
       this->Settle(in, settled);
     }
     this->WaitingSurface = Select(valid, Select(back, Int8(-1), surface), this->WaitingSurface);
-    this->WaitingCell = Select(valid, cell, this->WaitingCell);
+    if (in.Lighting)
+    {
+      const V share = (z - this->Near) / (this->Far - this->Near);
+      const Float8 inside = Min(Max(Float8(0.f), ToFloat(share)), Float8(1.f));
+      this->WaitingGradient =
+        Select(valid, Fma(this->FarGradient - this->NearGradient, inside, this->NearGradient),
+          this->WaitingGradient);
+    }
     this->WaitingDistance = Select(valid, z, this->WaitingDistance);
   }
 
@@ -121,13 +138,16 @@ private:
     TETRALUX_CHECK(AreBelow(lanes, surface, in.NumberOfSurfaces));
     Float8 color[3], opacity;
     GatherRows(in.SurfaceColors, surface, color[0], color[1], color[2], opacity);
-    if (in.Shading)
+    if (in.Lighting)
     {
-      Float8 scale[3], add[3];
-      this->Lights.Find(in, lanes, this->WaitingCell, this->WaitingDistance, scale, add);
+      const Float8 scale = LaneLights::GetScale(this->WaitingGradient);
+      const LaneFactors factors = this->Lights.Find(*in.Lighting,
+        LaneLights::ToWorld(*in.Lighting, this->WaitingGradient * scale),
+        Widen(this->WaitingDistance));
+      const LaneVector lit = factors.Apply({ { color[0], color[1], color[2] } });
       for (int c = 0; c < 3; ++c)
       {
-        color[c] = Min(Max(Float8(0.f), Fma(color[c], scale[c], add[c])), Float8(1.f));
+        color[c] = Min(Max(Float8(0.f), lit.C[c]), Float8(1.f));
       }
     }
     this->Gathered.Add(lanes, color[0] * opacity, color[1] * opacity, color[2] * opacity, opacity);
@@ -138,8 +158,12 @@ private:
   LaneLights Lights;
   Int8 Index = 0;           ///< number of surfaces whose value is at most the last scalar
   Int8 WaitingSurface = -1; ///< of the crossing that waits; -1: none does
-  Int8 WaitingCell = 0;
   V WaitingDistance = Real(0);
+  LaneVector WaitingGradient = { { 0.f, 0.f, 0.f } };
+
+  // The cell.
+  V Near = Real(0), Far = Real(0);
+  LaneVector NearGradient, FarGradient;
 };
 
 } // namespace

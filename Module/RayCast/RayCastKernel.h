@@ -7,9 +7,9 @@
 
 #include "Hierarchy/BoundaryBvh.h"
 #include "Integral/Integrator.h"
+#include "Mesh/Gradients.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
-#include "Optics/SurfaceShading.h"
 #include "PreIntegration/PreIntegrationTable.h"
 #include "Simd/LaneCount.h"
 #include "View/RayGrid.h"
@@ -43,6 +43,39 @@ struct KernelTable
   float InverseDelta;
 };
 
+/// A light, with the material's coefficients multiplied in.
+struct KernelLight
+{
+  bool Positional;
+  bool IsSpot;
+  bool Fades;         ///< with distance
+  double Position[3]; ///< in the world; of a distant light the direction to it
+  float Axis[3];
+  float ConeCosine;
+  float Exponent;
+  float Falloff[3]; ///< coefficients of the distance, in KernelLighting::Unit
+  float Ambient[3];
+  float Diffuse[3];
+  float Specular[3];
+};
+
+/// What lights what rays gather.
+struct KernelLighting
+{
+  /// Of points, to be interpolated, or of cells; in coordinates of the mesh.
+  const GradientRow* Gradients;
+  std::int32_t NumberOfGradients;
+  bool OfPoints;
+  float NormalFromMesh[3][3]; ///< takes gradients to the world, times any factor
+  const KernelLight* Lights;
+  int NumberOfLights;
+  bool Shines; ///< any highlights
+  float SpecularPower;
+  double Unit;       ///< world length of about the mesh's radius
+  float TurnTangent; ///< of LightSteps::Turn
+  float Approach;    ///< LightSteps::Approach
+};
+
 struct KernelInput
 {
   // The mesh. Points: WalkPoint<Real> of the kernel's Real.
@@ -70,10 +103,10 @@ struct KernelInput
   /// Values of surfaces i - 1 and i, for i from 0 up to their number.
   const std::array<float, 2>* SurfaceNeighbors;
   int NumberOfSurfaces;
-  const float* SurfaceColors;    ///< red, green, blue, opacity of each surface, ascending in value
-  const KernelTable* Table;      ///< of Integrator::Table
-  const SurfaceShading* Shading; ///< of lit integrators; of isosurfaces nullptr where they are flat
-  double DistanceRounding;       ///< what distances along rays may be off by, in world units
+  const float* SurfaceColors;     ///< red, green, blue, opacity of each surface, ascending in value
+  const KernelTable* Table;       ///< of Integrator::Table
+  const KernelLighting* Lighting; ///< of lit integrators; nullptr where isosurfaces are not lit
+  double DistanceRounding;        ///< what distances along rays may be off by, in world units
 
   // The scene.
   const RayGrid* Grid;

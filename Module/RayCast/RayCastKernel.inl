@@ -168,6 +168,13 @@ private:
         sTo = Select(this->Far < zFar, Fma((zTo - zNear) / dz, ds, sNear), sFar);
       }
     }
+    if constexpr (Model::NeedsGradients)
+    {
+      if (this->In.Lighting)
+      {
+        this->EnterCell(z0, z1, backward);
+      }
+    }
     if constexpr (CellData)
     {
       // Imaginary cells have no values. Every lane loads some.
@@ -190,6 +197,34 @@ private:
     {
       this->Leave(outside, outsideBits, opaqueBits | this->KeepDone(pastBits));
     }
+  }
+
+  /// Tells the gradients on the faces of the cells of the last Walk.
+  TETRALUX_INLINE void EnterCell(V z0, V z1, Mask8 backward)
+  {
+    const KernelLighting& lighting = *this->In.Lighting;
+    if (!lighting.OfPoints)
+    {
+      const LaneVector gradient = LoadGradient(lighting, this->CellBefore);
+      this->Gathered.EnterCell(Min(z0, z1), Max(z0, z1), gradient, gradient);
+      return;
+    }
+    const LaneVector gradient0 = this->Gradient;
+    this->InterpolateGradient();
+    this->Gathered.EnterCell(Min(z0, z1), Max(z0, z1), Select(backward, this->Gradient, gradient0),
+      Select(backward, gradient0, this->Gradient));
+  }
+
+  /// The gradient where each ray goes through its triangle.
+  TETRALUX_INLINE void InterpolateGradient()
+  {
+    const KernelLighting& lighting = *this->In.Lighting;
+    const V scale = V(Real(1)) / (this->WA + this->WB + this->WC);
+    const Float8 b = ToFloat(this->WB * scale);
+    const Float8 c = ToFloat(this->WC * scale);
+    const LaneVector a = LoadGradient(lighting, this->A.Id);
+    this->Gradient = Fma(
+      LoadGradient(lighting, this->B.Id) - a, b, Fma(LoadGradient(lighting, this->C.Id) - a, c, a));
   }
 
   /// Of rays past their end those that meet no cells before it that they have still to enter: cells
@@ -374,6 +409,13 @@ private:
     this->Cell = Select(start, LoadInt8(cells), this->Cell);
     this->Point = Select(start, LoadInt8(opposites), this->Point);
     this->Interpolate();
+    if constexpr (Model::NeedsGradients)
+    {
+      if (this->In.Lighting && this->In.Lighting->OfPoints)
+      {
+        this->InterpolateGradient();
+      }
+    }
     this->Running |= lanes;
   }
 
@@ -463,6 +505,7 @@ private:
   Corner<Real> A, B, C;
   V WA, WB, WC; ///< weights of the corners at the ray, twice the areas across; not normalised
   V Z, S;       ///< distance and scalar there
+  LaneVector Gradient; ///< there, in coordinates of the mesh, where the model needs it
   Int8 Cell, CellBefore;
   Int8 Point; ///< the cell's fourth point
 

@@ -2,12 +2,13 @@
 #ifndef tetralux_RayCastLight_h
 #define tetralux_RayCastLight_h
 
-// Light that rays gather front to back, and the lights that shine on what they meet.
+// Lights that shine on what the rays of a packet meet: ambient and diffuse light times the colour,
+// and Blinn's specular light, as in VTK's mappers of volumes. The normal is the gradient of the
+// scalar, of the cell or interpolated between those of points, turned to the viewer; what has no
+// gradient faces the viewer.
 
-#include "Optics/SurfaceShading.h"
 #include "RayCast/RayCastGather.h"
-
-#include <cstdint>
+#include "Simd/LaneFunctions.h"
 
 namespace tetralux
 {
@@ -16,38 +17,68 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Light composited front to back. It adds opacities rather than multiplying transmittances, so
-/// that segments count even if they are too thin for 1 - opacity to differ from 1 in single
-/// precision.
-struct Radiance
+/// A vector, or a colour, in each lane.
+struct LaneVector
 {
-  Float8 Red = 0.f, Green = 0.f, Blue = 0.f;
-  Float8 Opacity = 0.f;
+  Float8 C[3];
 
-  TETRALUX_INLINE void Add(Mask8 valid, Float8 red, Float8 green, Float8 blue, Float8 opacity)
+  TETRALUX_INLINE LaneVector operator+(const LaneVector& b) const
   {
-    const Float8 transmittance = Float8(1.f) - this->Opacity;
-    this->Red = Fma(transmittance, Keep(valid, red), this->Red);
-    this->Green = Fma(transmittance, Keep(valid, green), this->Green);
-    this->Blue = Fma(transmittance, Keep(valid, blue), this->Blue);
-    this->Opacity = Fma(transmittance, Keep(valid, opacity), this->Opacity);
+    return { { this->C[0] + b.C[0], this->C[1] + b.C[1], this->C[2] + b.C[2] } };
   }
-
-  TETRALUX_INLINE Mask8 IsDone(const KernelInput& in) const
+  TETRALUX_INLINE LaneVector operator-(const LaneVector& b) const
   {
-    return Float8(in.MaximumOpacity) <= this->Opacity;
+    return { { this->C[0] - b.C[0], this->C[1] - b.C[1], this->C[2] - b.C[2] } };
   }
-
-  TETRALUX_INLINE void GetColors(const KernelInput&, ColorsOfLanes& colors) const
+  TETRALUX_INLINE LaneVector operator*(Float8 s) const
   {
-    Store(colors[0], this->Red);
-    Store(colors[1], this->Green);
-    Store(colors[2], this->Blue);
-    Store(colors[3], this->Opacity);
+    return { { this->C[0] * s, this->C[1] * s, this->C[2] * s } };
   }
 };
 
-/// The light where the rays of a packet are. Computed ray by ray, since lights are mostly branches.
+TETRALUX_INLINE Float8 Dot(const LaneVector& a, const LaneVector& b)
+{
+  return Fma(a.C[0], b.C[0], Fma(a.C[1], b.C[1], a.C[2] * b.C[2]));
+}
+
+TETRALUX_INLINE LaneVector Select(Mask8 m, const LaneVector& a, const LaneVector& b)
+{
+  return { { Select(m, a.C[0], b.C[0]), Select(m, a.C[1], b.C[1]), Select(m, a.C[2], b.C[2]) } };
+}
+
+TETRALUX_INLINE LaneVector Fma(const LaneVector& a, Float8 s, const LaneVector& b)
+{
+  return { { Fma(a.C[0], s, b.C[0]), Fma(a.C[1], s, b.C[1]), Fma(a.C[2], s, b.C[2]) } };
+}
+
+TETRALUX_INLINE LaneVector Broadcast(const float (&v)[3]) { return { { v[0], v[1], v[2] } }; }
+
+/// What lights make of a colour: color Scale + Add.
+struct LaneFactors
+{
+  LaneVector Scale; ///< ambient and diffuse light
+  LaneVector Add;   ///< specular light
+
+  TETRALUX_INLINE LaneVector Apply(const LaneVector& color) const
+  {
+    return { { Fma(color.C[0], this->Scale.C[0], this->Add.C[0]),
+      Fma(color.C[1], this->Scale.C[1], this->Add.C[1]),
+      Fma(color.C[2], this->Scale.C[2], this->Add.C[2]) } };
+  }
+};
+
+/// The gradient of points or cells, in coordinates of the mesh.
+TETRALUX_INLINE LaneVector LoadGradient(const KernelLighting& lighting, Int8 id)
+{
+  // Points of imaginary cells have none.
+  const Int8 row = Select(Int8(lighting.NumberOfGradients) > id, id, Int8(0));
+  LaneVector gradient;
+  Float8 unused;
+  GatherRows(&lighting.Gradients->X, row, gradient.C[0], gradient.C[1], gradient.C[2], unused);
+  return gradient;
+}
+
+/// The lights as some rays meet them.
 class LaneLights
 {
 public:
@@ -55,91 +86,117 @@ public:
     : Rays(rays)
     , Start(start)
   {
+    for (int a = 0; a < 3; ++a)
+    {
+      this->View.C[a] = ToFloat(rays.Direction[a]);
+    }
   }
 
-  /// Returns LightFactors (scale, add) of the valid rays, in their cells at distance z.
-  template <class V>
-  TETRALUX_NOINLINE void Find(
-    const KernelInput& in, Mask8 valid, Int8 cell, V z, Float8 (&scale)[3], Float8 (&add)[3]) const
+  /// From the viewer, of length 1.
+  const LaneVector& GetView() const { return this->View; }
+
+  /// From where the rays are at distance z to a positional light, in units of KernelLighting.
+  TETRALUX_INLINE LaneVector GetWayToLight(
+    const KernelLighting& lighting, const KernelLight& light, Double8 z) const
   {
-    std::int32_t cells[LaneCount];
-    double distances[LaneCount], origins[3][LaneCount], directions[3][LaneCount];
-    float scales[3][LaneCount] = {}, adds[3][LaneCount] = {};
-    Store(cells, cell);
-    Store(distances, this->Start + Widen(z));
+    const Double8 distance = this->Start + z;
+    LaneVector way;
     for (int a = 0; a < 3; ++a)
     {
-      Store(origins[a], this->Rays.Origin[a]);
-      Store(directions[a], this->Rays.Direction[a]);
+      const Double8 position = Fma(distance, this->Rays.Direction[a], this->Rays.Origin[a]);
+      way.C[a] = ToFloat((Double8(light.Position[a]) - position) * Double8(1 / lighting.Unit));
     }
-    const unsigned bits = Bits(valid);
-    for (int i = 0; i < LaneCount; ++i)
-    {
-      if (!((bits >> i) & 1u))
-      {
-        continue;
-      }
-      const double direction[3] = { directions[0][i], directions[1][i], directions[2][i] };
-      double position[3];
-      for (int a = 0; a < 3; ++a)
-      {
-        position[a] = origins[a][i] + distances[i] * direction[a];
-      }
-      const LightFactors factors = FindLight(*in.Shading, cells[i], position, direction);
-      for (int a = 0; a < 3; ++a)
-      {
-        scales[a][i] = factors.Scale[a];
-        adds[a][i] = factors.Add[a];
-      }
-    }
+    return way;
+  }
+
+  /// Returns a gradient in the world, of any length.
+  static TETRALUX_INLINE LaneVector ToWorld(
+    const KernelLighting& lighting, const LaneVector& gradient)
+  {
+    LaneVector world;
     for (int a = 0; a < 3; ++a)
     {
-      scale[a] = LoadFloat8(scales[a]);
-      add[a] = LoadFloat8(adds[a]);
+      world.C[a] = Dot(Broadcast(lighting.NormalFromMesh[a]), gradient);
     }
+    return world;
+  }
+
+  /// Gradients about 1 long, whose squares are in any range. 0 where there is none.
+  static TETRALUX_INLINE Float8 GetScale(const LaneVector& gradient)
+  {
+    const Float8 largest = Max(Max(Abs(gradient.C[0]), Abs(gradient.C[1])), Abs(gradient.C[2]));
+    return Keep(Float8(0.f) < largest, Float8(1.f) / largest);
+  }
+
+  /// The light at distance z. gradient: in the world, not beyond the range of squares.
+  TETRALUX_NOINLINE LaneFactors Find(
+    const KernelLighting& lighting, const LaneVector& gradient, Double8 z) const
+  {
+    const Float8 zero = 0.f;
+    const Float8 one = 1.f;
+    const Float8 steepness = Dot(gradient, gradient);
+    const Mask8 known = zero < steepness;
+    LaneVector normal =
+      Select(known, gradient * (one / Sqrt(steepness)), this->View * Float8(-1.f));
+    normal = Select(zero < Dot(normal, this->View), normal * Float8(-1.f), normal);
+    LaneFactors factors = { { { zero, zero, zero } }, { { zero, zero, zero } } };
+    for (int i = 0; i < lighting.NumberOfLights; ++i)
+    {
+      const KernelLight& light = lighting.Lights[i];
+      LaneVector toLight;
+      Float8 share = one;
+      if (light.Positional)
+      {
+        const LaneVector way = this->GetWayToLight(lighting, light, z);
+        const Float8 squared = Dot(way, way);
+        const Float8 distance = Sqrt(squared);
+        const Mask8 apart = zero < distance;
+        toLight = way * Keep(apart, one / distance);
+        share = Keep(apart,
+          one /
+            Fma(Float8(light.Falloff[2]), squared,
+              Fma(Float8(light.Falloff[1]), distance, Float8(light.Falloff[0]))));
+        if (light.IsSpot)
+        {
+          const Float8 cosine = zero - Dot(toLight, Broadcast(light.Axis));
+          share =
+            share * Keep(Float8(light.ConeCosine) <= cosine, Power(cosine, Float8(light.Exponent)));
+        }
+      }
+      else
+      {
+        toLight = { { static_cast<float>(light.Position[0]), static_cast<float>(light.Position[1]),
+          static_cast<float>(light.Position[2]) } };
+      }
+      const Float8 cosine = Dot(normal, toLight);
+      const Mask8 faces = zero < cosine;
+      const Float8 diffuse = Keep(faces, share * cosine);
+      for (int c = 0; c < 3; ++c)
+      {
+        factors.Scale.C[c] =
+          factors.Scale.C[c] + Fma(diffuse, Float8(light.Diffuse[c]), Float8(light.Ambient[c]));
+      }
+      if (lighting.Shines && Any(faces))
+      {
+        // Blinn's halfway vector between the light and the viewer.
+        const LaneVector halfway = toLight - this->View;
+        const Float8 length2 = Dot(halfway, halfway);
+        const Float8 cosineOfHalf = Dot(normal, halfway) / Sqrt(length2);
+        const Float8 specular = Keep(
+          faces & (zero < length2), share * Power(cosineOfHalf, Float8(lighting.SpecularPower)));
+        for (int c = 0; c < 3; ++c)
+        {
+          factors.Add.C[c] = Fma(specular, Float8(light.Specular[c]), factors.Add.C[c]);
+        }
+      }
+    }
+    return factors;
   }
 
 private:
   WorldRays Rays;
   Double8 Start; ///< distance of z = 0 along the rays
-};
-
-/// Radiance that lights do not change.
-struct Unlit : Radiance
-{
-  Unlit(const WorldRays&, Double8) {}
-
-  template <class V>
-  TETRALUX_INLINE void Enter(const KernelInput&, Mask8, Int8, V, V)
-  {
-  }
-};
-
-/// Radiance under lights. A segment is lit as its middle is. The gradient is the same all along it,
-/// and so is the direction to a distant light or to one at the viewer. Nothing is clamped, so that
-/// what a segment adds is linear in the light.
-struct Lit : Radiance
-{
-  LaneLights Lights;
-  Float8 Scale[3], More[3];
-
-  Lit(const WorldRays& rays, Double8 start)
-    : Lights(rays, start)
-  {
-  }
-
-  template <class V>
-  TETRALUX_INLINE void Enter(const KernelInput& in, Mask8 valid, Int8 cell, V z0, V z1)
-  {
-    this->Lights.Find(in, valid, cell, z0 + (z1 - z0) * V(0.5f), this->Scale, this->More);
-  }
-
-  TETRALUX_INLINE void Add(Mask8 valid, Float8 red, Float8 green, Float8 blue, Float8 opacity)
-  {
-    this->Radiance::Add(valid, Fma(red, this->Scale[0], opacity * this->More[0]),
-      Fma(green, this->Scale[1], opacity * this->More[1]),
-      Fma(blue, this->Scale[2], opacity * this->More[2]), opacity);
-  }
+  LaneVector View;
 };
 
 } // namespace

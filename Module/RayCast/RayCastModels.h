@@ -4,8 +4,8 @@
 
 // The models that integrate the pieces of cells in closed form.
 
-#include "RayCast/RayCastLight.h"
 #include "RayCast/RayCastPieces.h"
+#include "RayCast/RayCastRadiance.h"
 
 namespace tetralux
 {

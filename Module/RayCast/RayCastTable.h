@@ -5,7 +5,7 @@
 // The density-emitter model by lookups in a pre-integration table (Weiler et al. 2003, section
 // 3.3), interpolated as PreIntegrationTable::Lookup defines.
 
-#include "RayCast/RayCastLight.h"
+#include "RayCast/RayCastRadiance.h"
 
 #include <array>
 

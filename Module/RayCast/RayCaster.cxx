@@ -116,7 +116,9 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
     !std::isfinite(geometryError) ||
     (options.Arithmetic == Precision::Automatic && geometryError > budget.Geometry);
   choices.TerminationError = budget.Termination;
-  choices.SmoothShading = options.Shaded && options.SmoothShading && !choices.CellData;
+  choices.Lit = options.Shaded && !choices.CellData &&
+    (IsLit(choices.Method) || choices.Method == Integrator::Isosurfaces);
+  choices.SmoothShading = options.SmoothShading;
   statistics.Integration = choices.Method;
   statistics.Budget = budget;
   statistics.DoublePrecision = choices.DoublePrecision;
@@ -131,7 +133,8 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
     SceneNeeds needs;
     needs.SinglePoints = !choices.DoublePrecision;
     needs.DoublePoints = choices.DoublePrecision;
-    needs.Gradients = choices.SmoothShading;
+    needs.PointGradients = choices.Lit && choices.SmoothShading;
+    needs.CellGradients = choices.Lit && !choices.SmoothShading;
     needs.FloatTexels = tabulated;
     scene.Prepare(needs);
   }

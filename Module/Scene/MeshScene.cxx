@@ -115,13 +115,28 @@ void MeshScene::PrepareLongestEdge()
 
 void MeshScene::PreparePointGradients()
 {
-  this->Gradients.Update(CacheKey::Of(this->PointsVersion, this->ScalarsVersion),
+  this->PointGradients.Update(CacheKey::Of(this->PointsVersion, this->ScalarsVersion),
     [this]
     {
-      const double range = 0.5 * this->ScalarRange[1] - 0.5 * this->ScalarRange[0];
       return MakePointGradients(
-        this->Mesh->GetMesh(), this->Scalars, this->Mesh->GetRadius(), range > 0 ? range : 1);
+        this->Mesh->GetMesh(), this->Scalars, this->Mesh->GetRadius(), this->GetGradientUnit());
     });
+}
+
+void MeshScene::PrepareCellGradients()
+{
+  this->CellGradients.Update(CacheKey::Of(this->PointsVersion, this->ScalarsVersion),
+    [this]
+    {
+      return MakeCellGradients(
+        this->Mesh->GetMesh(), this->Scalars, this->Mesh->GetRadius(), this->GetGradientUnit());
+    });
+}
+
+double MeshScene::GetGradientUnit() const
+{
+  const double range = 0.5 * this->ScalarRange[1] - 0.5 * this->ScalarRange[0];
+  return range > 0 ? range : 1;
 }
 
 std::shared_ptr<const RaySample> MeshScene::DrawRays(double scale)

@@ -4,7 +4,7 @@
 
 #include "Base/Cached.h"
 #include "Integral/RaySegments.h"
-#include "Mesh/PointGradients.h"
+#include "Mesh/Gradients.h"
 #include "TetraluxCoreModule.h"
 #include "Walk/WalkMesh.h"
 
@@ -62,6 +62,7 @@ public:
   ///@{
   void PrepareLongestEdge();
   void PreparePointGradients();
+  void PrepareCellGradients();
   ///@}
 
   /// Of the mesh, in its units. After PrepareLongestEdge.
@@ -69,7 +70,10 @@ public:
 
   /// Gradients of scalars at points, for smooth lighting: MakePointGradients in units of the mesh's
   /// radius and of half of the scalars' range. After PreparePointGradients.
-  const std::vector<PointGradient>& GetPointGradients() const { return this->Gradients.Get(); }
+  const std::vector<GradientRow>& GetPointGradients() const { return this->PointGradients.Get(); }
+
+  /// Gradients of scalars in cells, in the same units. After PrepareCellGradients.
+  const std::vector<GradientRow>& GetCellGradients() const { return this->CellGradients.Get(); }
 
   /// DrawMeshRays; the same until the mesh, the scalars or the scale change. scale: world units of
   /// a length in the mesh.
@@ -78,6 +82,7 @@ public:
 private:
   void SetScalars(std::vector<double> scalars, bool ofCells);
   void CountBlankCells();
+  double GetGradientUnit() const; ///< of scalars
 
   std::shared_ptr<WalkMesh> Mesh;
   std::vector<double> Scalars;
@@ -88,7 +93,8 @@ private:
   std::uint64_t PointsVersion = 0;
   std::uint64_t ScalarsVersion = 0;
   Cached<double> LongestEdge;
-  Cached<std::vector<PointGradient>> Gradients;
+  Cached<std::vector<GradientRow>> PointGradients;
+  Cached<std::vector<GradientRow>> CellGradients;
   Cached<std::shared_ptr<const RaySample>> Rays; ///< lengths as in the mesh
   Cached<std::shared_ptr<const RaySample>> ScaledRays;
 };

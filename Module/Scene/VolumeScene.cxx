@@ -94,9 +94,13 @@ void VolumeScene::Prepare(const SceneNeeds& needs)
   {
     this->PrepareVisibleTables();
   }
-  if (needs.Gradients)
+  if (needs.PointGradients)
   {
     this->Mesh.PreparePointGradients();
+  }
+  if (needs.CellGradients)
+  {
+    this->Mesh.PrepareCellGradients();
   }
   if (needs.LongestEdge)
   {

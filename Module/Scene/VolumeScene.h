@@ -20,13 +20,14 @@ namespace tetralux
 /// What a method needs of a scene beyond the plan and, of scalars at cells, their values.
 struct SceneNeeds
 {
-  bool SinglePoints = false;  ///< GetPoints<float>()
-  bool DoublePoints = false;  ///< GetPoints<double>()
-  bool VisibleCells = false;  ///< GetVisibleCells()
-  bool VisibleTables = false; ///< GetVisibleTables(), and GetVisibleCells()
-  bool Gradients = false;     ///< MeshScene::GetPointGradients()
-  bool LongestEdge = false;   ///< MeshScene::GetLongestEdge()
-  bool FloatTexels = false;   ///< SceneOptics::GetFloatTexels()
+  bool SinglePoints = false;   ///< GetPoints<float>()
+  bool DoublePoints = false;   ///< GetPoints<double>()
+  bool VisibleCells = false;   ///< GetVisibleCells()
+  bool VisibleTables = false;  ///< GetVisibleTables(), and GetVisibleCells()
+  bool PointGradients = false; ///< MeshScene::GetPointGradients()
+  bool CellGradients = false;  ///< MeshScene::GetCellGradients()
+  bool LongestEdge = false;    ///< MeshScene::GetLongestEdge()
+  bool FloatTexels = false;    ///< SceneOptics::GetFloatTexels()
 };
 
 /// Scalars in the tables that are rendered from are x = (s - Offset) / Scale: those of the transfer

@@ -17,7 +17,7 @@ class vtkShaderProgram;
 namespace tetralux
 {
 
-/// Lights in shaders, as SurfaceShading.h has them on the CPU:
+/// Lights in shaders, as RayCastLight.h has them on the CPU:
 ///
 ///   LightFactors FindLight(vec3 point, vec3 gradient, vec3 direction)
 ///

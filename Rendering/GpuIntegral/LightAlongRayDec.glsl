@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The light along a ray's way through a cell, cut into parts on which it is nearly a parabola:
-// LightAlongRay.h, which this follows word by word. Needs LightingDec.glsl.
+// RayCastLightParts.h, which this follows word by word. Needs LightingDec.glsl.
 
 uniform float lightTurn;     // tangent of LightSteps::Turn
 uniform float lightApproach; // LightSteps::Approach
 
-// As in LightAlongRay.cxx.
+// As in RayCastLightParts.h.
 const float ShortestPart = 1.0 / 1048576.0;
 
 // As in LightSteps.h, from the middle of a part.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What lights make of a colour, as FindLight of SurfaceShading.h: ambient and diffuse light times
+// What lights make of a colour, as LaneLights of RayCastLight.h: ambient and diffuse light times
 // the colour, and Blinn's specular light, in the world, whose lengths are in units of rays. Points
 // and directions are those of rays, in radii of the mesh from its centre; gradients are in
 // coordinates of the mesh, of any length.

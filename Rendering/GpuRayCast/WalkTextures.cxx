@@ -71,15 +71,15 @@ void WalkTextures::UpdatePoints(
 }
 
 void WalkTextures::UpdateGradients(
-  vtkOpenGLRenderWindow* window, Span<const PointGradient> gradients, CacheKey key)
+  vtkOpenGLRenderWindow* window, Span<const GradientRow> gradients, CacheKey key)
 {
   if (this->GradientsStamp.Has(key))
   {
     return;
   }
   this->GradientsStamp.Reset();
-  std::vector<PointGradient> padded(gradients.begin(), gradients.end());
-  padded.resize(this->NumberOfPoints, PointGradient{ 0, 0, 0, 0 });
+  std::vector<GradientRow> padded(gradients.begin(), gradients.end());
+  padded.resize(this->NumberOfPoints, GradientRow{ 0, 0, 0, 0 });
   this->Gradients.Upload(window, &padded.data()->X, padded.size(), 4, "the table of gradients");
   this->UploadedBytes += this->Gradients.GetNumberOfBytes();
   this->GradientsStamp.Set(std::move(key));

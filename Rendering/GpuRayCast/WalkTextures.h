@@ -3,7 +3,7 @@
 #define tetralux_WalkTextures_h
 
 #include "Base/Cached.h"
-#include "Mesh/PointGradients.h"
+#include "Mesh/Gradients.h"
 #include "OpenGL/TextureBuffer.h"
 #include "TetraluxRenderingModule.h"
 #include "Walk/WalkMesh.h"
@@ -46,7 +46,7 @@ public:
   /// Sends gradients at points, unless they are there by this key; padded to the number of points.
   /// To be called after UpdatePoints.
   void UpdateGradients(
-    vtkOpenGLRenderWindow* window, Span<const PointGradient> gradients, CacheKey key);
+    vtkOpenGLRenderWindow* window, Span<const GradientRow> gradients, CacheKey key);
 
   /// What of a mesh would not fit on the graphics card of a window, one line; empty where all does.
   static std::string FindObstacle(

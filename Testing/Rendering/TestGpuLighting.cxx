@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light in shaders against that of SurfaceShading.h.
+// Light in shaders against that of ReferenceShading.h.
 
 #include "GlslEvaluator.h"
 #include "GpuIntegral/GpuLighting.h"
@@ -7,7 +7,8 @@
 #include "GpuIntegral/RayGridUniforms.h"
 #include "Integral/RayIntegral.h"
 #include "Optics/IntervalTable.h"
-#include "Optics/SurfaceShading.h"
+#include "ReferenceIntegral.h"
+#include "ReferenceShading.h"
 
 #include "vtkShaderProgram.h"
 
@@ -22,7 +23,7 @@ namespace
 {
 
 using tetralux::Light;
-using tetralux::LightFactors;
+using tetralux::ReferenceLight;
 using Arguments = GlslEvaluator::Arguments;
 using Result = GlslEvaluator::Result;
 using Vector = std::array<double, 3>;
@@ -49,30 +50,26 @@ class GpuLightingTest : public testing::Test
 public:
   GpuLightingTest()
   {
-    this->Mesh.Points = { 10, 20, 30, 11, 20, 30, 10, 21, 30.5, 10, 20.25, 31 };
-    this->Mesh.Cells = { 0, 1, 2, 3 };
-    this->Shading.Mesh = &this->Mesh;
-    this->Shading.Scalars = this->Scalars.data();
-    this->Shading.Gradients = nullptr;
-    this->Shading.MeshFromWorld = this->Grid.MeshFromWorld;
-    this->Shading.Surface = { 0.3f, 0.6f, 0.4f, 12.f };
     // Coordinates of the world turned, stretched and moved.
     const double rows[3][4] = { { 0.5, -1, 0, 3 }, { 1, 0.4, 0.1, -2 }, { 0, 0.2, 2, 1 } };
     std::copy_n(&rows[0][0], 12, &this->Grid.MeshFromWorld[0][0]);
   }
 
-  /// The gradient of the cell: of scalars that are linear.
-  void SetGradient(const Vector& gradient)
+  /// The light in the reference, for a gradient in coordinates of the mesh.
+  ReferenceLight FindLight(
+    const Vector& gradient, const Vector& point, const Vector& direction) const
   {
-    this->Gradient = gradient;
-    for (int p = 0; p < 4; ++p)
+    Vector normal;
+    for (int a = 0; a < 3; ++a)
     {
-      this->Scalars[p] = 0;
-      for (int a = 0; a < 3; ++a)
+      normal[a] = 0;
+      for (int row = 0; row < 3; ++row)
       {
-        this->Scalars[p] += gradient[a] * this->Mesh.Points[3 * p + a];
+        normal[a] += this->Grid.MeshFromWorld[row][a] * gradient[row];
       }
     }
+    return tetralux::FindReferenceLight(
+      this->Surface, this->Lights, point, normal, { -direction[0], -direction[1], -direction[2] });
   }
 
   Vector ToMesh(const Vector& x, bool point) const
@@ -132,8 +129,7 @@ public:
   {
     const LightCases cases = this->MakeCases();
     tetralux::GpuLighting lighting;
-    lighting.Update(this->Shading.Lights, this->Shading.Surface, {}, this->Grid,
-      this->Center.data(), this->Radius);
+    lighting.Update(this->Lights, this->Surface, {}, this->Grid, this->Center.data(), this->Radius);
     const std::string gradient = "vec3(" + std::to_string(this->Gradient[0]) + ", " +
       std::to_string(this->Gradient[1]) + ", " + std::to_string(this->Gradient[2]) + ")";
     double worst = 0;
@@ -144,8 +140,8 @@ public:
         cases.InMesh, [&](vtkShaderProgram* program) { lighting.Set(program); });
       for (std::size_t i = 0; i < cases.InMesh.size(); ++i)
       {
-        const LightFactors expected =
-          tetralux::FindLight(this->Shading, 0, cases.Points[i].data(), cases.Directions[i].data());
+        const ReferenceLight expected =
+          this->FindLight(this->Gradient, cases.Points[i], cases.Directions[i]);
         for (int c = 0; c < 3; ++c)
         {
           worst = std::max<double>(
@@ -176,9 +172,8 @@ public:
   }
 
   GlslEvaluator Evaluator;
-  tetralux::TetrahedralMesh Mesh;
-  std::vector<double> Scalars = { 0, 0, 0, 0 };
-  tetralux::SurfaceShading Shading;
+  std::vector<Light> Lights;
+  tetralux::Material Surface = { 0.3f, 0.6f, 0.4f, 12.f };
   tetralux::RayGrid Grid;
   Vector Gradient = { 0, 0, 0 };
   Vector Center = { 10.5, 20.5, 30.5 };
@@ -187,14 +182,14 @@ public:
 
 TEST_F(GpuLightingTest, DistantLights)
 {
-  this->SetGradient({ 0.5, -1, 2 });
-  this->Shading.Lights = { MakeLight({ 0.6, 0, 0.8 }, false), MakeLight({ 0, -1, 0 }, false) };
+  this->Gradient = { 0.5, -1, 2 };
+  this->Lights = { MakeLight({ 0.6, 0, 0.8 }, false), MakeLight({ 0, -1, 0 }, false) };
   this->ExpectFactors();
 }
 
 TEST_F(GpuLightingTest, PositionalLightsAndSpots)
 {
-  this->SetGradient({ 0.5, -1, 2 });
+  this->Gradient = { 0.5, -1, 2 };
   Light far = MakeLight({ 20, 3, 40 }, true);
   far.Attenuation[0] = 0.5;
   far.Attenuation[1] = 0.02;
@@ -202,21 +197,21 @@ TEST_F(GpuLightingTest, PositionalLightsAndSpots)
   Light spot = MakeLight({ 13, -5, 18 }, true);
   spot.ConeCosine = 0.8;
   spot.Exponent = 3;
-  this->Shading.Lights = { far, spot };
+  this->Lights = { far, spot };
   this->ExpectFactors();
 }
 
 TEST_F(GpuLightingTest, WithoutAGradientSurfacesFaceTheViewer)
 {
-  this->SetGradient({ 0, 0, 0 });
-  this->Shading.Lights = { MakeLight({ 0.6, 0, 0.8 }, false) };
+  this->Gradient = { 0, 0, 0 };
+  this->Lights = { MakeLight({ 0.6, 0, 0.8 }, false) };
   this->ExpectFactors();
 }
 
 TEST_F(GpuLightingTest, NoLightsAreBlack)
 {
   tetralux::GpuLighting lighting;
-  lighting.Update({}, this->Shading.Surface, {}, this->Grid, this->Center.data(), this->Radius);
+  lighting.Update({}, this->Surface, {}, this->Grid, this->Center.data(), this->Radius);
   const std::vector<Result> results = this->Evaluator.Evaluate(lighting.GetDeclarations(),
     "vec4(FindLight(a.xyz, b.xyz, b.xyz).Scale + FindLight(a.xyz, b.xyz, b.xyz).Add, a.x)",
     { { 0.5f, 0, 0, 0, 0, 0, 1 } }, [&](vtkShaderProgram* program) { lighting.Set(program); });
@@ -225,11 +220,10 @@ TEST_F(GpuLightingTest, NoLightsAreBlack)
 
 TEST_F(GpuLightingTest, LitSegments)
 {
-  this->SetGradient({ 0.5, -1, 2 });
-  this->Shading.Lights = { MakeLight({ 0.6, 0, 0.8 }, false) };
+  this->Gradient = { 0.5, -1, 2 };
+  this->Lights = { MakeLight({ 0.6, 0, 0.8 }, false) };
   tetralux::GpuLighting lighting;
-  lighting.Update(
-    this->Shading.Lights, this->Shading.Surface, {}, this->Grid, this->Center.data(), this->Radius);
+  lighting.Update(this->Lights, this->Surface, {}, this->Grid, this->Center.data(), this->Radius);
   tetralux::TransferFunction function;
   function.Nodes = { { -1, { { 1, 0, 0.5 }, 0.5 }, { { 1, 0, 0.5 }, 0.5 } },
     { 1, { { 0, 1, 0.25 }, 2 }, { { 0, 1, 0.25 }, 2 } } };
@@ -256,13 +250,13 @@ TEST_F(GpuLightingTest, LitSegments)
     for (std::size_t i = 0; i < cases.InMesh.size(); ++i)
     {
       // A place does not change the light of a distant light.
-      const LightFactors light =
-        tetralux::FindLight(this->Shading, 0, cases.Points[i].data(), cases.Directions[i].data());
+      const ReferenceLight light =
+        this->FindLight(this->Gradient, cases.Points[i], cases.Directions[i]);
       double expected[4] = { 0, 0, 0, volume ? flat.Opacity : 1 - 0.25 * 0.5 };
       for (int c = 0; c < 3; ++c)
       {
         const auto lit = [&](int surface)
-        { return std::clamp(light.Apply(c, surfaces[surface].Color[c]), 0.f, 1.f); };
+        { return std::clamp(surfaces[surface].Color[c] * light.Scale[c] + light.Add[c], 0., 1.); };
         expected[c] = volume ? flat.Color[c] * light.Scale[c] + flat.Opacity * light.Add[c]
                              : 0.75 * lit(1) + 0.25 * 0.5 * lit(0);
       }
@@ -277,11 +271,10 @@ TEST_F(GpuLightingTest, LitSegments)
 TEST_F(GpuLightingTest, GradientsAndPlacesRunAlongASegment)
 {
   // The gradient turns from one end to the other, and a near light shines.
-  this->Shading.Lights = { MakeLight({ 13, -5, 16 }, true) };
-  this->Shading.Lights[0].Attenuation[2] = 0.1;
+  this->Lights = { MakeLight({ 13, -5, 16 }, true) };
+  this->Lights[0].Attenuation[2] = 0.1;
   tetralux::GpuLighting lighting;
-  lighting.Update(
-    this->Shading.Lights, this->Shading.Surface, {}, this->Grid, this->Center.data(), this->Radius);
+  lighting.Update(this->Lights, this->Surface, {}, this->Grid, this->Center.data(), this->Radius);
   const LightCases cases = this->MakeCases();
   const std::vector<tetralux::Isosurface> surfaces = { { 0.25, { 1, 0.5f, 0.25f }, 1 } };
   tetralux::SegmentSource source;
@@ -292,19 +285,82 @@ TEST_F(GpuLightingTest, GradientsAndPlacesRunAlongASegment)
     "IntegrateShadedSegment(0.0, 1.0, 1.0, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.5), "
     "a.xyz, a.xyz + b.xyz / " +
       std::to_string(tetralux::GetRayLengthUnit(this->Grid, this->Radius)) + ", b.xyz)");
-  this->SetGradient({ 0.75, 0.25, 0.125 });
   for (std::size_t i = 0; i < cases.InMesh.size(); ++i)
   {
     const Vector place = { cases.Points[i][0] + 0.25 * cases.Directions[i][0],
       cases.Points[i][1] + 0.25 * cases.Directions[i][1],
       cases.Points[i][2] + 0.25 * cases.Directions[i][2] };
-    const LightFactors light =
-      tetralux::FindLight(this->Shading, 0, place.data(), cases.Directions[i].data());
+    const ReferenceLight light = this->FindLight({ 0.75, 0.25, 0.125 }, place, cases.Directions[i]);
     for (int c = 0; c < 3; ++c)
     {
-      EXPECT_NEAR(
-        results[i][c], std::clamp(light.Apply(c, surfaces[0].Color[c]), 0.f, 1.f), FactorError);
+      EXPECT_NEAR(results[i][c],
+        std::clamp(surfaces[0].Color[c] * light.Scale[c] + light.Add[c], 0., 1.), FactorError);
     }
+  }
+}
+
+// The integral of what is lit, against quadrature: gradients that turn through the viewer and away
+// from a light, a near light that fades, a spot whose cone is passed, and thick pieces.
+TEST_F(GpuLightingTest, LightThatVariesAlongASegment)
+{
+  Light fading = MakeLight({ 13, -5, 16.5 }, true);
+  fading.Attenuation[2] = 0.1;
+  Light spot = MakeLight({ 13, -4, 17 }, true);
+  spot.ConeCosine = 0.8;
+  spot.Exponent = 3;
+  spot.Axis[0] = 0;
+  spot.Axis[1] = -0.6;
+  spot.Axis[2] = -0.8;
+  tetralux::TransferFunction function;
+  function.Nodes = { { -1, { { 1, 0, 0.5 }, 0.5 }, { { 1, 0, 0.5 }, 0.5 } },
+    { 0.1, { { 0.5, 1, 0.25 }, 20 }, { { 0, 1, 0.25 }, 0.2 } },
+    { 1, { { 0, 1, 0.25 }, 2 }, { { 0, 1, 0.25 }, 2 } } };
+  const tetralux::IntervalTable table = tetralux::MakeIntervalTable(function);
+  constexpr double Front = 0.75;
+  constexpr double Back = -0.5;
+  constexpr double Length = 1.5;
+  const Vector frontGradient = { 1, -0.5, 0.3 };
+  const Vector backGradient = { -0.9, 1, 0.5 };
+  constexpr double Error = 1e-5;
+  const LightCases cases = this->MakeCases();
+  for (const std::vector<Light>& lights :
+    { std::vector<Light>{ MakeLight({ 0.6, 0, 0.8 }, false) }, { fading }, { spot } })
+  {
+    this->Lights = lights;
+    tetralux::GpuLighting lighting;
+    lighting.Update(this->Lights, this->Surface,
+      tetralux::FindLightSteps(this->Lights, this->Surface, Error), this->Grid, this->Center.data(),
+      this->Radius);
+    tetralux::SegmentSource source;
+    source.Integrator = tetralux::Integrator::VaryingLight;
+    source.Intervals = &table;
+    const std::vector<Result> results = this->EvaluateSegments(lighting, source, cases,
+      "IntegrateShadedSegment(0.75, -0.5, 1.5, vec3(1.0, -0.5, 0.3), vec3(-0.9, 1.0, 0.5), "
+      "a.xyz, a.xyz + 1.5 * b.xyz / " +
+        std::to_string(tetralux::GetRayLengthUnit(this->Grid, this->Radius)) + ", b.xyz)");
+    double worst = 0;
+    for (std::size_t i = 0; i < cases.InMesh.size(); ++i)
+    {
+      const auto light = [&](double share)
+      {
+        Vector gradient, point;
+        for (int a = 0; a < 3; ++a)
+        {
+          gradient[a] = (1 - share) * frontGradient[a] + share * backGradient[a];
+          point[a] = cases.Points[i][a] + share * Length * cases.Directions[i][a];
+        }
+        return this->FindLight(gradient, point, cases.Directions[i]);
+      };
+      const tetralux::ReferenceSegment expected =
+        tetralux::IntegrateLitReference(function, Front, Back, Length, light);
+      for (int c = 0; c < 3; ++c)
+      {
+        worst = std::max(worst, std::abs(results[i][c] - expected.Color[c]));
+      }
+      EXPECT_NEAR(results[i][3], expected.Alpha, FactorError);
+    }
+    std::cout << "error " << worst << "\n";
+    EXPECT_LE(worst, Error + FactorError);
   }
 }
 

@@ -45,7 +45,7 @@ VolumeScene MakeScene(TetrahedralMesh mesh = MakeBox(6, 4, 4, { 0, 0, 0 }, { 1, 
 SceneNeeds NeedAll()
 {
   SceneNeeds needs;
-  needs.SinglePoints = needs.DoublePoints = needs.VisibleTables = needs.Gradients =
+  needs.SinglePoints = needs.DoublePoints = needs.VisibleTables = needs.PointGradients =
     needs.LongestEdge = true;
   return needs;
 }
@@ -54,7 +54,7 @@ SceneNeeds NeedAll()
 struct Versions
 {
   std::uint64_t Points, VisibleTables;
-  const PointGradient* Gradients;
+  const GradientRow* Gradients;
 
   explicit Versions(const VolumeScene& scene)
     : Points(scene.GetPointsVersion())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/PointGradients.h"
+#include "Mesh/Gradients.h"
 
 #include "Generate/GeneratedMeshes.h"
 #include "ThreadCounts.h"
@@ -33,7 +33,7 @@ TEST(PointGradients, AreExactWhereTheFieldIsLinear)
 {
   const TetrahedralMesh mesh = GenerateMesh("random", { { "cells", 4. }, { "removed", 0.1 } }).Mesh;
   const double gradient[3] = { 2, -3, 0.5 };
-  for (const PointGradient& g : MakePointGradients(mesh, MakeLinearField(mesh, gradient), 1, 1))
+  for (const GradientRow& g : MakePointGradients(mesh, MakeLinearField(mesh, gradient), 1, 1))
   {
     EXPECT_NEAR(g.X, gradient[0], Rounding * 3);
     EXPECT_NEAR(g.Y, gradient[1], Rounding * 3);
@@ -45,7 +45,7 @@ TEST(PointGradients, AreInTheUnitsAskedFor)
 {
   const TetrahedralMesh mesh = GenerateMesh("random", { { "cells", 2. } }).Mesh;
   const double gradient[3] = { 1, 0, 0 };
-  for (const PointGradient& g : MakePointGradients(mesh, MakeLinearField(mesh, gradient), 8, 4))
+  for (const GradientRow& g : MakePointGradients(mesh, MakeLinearField(mesh, gradient), 8, 4))
   {
     EXPECT_NEAR(g.X, 2, 2 * Rounding);
   }
@@ -64,7 +64,7 @@ TetrahedralMesh MakeTwoCells()
 TEST(PointGradients, AreMeansByVolume)
 {
   const std::vector<double> scalars = { -1, 0, 0, 0, 8 };
-  const std::vector<PointGradient> g = MakePointGradients(MakeTwoCells(), scalars, 1, 1);
+  const std::vector<GradientRow> g = MakePointGradients(MakeTwoCells(), scalars, 1, 1);
   EXPECT_NEAR(g[0].X, 1, Rounding);
   EXPECT_NEAR(g[4].X, 4, 4 * Rounding);
   for (int p = 1; p < 4; ++p)
@@ -79,7 +79,7 @@ TEST(PointGradients, CellsWithoutFiniteScalarsDoNotCount)
     { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
     const std::vector<double> scalars = { -1, 0, 0, 0, missing };
-    const std::vector<PointGradient> g = MakePointGradients(MakeTwoCells(), scalars, 1, 1);
+    const std::vector<GradientRow> g = MakePointGradients(MakeTwoCells(), scalars, 1, 1);
     for (int p = 0; p < 4; ++p)
     {
       EXPECT_NEAR(g[p].X, 1, Rounding);
@@ -94,13 +94,12 @@ TEST(PointGradients, StayFiniteAtTheEndsOfTheRange)
   for (const double scale : { 1e-30, 1e30, 1e300 })
   {
     const std::vector<double> scalars = { -scale, 0, 0, 0, 8 * scale };
-    const std::vector<PointGradient> g = MakePointGradients(MakeTwoCells(), scalars, 1, scale);
+    const std::vector<GradientRow> g = MakePointGradients(MakeTwoCells(), scalars, 1, scale);
     EXPECT_NEAR(g[1].X, 3, 3 * Rounding) << scale;
   }
   TetrahedralMesh flat = MakeTwoCells();
   flat.Points[0] = -1e-300;
-  for (const PointGradient& g :
-    MakePointGradients(flat, std::vector<double>{ -1, 0, 0, 0, 8 }, 1, 1))
+  for (const GradientRow& g : MakePointGradients(flat, std::vector<double>{ -1, 0, 0, 0, 8 }, 1, 1))
   {
     EXPECT_TRUE(std::isfinite(g.X) && std::isfinite(g.Y) && std::isfinite(g.Z));
   }
@@ -115,11 +114,11 @@ TEST(PointGradients, DoNotDependOnThreads)
   {
     x = std::sin(x);
   }
-  std::vector<PointGradient> first;
+  std::vector<GradientRow> first;
   ForEachThreadCount(
     [&]
     {
-      const std::vector<PointGradient> g = MakePointGradients(mesh, field, 1, 1);
+      const std::vector<GradientRow> g = MakePointGradients(mesh, field, 1, 1);
       first = first.empty() ? g : first;
       for (std::size_t p = 0; p < g.size(); ++p)
       {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/PointGradients.h"
+#include "Mesh/Gradients.h"
 
 #include "Mesh/CellGradient.h"
 
@@ -51,7 +51,7 @@ float ToFloat(double x)
 
 } // namespace
 
-std::vector<PointGradient> MakePointGradients(
+std::vector<GradientRow> MakePointGradients(
   const TetrahedralMesh& mesh, Span<const double> scalars, double length, double scalar)
 {
   const auto numberOfPoints = static_cast<std::int64_t>(mesh.GetNumberOfPoints());
@@ -78,7 +78,7 @@ std::vector<PointGradient> MakePointGradients(
       }
     }
   }
-  std::vector<PointGradient> gradients(numberOfPoints);
+  std::vector<GradientRow> gradients(numberOfPoints);
 #pragma omp parallel for schedule(static)
   for (std::int64_t p = 0; p < numberOfPoints; ++p)
   {
@@ -86,6 +86,23 @@ std::vector<PointGradient> MakePointGradients(
     // Around flat cells alone the direction is all there is.
     const double volume = sum[3] > 0 ? sum[3] : 1;
     gradients[p] = { ToFloat(sum[0] / volume), ToFloat(sum[1] / volume), ToFloat(sum[2] / volume),
+      0 };
+  }
+  return gradients;
+}
+
+std::vector<GradientRow> MakeCellGradients(
+  const TetrahedralMesh& mesh, Span<const double> scalars, double length, double scalar)
+{
+  std::vector<GradientRow> gradients(mesh.GetNumberOfCells());
+  const auto numberOfCells = static_cast<std::int64_t>(gradients.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
+  {
+    const std::array<double, 4> g = FindWeightedGradient(mesh, scalars, cell, length, scalar);
+    const double largest = std::max({ std::abs(g[0]), std::abs(g[1]), std::abs(g[2]) });
+    const double divisor = g[3] > 0 ? g[3] : largest > 0 ? largest : 1;
+    gradients[cell] = { ToFloat(g[0] / divisor), ToFloat(g[1] / divisor), ToFloat(g[2] / divisor),
       0 };
   }
   return gradients;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tetralux_PointGradients_h
-#define tetralux_PointGradients_h
+#ifndef tetralux_Gradients_h
+#define tetralux_Gradients_h
 
 #include "Base/Span.h"
 #include "Mesh/TetrahedralMesh.h"
@@ -11,8 +11,8 @@
 namespace tetralux
 {
 
-/// A gradient at a point, in one load.
-struct alignas(16) PointGradient
+/// A gradient, in one load.
+struct alignas(16) GradientRow
 {
   float X, Y, Z, Unused;
 };
@@ -24,7 +24,12 @@ struct alignas(16) PointGradient
 ///
 /// length, scalar: units, more than 0; the gradient is that of scalars / scalar over coordinates /
 /// length, so that it can be held in single precision. The same result for any number of threads.
-TETRALUXCORE_EXPORT std::vector<PointGradient> MakePointGradients(
+TETRALUXCORE_EXPORT std::vector<GradientRow> MakePointGradients(
+  const TetrahedralMesh& mesh, Span<const double> scalars, double length, double scalar);
+
+/// Gradients of a scalar in the cells of a mesh, in the same units; of a flat cell the direction
+/// alone, and 0 where a scalar is not finite.
+TETRALUXCORE_EXPORT std::vector<GradientRow> MakeCellGradients(
   const TetrahedralMesh& mesh, Span<const double> scalars, double length, double scalar);
 
 } // namespace tetralux
