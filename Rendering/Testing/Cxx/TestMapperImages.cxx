@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One scene by one method: --scene NAME --method NAME [--window], and vtkTesting's command line.
-// Without --window, the window needs no display. All methods draw the same picture, so each scene
-// has one baseline.
+// Without --window or -I, the window needs no display. All methods draw the same picture, so each
+// scene has one baseline.
 #include "ImageTester.h"
 #include "PipeScene.h"
 
@@ -28,8 +28,8 @@ namespace
 // mapper. Every mapper is within 1e-4 of a channel of them, which the tolerance of rounding covers,
 // so what a threshold is for depends on the OpenGL alone. By Mesa's llvmpipe all of them measure 0.
 
-// OpenGL draws only what is opaque: the rims of spheres may fall on other pixels. By Mesa's softpipe,
-// which shares no arithmetic with llvmpipe, that is 0.3; a graphics card gets three times as much.
+// OpenGL draws only what is opaque: the rims of spheres may fall on other pixels. By Mesa's other
+// rasterizer, softpipe, that is 0.3; graphics cards are given three times as much.
 constexpr double RayCastThreshold = 1;
 
 // Shaders may be rounded otherwise, so rays beside an edge of the outline may miss the mesh; the
@@ -147,7 +147,7 @@ int TestMapperImages(int argc, char* argv[])
   }
 
   vtkSmartPointer<vtkRenderWindow> window = vtkSmartPointer<vtkHeadlessRenderWindow>::New();
-  if (tester->IsFlagSpecified("--window"))
+  if (tester->IsFlagSpecified("--window") || tester->IsInteractiveModeSpecified())
   {
     window = vtkSmartPointer<vtkRenderWindow>::New();
   }
