@@ -13,7 +13,8 @@ packages=(
   libcli11-dev # the command-line tool
 )
 if [[ "${1:-}" == test ]]; then
-  packages+=(libgtest-dev libboost-dev python3-numpy python3-h5py clang-format clang-tidy)
+  packages+=(libgtest-dev libboost-dev python3-numpy python3-h5py clang-format clang-tidy
+    xvfb xauth) # windows without a screen
 fi
 
 if ! command -v dpkg-query >/dev/null; then

@@ -40,6 +40,11 @@ class Tree(unittest.TestCase):
     def test_a_clean_tree_has_no_faults(self):
         self.expect()
 
+    def test_what_tests_of_a_module_include_is_not_ruled(self):
+        self.write("Module/High/Beam.h", "")
+        self.write("Module/Low/Testing/Cxx/TestGround.cxx", '#include "High/Beam.h"\n')
+        self.expect()
+
     def test_an_upward_include(self):
         self.write("Module/High/Beam.h", "")
         self.write("Module/Low/Ground.cxx", '#include "High/Beam.h"\n')

@@ -4,13 +4,10 @@
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 
-#include "vtkCellType.h"
-#include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,45 +26,6 @@ constexpr double LargestEstimate = 4 * ColorTolerance;
 constexpr double DepthTolerance = 1e-5;
 
 } // namespace
-
-vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
-  const tetralux::TetrahedralMesh& mesh, const std::vector<double>& scalars)
-{
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> array;
-  array->SetName("Field");
-  for (std::size_t p = 0; p < mesh.GetNumberOfPoints(); ++p)
-  {
-    points->InsertNextPoint(&mesh.Points[3 * p]);
-    array->InsertNextValue(scalars[p]);
-  }
-  grid->SetPoints(points);
-  grid->GetPointData()->SetScalars(array);
-  grid->AllocateExact(mesh.GetNumberOfCells(), mesh.Cells.size());
-  for (std::size_t cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
-  {
-    vtkIdType ids[4];
-    std::copy_n(&mesh.Cells[4 * cell], 4, ids);
-    grid->InsertNextCell(VTK_TETRA, 4, ids);
-  }
-  return grid;
-}
-
-std::vector<double> MakeField(
-  const tetralux::TetrahedralMesh& mesh, const Vector& lower, double size)
-{
-  std::vector<double> field;
-  for (std::size_t p = 0; p < mesh.GetNumberOfPoints(); ++p)
-  {
-    const double x = (mesh.Points[3 * p] - lower[0]) / size;
-    const double y = (mesh.Points[3 * p + 1] - lower[1]) / size;
-    const double z = (mesh.Points[3 * p + 2] - lower[2]) / size;
-    field.push_back(std::sin(5 * x + 2 * y) * std::cos(4 * y - 3 * z));
-  }
-  return field;
-}
 
 void ExpectSamePicture(const std::vector<float>& picture, const std::vector<float>& expected,
   double tolerance, const char* name)

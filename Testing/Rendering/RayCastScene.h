@@ -5,6 +5,7 @@
 #include "ImageComparison.h"
 #include "Mesh/TetrahedralMesh.h"
 #include "Optics/TransferFunction.h"
+#include "TestGrid.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
@@ -27,14 +28,6 @@
 #include <vector>
 
 using Vector = std::array<double, 3>;
-
-/// A mesh as VTK's grid, with a point array, its active scalars.
-vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
-  const tetralux::TetrahedralMesh& mesh, const std::vector<double>& scalars);
-
-/// A field on a mesh's points, between -1 and 1, that bends everywhere.
-std::vector<double> MakeField(
-  const tetralux::TetrahedralMesh& mesh, const Vector& lower, double size);
 
 /// Expects that something is drawn, and that no channel differs by more than a tolerance.
 void ExpectSamePicture(const std::vector<float>& picture, const std::vector<float>& expected,
