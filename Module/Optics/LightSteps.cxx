@@ -32,11 +32,10 @@ LightSteps FindLightSteps(const std::vector<Light>& lights, const Material& surf
     {
       const double diffuse = surface.Diffuse * light.Diffuse[c];
       const double specular = surface.Specular * light.Specular[c];
-      turning += diffuse + specular * BoundThirdDerivative(surface.SpecularPower);
-      if (light.Positional && light.ConeCosine > -1)
-      {
-        turning += (diffuse + specular) * BoundThirdDerivative(light.Exponent);
-      }
+      // A product of powers of cosines is at most as curved as one of the sum.
+      const double ofSpot = light.Positional && light.ConeCosine > -1 ? light.Exponent : 0;
+      turning += diffuse * BoundThirdDerivative(1 + ofSpot) +
+        specular * BoundThirdDerivative(surface.SpecularPower + ofSpot);
       if (light.Positional && (light.Attenuation[1] != 0 || light.Attenuation[2] != 0))
       {
         constexpr double OfInverseSquare = 24;
@@ -46,9 +45,17 @@ LightSteps FindLightSteps(const std::vector<Light>& lights, const Material& surf
     byAngle = std::max(byAngle, turning);
     byDistance = std::max(byDistance, approaching);
   }
+  // A parabola at the Chebyshev points is off by a third derivative over 192, up and down: most of
+  // that cancels in the integral. Measured over single segments with narrow peaks of attenuation, an
+  // eighth is left.
   constexpr double OfChebyshevPoints = 192;
+  constexpr double Cancelled = 8;
   const auto find = [error](double derivative)
-  { return derivative > 0 ? std::min(1., std::cbrt(OfChebyshevPoints * error / derivative)) : 1; };
+  {
+    return derivative > 0
+      ? std::min(1., std::cbrt(Cancelled * OfChebyshevPoints * error / derivative))
+      : 1;
+  };
   return { find(byAngle), find(byDistance) };
 }
 

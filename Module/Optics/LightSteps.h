@@ -11,11 +11,16 @@ namespace tetralux
 {
 
 /// How far light may change on a part of a ray that is lit by a parabola; see RayCastLightParts.h.
+/// Of a part that adds a share w below SmallLightWeight (SmallLightWeight / w)^(1/3) times that.
 struct LightSteps
 {
   double Turn = 1;     ///< of a direction, radians, at most 1
   double Approach = 1; ///< of a distance, as a share of it, at most 1
 };
+
+/// Of parts that add as little as this the light may be off by more, in proportion: some such parts
+/// together add as much as one that hides all behind it.
+constexpr double SmallLightWeight = 1. / 32;
 
 /// Steps with which the light of each part is off by at most an error, of a channel of what is lit.
 TETRALUXCORE_EXPORT LightSteps FindLightSteps(

@@ -116,7 +116,7 @@ void FillLighting(const VolumeScene& scene, const RayGrid& grid, const RayCastOp
   }
   lighting.Unit = choices.WorldRadius;
   const LightSteps steps = FindLightSteps(options.Lights, options.Surface, choices.LightError);
-  lighting.TurnTangent = static_cast<float>(std::tan(steps.Turn));
+  lighting.Turn = static_cast<float>(steps.Turn);
   lighting.Approach = static_cast<float>(steps.Approach);
   lighting.SpecularPower = options.Surface.SpecularPower;
   for (const Light& light : options.Lights)

@@ -71,9 +71,9 @@ struct KernelLighting
   int NumberOfLights;
   bool Shines; ///< any highlights
   float SpecularPower;
-  double Unit;       ///< world length of about the mesh's radius
-  float TurnTangent; ///< of LightSteps::Turn
-  float Approach;    ///< LightSteps::Approach
+  double Unit;    ///< world length of about the mesh's radius
+  float Turn;     ///< LightSteps
+  float Approach; ///< LightSteps
 };
 
 struct KernelInput

@@ -12,7 +12,7 @@
 //   light ends there, highlights at once;
 // * where the ray is nearest to a positional light;
 // * where a direction has turned by LightSteps::Turn, or the distance to a light that distance
-//   weakens has changed by LightSteps::Approach of itself.
+//   weakens has changed by LightSteps::Approach of itself; by more where the part adds little.
 //
 // All are roots of linear or quadratic functions: nothing is searched for. On such a part light is
 // smooth, and a parabola through it at the three Chebyshev points is off by at most 1/192 of its
@@ -57,14 +57,22 @@ public:
   /// ends with the cell.
   TETRALUX_INLINE Float8 GetEnd() const { return this->End; }
 
-  /// Goes on to the parts of some rays that begin at shares of the cell.
-  TETRALUX_NOINLINE void Begin(const KernelLighting& lighting, Mask8 lanes, Float8 begin)
+  /// The largest weight in the picture for which the part is right enough.
+  TETRALUX_INLINE Float8 GetWeight() const { return this->Weight; }
+
+  /// Goes on to the parts of some rays that begin at shares of the cell, for a weight in the picture.
+  TETRALUX_NOINLINE void Begin(
+    const KernelLighting& lighting, Mask8 lanes, Float8 begin, Float8 weight)
   {
     if (!this->Entered)
     {
       this->EnterWorld(lighting);
     }
-    const Float8 end = this->FindEnd(lighting, begin);
+    const Float8 small = static_cast<float>(SmallLightWeight);
+    const Float8 bounded = Max(weight, small * Float8(LeastWeight));
+    const Float8 longer =
+      Float8(1.f) / Power(bounded * (Float8(1.f) / small), Float8(1.f / 3)); // 1 for larger weights
+    const Float8 end = this->FindEnd(lighting, begin, longer);
     const Float8 length = end - begin;
     const auto find = [&](float share)
     {
@@ -90,6 +98,7 @@ public:
     fit(&LaneFactors::Add);
     const Float8 one = 1.f;
     this->Origin = Select(lanes, begin, this->Origin);
+    this->Weight = Select(lanes, Select(small <= weight, one, bounded), this->Weight);
     this->InverseLength = Select(lanes, one / length, this->InverseLength);
     this->End = Select(lanes, Select(end < one, end, Float8(2.f)), this->End);
   }
@@ -104,6 +113,9 @@ public:
   }
 
 private:
+  /// Of SmallLightWeight: parts that add less are no longer.
+  static constexpr float LeastWeight = 1.f / 512;
+
   void EnterWorld(const KernelLighting& lighting)
   {
     this->Entered = true;
@@ -160,10 +172,18 @@ private:
     return Select(Float8(0.f) < rate, tangent * length / rate, never);
   }
 
-  TETRALUX_INLINE Float8 FindEnd(const KernelLighting& lighting, Float8 begin) const
+  /// The tangent of an angle of 0..1, at most 2 % less than right.
+  static TETRALUX_INLINE Float8 FindTangent(Float8 angle)
+  {
+    static constexpr float c[] = { 1.f, 1.f / 3, 2.f / 15, 17.f / 315 };
+    return angle * Polynomial(angle * angle, c);
+  }
+
+  /// longer: than LightSteps by a factor.
+  TETRALUX_INLINE Float8 FindEnd(const KernelLighting& lighting, Float8 begin, Float8 longer) const
   {
     const Float8 one = 1.f;
-    const Float8 tangent = lighting.TurnTangent;
+    const Float8 tangent = FindTangent(Min(one, longer * Float8(lighting.Turn)));
     const LaneVector& view = this->Lights.GetView();
     const LaneVector& g = this->Gradient;
     const LaneVector& dg = this->Change;
@@ -190,7 +210,8 @@ private:
       part.Limit(FindTurn(fromBegin, change, tangent));
       if (light.Fades)
       {
-        part.Limit(Float8(lighting.Approach) * Sqrt(Dot(fromBegin, fromBegin) / way2));
+        part.Limit(
+          Min(one, longer * Float8(lighting.Approach)) * Sqrt(Dot(fromBegin, fromBegin) / way2));
       }
       if (light.IsSpot)
       {
@@ -216,7 +237,7 @@ private:
   LaneVector Gradient, Change; ///< at the near end, in the world, and to the far end
 
   // The parts, x = (share - Origin) InverseLength - 1/2 from one end to the other.
-  Float8 Origin = 0.f, End = -1.f, InverseLength = 0.f;
+  Float8 Origin = 0.f, End = -1.f, InverseLength = 0.f, Weight = 0.f;
   LaneFactors Middle, Slope, Bend;
 };
 

@@ -63,16 +63,19 @@ public:
     while (Any(rest))
     {
       const Float8 cellShare = Fma(begin, cellLength, cellBegin);
-      const Mask8 ended = rest & (this->Parts.GetEnd() <= cellShare + Float8(Nearly));
+      const Float8 front = Fma(slope, begin, d0);
+      const Float8 remains = one - begin;
+      const Float8 twiceDepth = (front + d1) * remains;
+      const Float8 weight = (one - this->Gathered.Opacity) * Min(one, Float8(0.5f) * twiceDepth);
+      const Mask8 ended = rest &
+        ((this->Parts.GetEnd() <= cellShare + Float8(Nearly)) | (this->Parts.GetWeight() < weight));
       if (Any(ended))
       {
-        this->Parts.Begin(*in.Lighting, ended, cellShare);
+        this->Parts.Begin(*in.Lighting, ended, cellShare, weight);
       }
       // Up to the end of the part, and no further than the weights of thin segments reach.
-      const Float8 front = Fma(slope, begin, d0);
       const Float8 root = Sqrt(Max(Float8(0.f), Fma(front, front, Float8(2 * ThinDepth) * slope)));
-      const Float8 remains = one - begin;
-      const Mask8 thick = Float8(2 * ThinDepth) < (front + d1) * remains;
+      const Mask8 thick = Float8(2 * ThinDepth) < twiceDepth;
       const Float8 thin = Select(thick, begin + Float8(2 * ThinDepth) / (front + root), one);
       const Float8 ofPart = (this->Parts.GetEnd() - cellBegin) / cellLength;
       const Float8 end = Min(thin, Max(begin, ofPart)); // one where the cell has no length

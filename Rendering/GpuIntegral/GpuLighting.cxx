@@ -77,8 +77,8 @@ void GpuLighting::Update(const std::vector<Light>& lights, const Material& surfa
   }
   // 0 to the power of 0 is 1, in shaders too: see LightingDec.glsl.
   this->SpecularPower = surface.SpecularPower;
-  this->Turn = static_cast<float>(std::tan(steps.Turn));
-  this->Approach = static_cast<float>(steps.Approach);
+  this->Steps = steps;
+  this->Shines = false;
   for (auto* vectors : { &this->Positions, &this->Cones, &this->Falloffs })
   {
     vectors->clear();
@@ -111,13 +111,25 @@ void GpuLighting::Update(const std::vector<Light>& lights, const Material& surfa
     this->Ambient.push_back(scale(surface.Ambient, light.Ambient));
     this->Diffuse.push_back(scale(surface.Diffuse, light.Diffuse));
     this->Specular.push_back(scale(surface.Specular, light.Specular));
+    for (const float specular : this->Specular.back())
+    {
+      this->Shines = this->Shines || specular != 0;
+    }
   }
 }
 
 std::string GpuLighting::GetDeclarations() const
 {
-  return "#define NUMBER_OF_LIGHTS " + std::to_string(this->Positions.size()) + "\n" + LightingDec +
-    LightAlongRayDec;
+  std::string defines = "#define NUMBER_OF_LIGHTS " + std::to_string(this->Positions.size()) + "\n";
+  const auto any = [](const std::vector<Vector4>& rows, auto holds)
+  { return std::any_of(rows.begin(), rows.end(), holds); };
+  defines += any(this->Positions, [](const Vector4& position) { return position[3] > 0; })
+    ? "#define POSITIONAL_LIGHTS\n"
+    : "";
+  defines +=
+    any(this->Cones, [](const Vector4& cone) { return cone[3] > -1; }) ? "#define SPOTS\n" : "";
+  defines += this->Shines ? "#define HIGHLIGHTS\n" : "";
+  return defines + LightingDec + LightAlongRayDec;
 }
 
 void GpuLighting::Set(vtkShaderProgram* program) const
@@ -130,8 +142,8 @@ void GpuLighting::Set(vtkShaderProgram* program) const
   program->SetUniformMatrix3x3("worldFromRay", const_cast<float*>(this->WorldFromRay)); // only read
   program->SetUniformMatrix3x3("normalFromMesh", const_cast<float*>(this->NormalFromMesh));
   program->SetUniformf("specularPower", this->SpecularPower);
-  program->SetUniformf("lightTurn", this->Turn);
-  program->SetUniformf("lightApproach", this->Approach);
+  program->SetUniformf("lightTurn", static_cast<float>(this->Steps.Turn));
+  program->SetUniformf("lightApproach", static_cast<float>(this->Steps.Approach));
   program->SetUniform4fv("lightPositions", count, this->Positions.front().data());
   program->SetUniform4fv("lightCones", count, this->Cones.front().data());
   program->SetUniform4fv("lightFalloffs", count, this->Falloffs.front().data());

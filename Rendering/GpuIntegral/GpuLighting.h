@@ -43,8 +43,8 @@ private:
   float WorldFromRay[9]; ///< column by column
   float NormalFromMesh[9];
   float SpecularPower = 1;
-  float Turn = 1;     ///< tangent of LightSteps::Turn
-  float Approach = 1; ///< LightSteps::Approach
+  LightSteps Steps;
+  bool Shines = false; ///< any highlights
   std::vector<Vector4> Positions, Cones, Falloffs;
   std::vector<Vector3> Ambient, Diffuse, Specular;
 };

@@ -16,14 +16,16 @@ const float OpaqueLightPart = 1.0 - 1.0 / 16777216.0;
 struct LightPart
 {
   float Begin, End, InverseLength;
+  float Weight; // the largest in the picture for which it is right enough
   LightFactors Middle, Slope, Bend;
 };
 
-LightPart MakeLightPart(LightPath path, float begin)
+LightPart MakeLightPart(LightPath path, float begin, float weight)
 {
   LightPart part;
   part.Begin = begin;
-  float end = FindLightEnd(path, begin);
+  part.Weight = weight >= SmallLightWeight ? 1.0 : max(weight, SmallLightWeight * LeastLightWeight);
+  float end = FindLightEnd(path, begin, weight);
   float size = end - begin;
   part.End = end < 1.0 ? end : 2.0; // no share comes there
   part.InverseLength = 1.0 / size;
@@ -64,6 +66,7 @@ vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradie
   float inverseLength = 1.0 / len;
   LightPart light;
   light.End = -1.0;
+  light.Weight = 0.0;
   vec4 gathered = vec4(0.0);
   SegmentWalk walk = StartWalk(front, back, len);
   do
@@ -79,17 +82,19 @@ vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradie
     for (int part = 0; more && part < LargestNumberOfLightParts; ++part)
     {
       float share = segmentBegin + begin * segmentLength;
-      if (light.End <= share + NearlyLightPart)
+      float frontAttenuation = piece.FrontDepth + slope * begin;
+      float twiceDepth = (frontAttenuation + piece.BackDepth) * (1.0 - begin);
+      float weight = (1.0 - gathered.a) * min(1.0, 0.5 * twiceDepth);
+      if (light.End <= share + NearlyLightPart || light.Weight < weight)
       {
-        light = MakeLightPart(path, share);
+        light = MakeLightPart(path, share, weight);
       }
       // Up to the end of the part, and no further than the weights of thin segments reach.
-      float frontAttenuation = piece.FrontDepth + slope * begin;
       float end = 1.0;
 #ifndef ONLY_THIN_SEGMENTS
       float root =
         sqrt(max(0.0, frontAttenuation * frontAttenuation + 2.0 * ThinDepth * slope));
-      bool thick = 2.0 * ThinDepth < (frontAttenuation + piece.BackDepth) * (1.0 - begin);
+      bool thick = 2.0 * ThinDepth < twiceDepth;
       end = thick ? begin + 2.0 * ThinDepth / (frontAttenuation + root) : end;
 #endif
       float ofPart = segmentLength > 0.0 ? (light.End - segmentBegin) / segmentLength : 1.0;

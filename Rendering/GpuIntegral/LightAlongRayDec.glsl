@@ -2,11 +2,15 @@
 // The light along a ray's way through a cell, cut into parts on which it is nearly a parabola:
 // RayCastLightParts.h, which this follows word by word. Needs LightingDec.glsl.
 
-uniform float lightTurn;     // tangent of LightSteps::Turn
-uniform float lightApproach; // LightSteps::Approach
+uniform float lightTurn; // LightSteps
+uniform float lightApproach;
 
 // As in RayCastLightParts.h.
 const float ShortestPart = 1.0 / 1048576.0;
+
+// As there, and in LightSteps.h.
+const float SmallLightWeight = 1.0 / 32.0;
+const float LeastLightWeight = 1.0 / 512.0;
 
 // As in LightSteps.h, from the middle of a part.
 const float LightSampleReach = 0.4330127018922194;
@@ -66,13 +70,13 @@ float CutLightAtRoots(float c, float b, float a, float begin, float end)
 }
 
 // How far a vector that is linear in the share may go on until it has turned.
-float FindTurn(vec3 vector, vec3 change)
+float FindTurn(vec3 vector, vec3 change, float tangent)
 {
   float size = length(vector);
   float along = size > 0.0 ? dot(vector, change) / size : 0.0;
   vec3 across = size > 0.0 ? change - along / size * vector : vec3(0.0);
-  float rate = length(across) - lightTurn * along;
-  return size > 0.0 && rate > 0.0 ? lightTurn * size / rate : 2.0;
+  float rate = length(across) - tangent * along;
+  return size > 0.0 && rate > 0.0 ? tangent * size / rate : 2.0;
 }
 
 float CutAtSide(float atFront, float change, float begin, float end)
@@ -80,10 +84,13 @@ float CutAtSide(float atFront, float change, float begin, float end)
   return change != 0.0 ? CutLight(-atFront / change, begin, end) : end;
 }
 
-float FindLightEnd(LightPath path, float begin)
+// weight: of the part in the picture.
+float FindLightEnd(LightPath path, float begin, float weight)
 {
+  float longer = pow(clamp(weight / SmallLightWeight, LeastLightWeight, 1.0), -1.0 / 3.0);
+  float tangent = tan(min(1.0, longer * lightTurn));
   float end = CutAtSide(dot(path.Gradient, path.View), dot(path.Change, path.View), begin, 1.0);
-  end = LimitLight(FindTurn(path.Gradient + begin * path.Change, path.Change), begin, end);
+  end = LimitLight(FindTurn(path.Gradient + begin * path.Change, path.Change, tangent), begin, end);
 #if NUMBER_OF_LIGHTS > 0
   for (int light = 0; light < NUMBER_OF_LIGHTS; ++light)
   {
@@ -91,32 +98,39 @@ float FindLightEnd(LightPath path, float begin)
     if (lightPositions[light].w == 0.0)
     {
       end = CutAtSide(dot(path.Gradient, position), dot(path.Change, position), begin, end);
-      continue;
     }
-    vec3 toLight = position - path.Place;
-    vec3 change = -path.Way;
-    vec3 fromBegin = toLight + begin * change;
-    float approach = dot(toLight, change);
-    float way2 = dot(change, change);
-    end = CutLightAtRoots(dot(path.Gradient, toLight),
-      dot(path.Gradient, change) + dot(path.Change, toLight), dot(path.Change, change), begin, end);
-    end = CutAtSide(approach, way2, begin, end);
-    end = LimitLight(FindTurn(fromBegin, change), begin, end);
-    if (lightFalloffs[light].y != 0.0 || lightFalloffs[light].z != 0.0)
+#ifdef POSITIONAL_LIGHTS
+    else
     {
-      float step = way2 > 0.0 ? lightApproach * length(fromBegin) * inversesqrt(way2) : 2.0;
-      end = LimitLight(step, begin, end);
+      vec3 toLight = position - path.Place;
+      vec3 change = -path.Way;
+      vec3 fromBegin = toLight + begin * change;
+      float approach = dot(toLight, change);
+      float way2 = dot(change, change);
+      end = CutLightAtRoots(dot(path.Gradient, toLight),
+        dot(path.Gradient, change) + dot(path.Change, toLight), dot(path.Change, change), begin, end);
+      end = CutAtSide(approach, way2, begin, end);
+      end = LimitLight(FindTurn(fromBegin, change, tangent), begin, end);
+      if (lightFalloffs[light].y != 0.0 || lightFalloffs[light].z != 0.0)
+      {
+        float share = min(1.0, longer * lightApproach);
+        float step = way2 > 0.0 ? share * length(fromBegin) * inversesqrt(way2) : 2.0;
+        end = LimitLight(step, begin, end);
+      }
+#ifdef SPOTS
+      if (lightCones[light].w > -1.0)
+      {
+        // Where the cosine to the axis is that of the cone, or opposite to it.
+        float squared = lightCones[light].w * lightCones[light].w;
+        float axial = dot(toLight, lightCones[light].xyz);
+        float axialChange = dot(change, lightCones[light].xyz);
+        end = CutLightAtRoots(axial * axial - squared * dot(toLight, toLight),
+          2.0 * (axial * axialChange - squared * approach),
+          axialChange * axialChange - squared * way2, begin, end);
+      }
+#endif
     }
-    if (lightCones[light].w > -1.0)
-    {
-      // Where the cosine to the axis is that of the cone, or opposite to it.
-      float squared = lightCones[light].w * lightCones[light].w;
-      float axial = dot(toLight, lightCones[light].xyz);
-      float axialChange = dot(change, lightCones[light].xyz);
-      end = CutLightAtRoots(axial * axial - squared * dot(toLight, toLight),
-        2.0 * (axial * axialChange - squared * approach),
-        axialChange * axialChange - squared * way2, begin, end);
-    }
+#endif
   }
 #endif
   return end < 1.0 - ShortestPart ? end : 1.0;

@@ -3,7 +3,8 @@
 // the colour, and Blinn's specular light, in the world, whose lengths are in units of rays. Points
 // and directions are those of rays, in radii of the mesh from its centre; gradients are in
 // coordinates of the mesh, of any length.
-// NUMBER_OF_LIGHTS is how many lights there are.
+// NUMBER_OF_LIGHTS is how many lights there are; POSITIONAL_LIGHTS and SPOTS tell that some are
+// such, HIGHLIGHTS that there is specular light.
 
 uniform mat3 worldFromRay;   // from the centre of the mesh
 uniform mat3 normalFromMesh; // of the world, times any factor
@@ -51,27 +52,34 @@ LightFactors Illuminate(vec3 place, vec3 gradient, vec3 view)
   normal = dot(normal, view) > 0.0 ? -normal : normal;
   for (int light = 0; light < NUMBER_OF_LIGHTS; ++light)
   {
+    vec3 toLight = lightPositions[light].xyz;
+    float share = 1.0;
+#ifdef POSITIONAL_LIGHTS
     bool positional = lightPositions[light].w > 0.0;
-    vec3 toLight = lightPositions[light].xyz - (positional ? place : vec3(0.0));
+    toLight -= positional ? place : vec3(0.0);
     float distance = length(toLight);
     toLight = distance > 0.0 ? toLight / distance : vec3(0.0);
     vec4 falloff = lightFalloffs[light];
-    vec4 cone = lightCones[light];
-    float share = 1.0 / (falloff.x + distance * (falloff.y + distance * falloff.z));
+    share = 1.0 / (falloff.x + distance * (falloff.y + distance * falloff.z));
     share = distance > 0.0 ? share : 0.0;
+#ifdef SPOTS
+    vec4 cone = lightCones[light];
     float spot = -dot(toLight, cone.xyz);
     share *= cone.w <= -1.0 ? 1.0 : spot >= cone.w ? pow(max(spot, 1e-30), falloff.w) : 0.0;
+#endif
     share = positional ? share : 1.0;
-
-    // Blinn's halfway vector between the light and the viewer.
+#endif
     float cosine = dot(normal, toLight);
+    float lit = cosine > 0.0 ? share : 0.0;
+    factors.Scale += lightAmbient[light] + lit * cosine * lightDiffuse[light];
+#ifdef HIGHLIGHTS
+    // Blinn's halfway vector between the light and the viewer.
     vec3 halfway = toLight - view;
     float halfwayLength = length(halfway);
     float highlight = halfwayLength > 0.0 ? dot(normal, halfway) / halfwayLength : 0.0;
-    float lit = cosine > 0.0 ? share : 0.0;
-    factors.Scale += lightAmbient[light] + lit * cosine * lightDiffuse[light];
     float shine = halfwayLength > 0.0 ? pow(max(highlight, 1e-30), specularPower) : 0.0;
     factors.Add += lit * shine * lightSpecular[light];
+#endif
   }
 #endif
   return factors;
