@@ -61,8 +61,10 @@ public:
   TETRALUX_INLINE Float8 GetWeight() const { return this->Weight; }
 
   /// Goes on to the parts of some rays that begin at shares of the cell, for a weight in the picture.
+  /// heavyEnd: no part goes beyond that which weighs more than SmallLightWeight. So the weight is
+  /// spread over the part, and most of what the parabola is off by cancels.
   TETRALUX_NOINLINE void Begin(
-    const KernelLighting& lighting, Mask8 lanes, Float8 begin, Float8 weight)
+    const KernelLighting& lighting, Mask8 lanes, Float8 begin, Float8 weight, Float8 heavyEnd)
   {
     if (!this->Entered)
     {
@@ -72,7 +74,9 @@ public:
     const Float8 bounded = Max(weight, small * Float8(LeastWeight));
     const Float8 longer =
       Float8(1.f) / Power(bounded * (Float8(1.f) / small), Float8(1.f / 3)); // 1 for larger weights
-    const Float8 end = this->FindEnd(lighting, begin, longer);
+    const Float8 one = 1.f;
+    const Float8 farthest = Select(small < weight, Min(heavyEnd, one), one);
+    const Float8 end = this->FindEnd(lighting, begin, farthest, longer);
     const Float8 length = end - begin;
     const auto find = [&](float share)
     {
@@ -96,7 +100,6 @@ public:
     };
     fit(&LaneFactors::Scale);
     fit(&LaneFactors::Add);
-    const Float8 one = 1.f;
     this->Origin = Select(lanes, begin, this->Origin);
     this->Weight = Select(lanes, Select(small <= weight, one, bounded), this->Weight);
     this->InverseLength = Select(lanes, one / length, this->InverseLength);
@@ -179,8 +182,9 @@ private:
     return angle * Polynomial(angle * angle, c);
   }
 
-  /// longer: than LightSteps by a factor.
-  TETRALUX_INLINE Float8 FindEnd(const KernelLighting& lighting, Float8 begin, Float8 longer) const
+  /// farthest: a part ends there. longer: than LightSteps by a factor.
+  TETRALUX_INLINE Float8 FindEnd(
+    const KernelLighting& lighting, Float8 begin, Float8 farthest, Float8 longer) const
   {
     const Float8 one = 1.f;
     const Float8 tangent = FindTangent(Min(one, longer * Float8(lighting.Turn)));
@@ -188,6 +192,7 @@ private:
     const LaneVector& g = this->Gradient;
     const LaneVector& dg = this->Change;
     PartEnd part{ begin, one };
+    part.Limit(farthest - begin);
     part.Cut(Float8(-1.f) * Dot(g, view) / Dot(dg, view));
     part.Limit(FindTurn(Fma(dg, begin, g), dg, tangent));
     for (int i = 0; i < lighting.NumberOfLights; ++i)

@@ -67,16 +67,16 @@ public:
       const Float8 remains = one - begin;
       const Float8 twiceDepth = (front + d1) * remains;
       const Float8 weight = (one - this->Gathered.Opacity) * Min(one, Float8(0.5f) * twiceDepth);
+      // Up to the end of the part of light, and no further than the weights of thin segments reach.
+      const Float8 root = Sqrt(Max(Float8(0.f), Fma(front, front, Float8(2 * ThinDepth) * slope)));
+      const Mask8 thick = Float8(2 * ThinDepth) < twiceDepth;
+      const Float8 thin = Select(thick, begin + Float8(2 * ThinDepth) / (front + root), one);
       const Mask8 ended = rest &
         ((this->Parts.GetEnd() <= cellShare + Float8(Nearly)) | (this->Parts.GetWeight() < weight));
       if (Any(ended))
       {
-        this->Parts.Begin(*in.Lighting, ended, cellShare, weight);
+        this->Parts.Begin(*in.Lighting, ended, cellShare, weight, Fma(thin, cellLength, cellBegin));
       }
-      // Up to the end of the part, and no further than the weights of thin segments reach.
-      const Float8 root = Sqrt(Max(Float8(0.f), Fma(front, front, Float8(2 * ThinDepth) * slope)));
-      const Mask8 thick = Float8(2 * ThinDepth) < twiceDepth;
-      const Float8 thin = Select(thick, begin + Float8(2 * ThinDepth) / (front + root), one);
       const Float8 ofPart = (this->Parts.GetEnd() - cellBegin) / cellLength;
       const Float8 end = Min(thin, Max(begin, ofPart)); // one where the cell has no length
       const Mask8 last = one <= end;

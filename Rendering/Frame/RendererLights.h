@@ -3,6 +3,7 @@
 #define tetralux_RendererLights_h
 
 #include "Optics/OpticalModel.h"
+#include "TetraluxRenderingModule.h"
 
 #include <vector>
 
@@ -15,10 +16,10 @@ namespace tetralux
 /// The lights of a renderer that are switched on, as VTK's mappers of volumes take them: diffuse
 /// and specular light have the diffuse colour. The ambient light of the renderer comes with the
 /// first.
-std::vector<Light> GetRendererLights(vtkRenderer* renderer);
+TETRALUXRENDERING_EXPORT std::vector<Light> GetRendererLights(vtkRenderer* renderer);
 
 /// How component 0 of a property answers to lights.
-Material GetMaterial(vtkVolumeProperty* property);
+TETRALUXRENDERING_EXPORT Material GetMaterial(vtkVolumeProperty* property);
 
 } // namespace tetralux
 

@@ -20,12 +20,12 @@ struct LightPart
   LightFactors Middle, Slope, Bend;
 };
 
-LightPart MakeLightPart(LightPath path, float begin, float weight)
+LightPart MakeLightPart(LightPath path, float begin, float weight, float heavyEnd)
 {
   LightPart part;
   part.Begin = begin;
   part.Weight = weight >= SmallLightWeight ? 1.0 : max(weight, SmallLightWeight * LeastLightWeight);
-  float end = FindLightEnd(path, begin, weight);
+  float end = FindLightEnd(path, begin, weight, heavyEnd);
   float size = end - begin;
   part.End = end < 1.0 ? end : 2.0; // no share comes there
   part.InverseLength = 1.0 / size;
@@ -85,11 +85,7 @@ vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradie
       float frontAttenuation = piece.FrontDepth + slope * begin;
       float twiceDepth = (frontAttenuation + piece.BackDepth) * (1.0 - begin);
       float weight = (1.0 - gathered.a) * min(1.0, 0.5 * twiceDepth);
-      if (light.End <= share + NearlyLightPart || light.Weight < weight)
-      {
-        light = MakeLightPart(path, share, weight);
-      }
-      // Up to the end of the part, and no further than the weights of thin segments reach.
+      // Up to the end of the part of light, and no further than the weights of thin segments reach.
       float end = 1.0;
 #ifndef ONLY_THIN_SEGMENTS
       float root =
@@ -97,6 +93,10 @@ vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradie
       bool thick = 2.0 * ThinDepth < twiceDepth;
       end = thick ? begin + 2.0 * ThinDepth / (frontAttenuation + root) : end;
 #endif
+      if (light.End <= share + NearlyLightPart || light.Weight < weight)
+      {
+        light = MakeLightPart(path, share, weight, segmentBegin + end * segmentLength);
+      }
       float ofPart = segmentLength > 0.0 ? (light.End - segmentBegin) / segmentLength : 1.0;
       end = min(end, max(begin, ofPart));
       bool last = end >= 1.0;

@@ -84,12 +84,13 @@ float CutAtSide(float atFront, float change, float begin, float end)
   return change != 0.0 ? CutLight(-atFront / change, begin, end) : end;
 }
 
-// weight: of the part in the picture.
-float FindLightEnd(LightPath path, float begin, float weight)
+// weight: of the part in the picture; if it is not small the part ends at heavyEnd.
+float FindLightEnd(LightPath path, float begin, float weight, float heavyEnd)
 {
   float longer = pow(clamp(weight / SmallLightWeight, LeastLightWeight, 1.0), -1.0 / 3.0);
   float tangent = tan(min(1.0, longer * lightTurn));
-  float end = CutAtSide(dot(path.Gradient, path.View), dot(path.Change, path.View), begin, 1.0);
+  float end = LimitLight(weight > SmallLightWeight ? heavyEnd - begin : 1.0, begin, 1.0);
+  end = CutAtSide(dot(path.Gradient, path.View), dot(path.Change, path.View), begin, end);
   end = LimitLight(FindTurn(path.Gradient + begin * path.Change, path.Change, tangent), begin, end);
 #if NUMBER_OF_LIGHTS > 0
   for (int light = 0; light < NUMBER_OF_LIGHTS; ++light)
