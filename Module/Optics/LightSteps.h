@@ -20,7 +20,7 @@ struct LightSteps
 
 /// Of parts that add as little as this the light may be off by more, in proportion: some such parts
 /// together add as much as one that hides all behind it.
-constexpr double SmallLightWeight = 1. / 32;
+constexpr double SmallLightWeight = 1. / 128;
 
 /// Steps with which the light of each part is off by at most an error, of a channel of what is lit.
 TETRALUXCORE_EXPORT LightSteps FindLightSteps(

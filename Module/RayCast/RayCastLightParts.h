@@ -164,15 +164,22 @@ private:
   };
 
   /// How far a vector that is linear in the share may go on until its direction has turned.
+  ///
+  /// Along its line, at t from its shortest point in units of its length there, its direction is
+  /// arctan(t): far from there, a third derivative by t is up to (1 + 1.6 t)^2 times the one by the
+  /// angle, in units of how fast it turns.
   static TETRALUX_INLINE Float8 FindTurn(
     const LaneVector& vector, const LaneVector& change, Float8 tangent)
   {
     const Float8 length = Sqrt(Dot(vector, vector));
     const Float8 along = Dot(vector, change) / length;
     const LaneVector across = change - vector * (along / length);
-    const Float8 rate = Sqrt(Dot(across, across)) - tangent * along;
+    const Float8 turning = Sqrt(Dot(across, across));
+    const Float8 curved = Float8(1.f) / Fma(Float8(1.6f), Abs(along) / turning, Float8(1.f));
+    const Float8 bounded = tangent * Power(curved, Float8(2.f / 3));
+    const Float8 rate = turning - bounded * along;
     const Float8 never = 2.f;
-    return Select(Float8(0.f) < rate, tangent * length / rate, never);
+    return Select(Float8(0.f) < rate, bounded * length / rate, never);
   }
 
   /// The tangent of an angle of 0..1, at most 2 % less than right.

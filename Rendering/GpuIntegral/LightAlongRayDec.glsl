@@ -9,7 +9,7 @@ uniform float lightApproach;
 const float ShortestPart = 1.0 / 1048576.0;
 
 // As there, and in LightSteps.h.
-const float SmallLightWeight = 1.0 / 32.0;
+const float SmallLightWeight = 1.0 / 128.0;
 const float LeastLightWeight = 1.0 / 512.0;
 
 // As in LightSteps.h, from the middle of a part.
@@ -75,8 +75,10 @@ float FindTurn(vec3 vector, vec3 change, float tangent)
   float size = length(vector);
   float along = size > 0.0 ? dot(vector, change) / size : 0.0;
   vec3 across = size > 0.0 ? change - along / size * vector : vec3(0.0);
-  float rate = length(across) - tangent * along;
-  return size > 0.0 && rate > 0.0 ? tangent * size / rate : 2.0;
+  float turning = length(across);
+  float bounded = tangent * pow(turning / (turning + 1.6 * abs(along) + 1e-30), 2.0 / 3.0);
+  float rate = turning - bounded * along;
+  return size > 0.0 && rate > 0.0 ? bounded * size / rate : 2.0;
 }
 
 float CutAtSide(float atFront, float change, float begin, float end)

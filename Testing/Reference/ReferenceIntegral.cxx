@@ -123,9 +123,11 @@ class LitPiece
 public:
   using Light = std::function<ReferenceLight(double share)>;
 
-  LitPiece(const Piece& piece, const Light& light)
+  /// sharpest: a share of the piece, or beyond it.
+  LitPiece(const Piece& piece, const Light& light, double sharpest)
     : Of(piece)
     , Lights(light)
+    , Sharpest(sharpest)
   {
   }
 
@@ -144,15 +146,25 @@ public:
         const double y = (k + 1) / this->Of.Length;
         end = std::min(1.0, 2 * y / (a + std::sqrt(std::max(0.0, a * a + 2 * (b - a) * y))));
       }
-      double part[3];
-      this->Sum(begin, end, part);
-      constexpr int Halvings = 40;
-      this->Refine(begin, end, part, Halvings, color);
+      if (begin < this->Sharpest && this->Sharpest < end)
+      {
+        this->Add(begin, this->Sharpest, color);
+        begin = this->Sharpest;
+      }
+      this->Add(begin, end, color);
       begin = end;
     }
   }
 
 private:
+  void Add(double begin, double end, double color[3]) const
+  {
+    double part[3];
+    this->Sum(begin, end, part);
+    constexpr int Halvings = 40;
+    this->Refine(begin, end, part, Halvings, color);
+  }
+
   /// The rule over an interval.
   void Sum(double begin, double end, double sum[3]) const
   {
@@ -220,6 +232,7 @@ private:
 
   const Piece& Of;
   const Light& Lights;
+  double Sharpest;
 };
 
 /// The function in interval k, which lies between nodes k - 1 and k.
@@ -250,7 +263,7 @@ TransferFunction::Value Evaluate(const TransferFunction& function, std::size_t k
 
 /// light: of a share of the segment; empty: there is none.
 ReferenceSegment IntegrateAny(const TransferFunction& function, double s0, double s1, double length,
-  OpticalModel model, const std::function<ReferenceLight(double share)>& light)
+  OpticalModel model, const std::function<ReferenceLight(double share)>& light, double sharpest)
 {
   const bool absorbs =
     model == OpticalModel::EmissionAbsorption || model == OpticalModel::AbsorptionOnly;
@@ -304,7 +317,7 @@ ReferenceSegment IntegrateAny(const TransferFunction& function, double s0, doubl
         const double from =
           s0 == s1 ? 0.0 : static_cast<double>((static_cast<long double>(s) - s0) / range);
         const LitPiece::Light ofPiece = [&](double x) { return light(from + x * share); };
-        LitPiece(piece, ofPiece).Integrate(lit);
+        LitPiece(piece, ofPiece, (sharpest - from) / share).Integrate(lit);
       }
       else if (emits)
       {
@@ -335,13 +348,13 @@ ReferenceSegment IntegrateAny(const TransferFunction& function, double s0, doubl
 ReferenceSegment IntegrateReference(
   const TransferFunction& function, double s0, double s1, double length, OpticalModel model)
 {
-  return IntegrateAny(function, s0, s1, length, model, {});
+  return IntegrateAny(function, s0, s1, length, model, {}, 0);
 }
 
 ReferenceSegment IntegrateLitReference(const TransferFunction& function, double s0, double s1,
-  double length, const std::function<ReferenceLight(double share)>& light)
+  double length, const std::function<ReferenceLight(double share)>& light, double sharpest)
 {
-  return IntegrateAny(function, s0, s1, length, OpticalModel::EmissionAbsorption, light);
+  return IntegrateAny(function, s0, s1, length, OpticalModel::EmissionAbsorption, light, sharpest);
 }
 
 TransferFunction::Value EvaluateReference(const TransferFunction& function, double s)

@@ -879,7 +879,18 @@ private:
       return FindReferenceLight(
         this->Optics.Surface, this->Optics.Lights, place.Point, place.Normal, place.View);
     };
-    return IntegrateLitReference(function, part.BeginScalar, part.EndScalar, part.Length, light);
+    // Where the gradient is shortest it may turn around within very little.
+    const auto front = this->GetPlace(ray, part.Begin, part.Cell).Normal;
+    const auto back = this->GetPlace(ray, part.Begin + part.Length, part.Cell).Normal;
+    double along = 0;
+    double squared = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      along += front[axis] * (front[axis] - back[axis]);
+      squared += (back[axis] - front[axis]) * (back[axis] - front[axis]);
+    }
+    return IntegrateLitReference(function, part.BeginScalar, part.EndScalar, part.Length, light,
+      squared > 0 ? along / squared : 0);
   }
 
   /// Where light falls, in the world.
