@@ -73,6 +73,7 @@ private:
   void Upload(MapperFrame& frame, const tetralux::RayGrid& grid, const tetralux::WalkTables& tables,
     GpuReentry reentry);
   void Read(vtkImageData* image);
+  void Composite(vtkOpenGLRenderWindow* window, const tetralux::PixelRectangle& visible);
   void Describe(const tetralux::GpuRayCastStatistics& statistics,
     const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
 
@@ -158,6 +159,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     options.SmoothGradients = frame.Settings.SmoothShading;
   }
   options.StepsPerPass = this->Self->StepsPerPass;
+  options.MaximumBytes = this->Self->RayMaximumBytes;
   options.CountFragments = this->Self->CountFragments != 0;
   options.Continue = [&frame](double share) { return frame.ReportProgress(share); };
   const tetralux::GpuRayCastStatistics statistics = this->Caster.Cast(
@@ -171,8 +173,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   else
   {
     frame.ReportProgress(1); // too late to abort
-    this->Compositor.Composite(
-      frame.Window, rays.GetVisible(), this->Caster.GetPicture().GetTexture(0));
+    this->Composite(frame.Window, rays.GetVisible());
     frame.ReadPicture = [this, window = vtkWeakPointer<vtkOpenGLRenderWindow>(frame.Window)](
                           vtkImageData* image)
     {
@@ -208,11 +209,13 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   const tetralux::GpuRayCastStatistics& statistics, const tetralux::GpuRayCastOptions& options,
   MapperFrame& frame)
 {
-  const tetralux::FloatTarget::Settings& picture = this->Caster.GetPicture().GetSettings();
+  const tetralux::RayPicture& picture = this->Caster.GetPicture();
+  const std::int64_t pixels = static_cast<std::int64_t>(picture.GetWidth()) * picture.GetHeight();
   Json rays;
-  rays["width"] = picture.Width;
-  rays["height"] = picture.Height;
-  rays["rays"] = static_cast<std::int64_t>(picture.Width) * picture.Height;
+  rays["width"] = picture.GetWidth();
+  rays["height"] = picture.GetHeight();
+  rays["rays"] = pixels;
+  rays["bands"] = statistics.Bands;
   rays["passes"] = statistics.Passes;
   rays["steps_per_pass"] = this->Self->StepsPerPass;
   rays["fragments_per_pass"] = statistics.Fragments;
@@ -236,7 +239,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   graphics["tetrahedra_and_points_bytes"] = this->Mesh.GetNumberOfCellAndPointBytes();
   graphics["uploaded_bytes"] = this->Mesh.GetUploadedBytes();
   graphics["integral_bytes"] = this->Integral.GetNumberOfBytes();
-  graphics["picture_bytes"] = this->Caster.GetNumberOfBytes() + this->Limits.GetNumberOfBytes();
+  const std::size_t bytes = this->Caster.GetNumberOfBytes() + this->Limits.GetNumberOfBytes();
+  graphics["picture_bytes"] = bytes;
+  graphics["picture_bytes_per_pixel"] = static_cast<double>(bytes) / static_cast<double>(pixels);
   frame.Sections.emplace_back("graphics_card", graphics);
 }
 
@@ -386,17 +391,25 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::Internals::Read(vtkImageData* image)
 {
-  tetralux::FloatTarget& picture = this->Caster.GetPicture();
-  const int width = picture.GetSettings().Width;
-  const int height = picture.GetSettings().Height;
+  tetralux::RayPicture& picture = this->Caster.GetPicture();
   tetralux::Span<float> colors, depths;
-  MapperFrame::PrepareImage(image, width, height, colors, depths);
-  picture.Read(0, colors);
-  std::vector<float> pairs(2 * depths.size());
-  picture.Read(1, pairs);
-  for (std::size_t k = 0; k < depths.size(); ++k)
+  MapperFrame::PrepareImage(image, picture.GetWidth(), picture.GetHeight(), colors, depths);
+  picture.Read(tetralux::RayPicture::Colors, colors);
+  picture.Read(tetralux::RayPicture::Distances, depths);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraGPURayCastMapper::Internals::Composite(
+  vtkOpenGLRenderWindow* window, const tetralux::PixelRectangle& visible)
+{
+  tetralux::RayPicture& picture = this->Caster.GetPicture();
+  for (int band = 0; band < picture.GetNumberOfBands(); ++band)
   {
-    depths[k] = pairs[2 * k];
+    tetralux::PixelRectangle rectangle = visible;
+    rectangle.Y += picture.GetFirstRow(band);
+    rectangle.Height = picture.GetBand(band).GetSettings().Height;
+    this->Compositor.Composite(
+      window, rectangle, picture.GetBand(band).GetTexture(tetralux::RayPicture::Colors));
   }
 }
 
@@ -450,6 +463,7 @@ void vtkTetrahedraGPURayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
 
 //------------------------------------------------------------------------------------------------
 tetraluxSetNumberMacro(vtkTetrahedraGPURayCastMapper, StepsPerPass, int);
+tetraluxSetNumberMacro(vtkTetrahedraGPURayCastMapper, RayMaximumBytes, vtkIdType);
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::PrintProperties(ostream& os, vtkIndent indent)
@@ -457,6 +471,7 @@ void vtkTetrahedraGPURayCastMapper::PrintProperties(ostream& os, vtkIndent inden
   this->Superclass::PrintProperties(os, indent);
   tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("StepsPerPass", this->StepsPerPass);
+  printer.Print("RayMaximumBytes", this->RayMaximumBytes);
   printer.Print("CountFragments", this->CountFragments);
 }
 

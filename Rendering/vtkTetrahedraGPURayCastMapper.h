@@ -53,6 +53,18 @@ public:
 
   ///@{
   /**
+   * Set the largest size of what rays keep between passes, bytes, 4096 to 2^40. Default 2^30. Rays
+   * keep 38 bytes a pixel, or 42 with boundary layers. A picture for which that is not enough is
+   * cast in bands of rows, one after the other; so is one that is larger than what OpenGL draws
+   * into, or for which the driver has no memory. The picture does not depend on it. One row is cast
+   * in any case. The picture itself takes 20 bytes a pixel more.
+   */
+  virtual void SetRayMaximumBytes(vtkIdType bytes);
+  vtkGetMacro(RayMaximumBytes, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
    * Set whether GetStatistics() has the number of rays of every pass. Each pass then waits for the
    * one before. Default off: only numbers that were known without waiting.
    */
@@ -86,6 +98,7 @@ protected:
   void PrintResults(ostream& os, vtkIndent indent) override;
 
   int StepsPerPass = 128;
+  vtkIdType RayMaximumBytes = 1073741824;
   vtkTypeBool CountFragments = 0;
 
 private:
