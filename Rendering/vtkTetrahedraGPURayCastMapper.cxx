@@ -216,6 +216,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   rays["height"] = picture.GetHeight();
   rays["rays"] = pixels;
   rays["bands"] = statistics.Bands;
+  rays["rows_per_band"] = picture.GetRowsOfBand();
   rays["passes"] = statistics.Passes;
   rays["steps_per_pass"] = this->Self->StepsPerPass;
   rays["fragments_per_pass"] = statistics.Fragments;

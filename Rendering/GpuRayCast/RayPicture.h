@@ -37,6 +37,7 @@ public:
 
   int GetWidth() const { return this->Width; }
   int GetHeight() const { return this->Height; }
+  int GetRowsOfBand() const { return this->RowsOfBand; } ///< the last one may have fewer
   int GetNumberOfBands() const { return static_cast<int>(this->Bands.size()); }
   FloatTarget& GetBand(int band) { return this->Bands[static_cast<std::size_t>(band)]; }
   int GetFirstRow(int band) const { return band * this->RowsOfBand; }
