@@ -275,8 +275,12 @@ bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* wind
   if (auto* input = vtkDataSet::SafeDownCast(this->Self->GetDataObjectInput()))
   {
     const std::int64_t cells = TetrahedraOfCell * input->GetNumberOfCells();
-    const std::string obstacle = tetralux::FindObstacle(
-      { { "faces", 4 * cells, 8 }, { "points", input->GetNumberOfPoints(), 16 } }, card.Limits);
+    std::string obstacle = tetralux::RayTargets::FindObstacle(cells);
+    if (obstacle.empty())
+    {
+      obstacle = tetralux::FindObstacle(
+        { { "faces", 4 * cells, 8 }, { "points", input->GetNumberOfPoints(), 16 } }, card.Limits);
+    }
     if (!obstacle.empty())
     {
       this->SupportReason += ": there may be no room, " + obstacle;
@@ -359,8 +363,12 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
     reentry == GpuReentry::Imaginary ? pointsVersion : 0);
   if (!this->Mesh.HasFaces(frame.Window, facesKey))
   {
-    const std::string obstacle =
-      tetralux::WalkTextures::FindObstacle(frame.Window, tables, numberOfPoints);
+    std::string obstacle =
+      tetralux::RayTargets::FindObstacle(static_cast<std::int64_t>(tables.Faces.size() / 4));
+    if (obstacle.empty())
+    {
+      obstacle = tetralux::WalkTextures::FindObstacle(frame.Window, tables, numberOfPoints);
+    }
     if (!obstacle.empty())
     {
       throw std::runtime_error(obstacle);

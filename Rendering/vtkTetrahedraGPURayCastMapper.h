@@ -18,9 +18,10 @@
  * the cell that contributes and begins nearest.
  *
  * @warning A mesh has at most a quarter as many tetrahedra as the driver's texture buffers have
- * texels (2^27 on most), and must fit into free memory if the driver tells how much there is. Both
- * are checked before anything is sent; one error says which limit was exceeded. A mesh whose size
- * in the world is beyond the range of single precision is refused.
+ * texels (2^27 on most) and 67,108,863 tetrahedra on any, and must fit into free memory if the
+ * driver tells how much there is. All is checked before anything is sent; one error says which
+ * limit was exceeded. A mesh whose size in the world is beyond the range of single precision is
+ * refused.
  *
  * @sa vtkTetrahedraRayCastMapper
  */

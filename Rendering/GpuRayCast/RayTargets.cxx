@@ -118,6 +118,14 @@ RayTargets::RayTargets() = default;
 
 RayTargets::~RayTargets() { this->ReleaseGraphicsResources(this->Window); }
 
+std::string RayTargets::FindObstacle(std::int64_t tetrahedra)
+{
+  constexpr std::int64_t Most = MostFaces / 4;
+  return tetrahedra <= Most ? std::string()
+                            : "the mesh has " + std::to_string(tetrahedra) +
+      " tetrahedra, and rays on the graphics card tell apart at most " + std::to_string(Most);
+}
+
 std::size_t RayTargets::GetPixelSize(bool layers)
 {
   return PixelSize + (layers ? LayerPixelSize : 0);

@@ -8,6 +8,8 @@
 #include "vtkWeakPointer.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;
@@ -38,11 +40,13 @@ public:
   RayTargets(const RayTargets&) = delete;
   RayTargets& operator=(const RayTargets&) = delete;
 
-  /// What the packed states have room for.
-  static constexpr int MostFaces = (1 << 28) - 2;
-  static constexpr int MostEntries = (1 << 29) - 1;
+  /// What packed states have room for; more boundary faces than MakeWalkTexels has.
   static constexpr int MostDisplacements = 16;
   static constexpr int MostParts = 4;
+  static constexpr int MostFaces = (1 << 28) - 2; ///< of tetrahedra, four each
+
+  /// Why the states of rays have no room for a mesh: one line; empty where they have.
+  static std::string FindObstacle(std::int64_t tetrahedra);
 
   /// Bytes that are needed for each pixel of a band.
   static std::size_t GetPixelSize(bool layers);
