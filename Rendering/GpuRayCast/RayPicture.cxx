@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuRayCast/RayPicture.h"
 
+#include "vtkOpenGLRenderWindow.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,6 +16,7 @@ void RayPicture::Prepare(
   const auto bands = static_cast<std::size_t>((height + rowsOfBand - 1) / rowsOfBand);
   while (this->Bands.size() > bands)
   {
+    this->Bands.back().ReleaseGraphicsResources(window);
     this->Bands.pop_back();
   }
   while (this->Bands.size() < bands)
