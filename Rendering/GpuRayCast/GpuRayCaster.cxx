@@ -26,9 +26,7 @@
 #include "vtk_glew.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
-#include <limits>
 
 namespace tetralux
 {
@@ -242,8 +240,7 @@ private:
   void DrawBand(GpuRayCastStatistics& statistics)
   {
     this->State->vtkglDepthMask(GL_TRUE); // clearing, too, heeds it
-    this->Self.Targets.Clear(
-      this->Options.LargestScalar ? -std::numeric_limits<float>::max() : 0.f);
+    this->Self.Targets.Clear(this->Options.LargestScalar);
     std::vector<std::int64_t> fragments;
     PassCounts counts(fragments);
     for (int pass = 0;; ++pass)

@@ -19,6 +19,7 @@ namespace tetralux
 namespace
 {
 
+/// As in RayStatesDec.glsl.
 constexpr GLfloat LargestFloat = 3.402823e38f;
 
 struct Format
@@ -249,11 +250,11 @@ void RayTargets::ClearLayer()
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
-void RayTargets::Clear(float firstSum)
+void RayTargets::Clear(bool largest)
 {
   // The face is RayNeedsEntry, the entry NoEntry, the part the first one.
   const GLuint states[4] = { 0, 0, 0, 0 };
-  const GLfloat sums[4] = { firstSum, LargestFloat, 0, 0 };
+  const GLfloat sums[4] = { largest ? -LargestFloat : 0.f, LargestFloat, 0, 0 };
   const GLfloat farthest = 1;
   this->DrawInto(OfSet0);
   glClearBufferuiv(GL_COLOR, States, states);

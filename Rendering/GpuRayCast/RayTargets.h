@@ -84,8 +84,9 @@ public:
   /// An empty layer: no entry, farthest depth.
   void ClearLayer();
 
-  /// The first set and the band's pictures as they are before the first pass, no ray done.
-  void Clear(float firstSum);
+  /// The first set and the band's pictures as they are before the first pass, no ray done. largest:
+  /// whether the first sum is the largest scalar; else opacity.
+  void Clear(bool largest);
 
   /// What is drawn into the pictures of the band by a pass is added to them, as RayWalkFS.glsl
   /// says. The blending function has to be set back by the caller.

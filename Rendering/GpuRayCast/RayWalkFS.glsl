@@ -108,20 +108,18 @@ bool EndsBehind(RayFrame frame, int entry, ivec3 ids, int face)
 #endif
 
 // The points of a face of a cell: those that are opposite to the cell's other faces. Each is told
-// by the face's other side: the cell there, one of whose faces leads back, or the boundary.
+// by what is behind such a face: the boundary, or a cell, one face of which leads back.
 ivec3 FindPoints(int face)
 {
   int cell = face >> 2;
   ivec3 points = ivec3(0);
   for (int k = 1; k < 4; ++k)
   {
-    int opposite = (face + k) & 3;
-    ivec2 behind = texelFetch(walkFaces, 4 * cell + opposite).xy;
+    ivec2 behind = texelFetch(walkFaces, 4 * cell + ((face + k) & 3)).xy;
     int point = behind.y;
-    for (int m = 1; behind.x >= 0 && m <= 4; ++m)
+    for (int m = 0; behind.x >= 0 && m < 4; ++m)
     {
-      // Of two that lead back the last one counts: cells of the same points have the same faces.
-      ivec2 back = texelFetch(walkFaces, 4 * behind.x + ((opposite + m) & 3)).xy;
+      ivec2 back = texelFetch(walkFaces, 4 * behind.x + m).xy;
       point = back.x == cell ? back.y : point;
     }
     points = ivec3(points.yz, point);
