@@ -81,6 +81,7 @@ const std::map<std::string, Accessors>& GetAccessors()
     ACCESSORS(RayCast, MaximumImageSampleDistance),
     ACCESSORS(RayCast, AutoAdjustSampleDistances),
     ACCESSORS(GPURayCast, StepsPerPass),
+    ACCESSORS(GPURayCast, RayMaximumBytes),
     ACCESSORS(GPURayCast, CountFragments),
     ACCESSORS(Projection, PerspectiveInterpolation),
     ACCESSORS(Projection, ColorBuffer),

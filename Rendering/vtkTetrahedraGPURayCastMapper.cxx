@@ -73,6 +73,7 @@ private:
   void Upload(MapperFrame& frame, const tetralux::RayGrid& grid, const tetralux::WalkTables& tables,
     GpuReentry reentry);
   void Read(vtkImageData* image);
+  void Composite(vtkOpenGLRenderWindow* window, const tetralux::PixelRectangle& visible);
   void Describe(const tetralux::GpuRayCastStatistics& statistics,
     const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
 
@@ -160,6 +161,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     options.SmoothGradients = frame.Settings.SmoothShading;
   }
   options.StepsPerPass = this->Self->StepsPerPass;
+  options.MaximumBytes = this->Self->RayMaximumBytes;
   options.CountFragments = this->Self->CountFragments != 0;
   options.Continue = [&frame](double share) { return frame.ReportProgress(share); };
   const tetralux::GpuRayCastStatistics statistics = this->Caster.Cast(
@@ -173,8 +175,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   else
   {
     frame.ReportProgress(1); // too late to abort
-    this->Compositor.Composite(
-      frame.Window, rays.GetVisible(), this->Caster.GetPicture().GetTexture(0));
+    this->Composite(frame.Window, rays.GetVisible());
     frame.ReadPicture = [this, window = vtkWeakPointer<vtkOpenGLRenderWindow>(frame.Window)](
                           vtkImageData* image)
     {
@@ -210,11 +211,14 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   const tetralux::GpuRayCastStatistics& statistics, const tetralux::GpuRayCastOptions& options,
   MapperFrame& frame)
 {
-  const tetralux::FloatTarget::Settings& picture = this->Caster.GetPicture().GetSettings();
+  const tetralux::RayPicture& picture = this->Caster.GetPicture();
+  const std::int64_t pixels = static_cast<std::int64_t>(picture.GetWidth()) * picture.GetHeight();
   Json rays;
-  rays["width"] = picture.Width;
-  rays["height"] = picture.Height;
-  rays["rays"] = static_cast<std::int64_t>(picture.Width) * picture.Height;
+  rays["width"] = picture.GetWidth();
+  rays["height"] = picture.GetHeight();
+  rays["rays"] = pixels;
+  rays["bands"] = statistics.Bands;
+  rays["rows_per_band"] = picture.GetRowsOfBand();
   rays["passes"] = statistics.Passes;
   rays["steps_per_pass"] = this->Self->StepsPerPass;
   rays["fragments_per_pass"] = statistics.Fragments;
@@ -238,7 +242,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   graphics["tetrahedra_and_points_bytes"] = this->Mesh.GetNumberOfCellAndPointBytes();
   graphics["uploaded_bytes"] = this->Mesh.GetUploadedBytes();
   graphics["integral_bytes"] = this->Integral.GetNumberOfBytes();
-  graphics["picture_bytes"] = this->Caster.GetNumberOfBytes() + this->Limits.GetNumberOfBytes();
+  const std::size_t bytes = this->Caster.GetNumberOfBytes() + this->Limits.GetNumberOfBytes();
+  graphics["picture_bytes"] = bytes;
+  graphics["picture_bytes_per_pixel"] = static_cast<double>(bytes) / static_cast<double>(pixels);
   frame.Sections.emplace_back("graphics_card", graphics);
 }
 
@@ -271,8 +277,12 @@ bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* wind
   if (auto* input = vtkDataSet::SafeDownCast(this->Self->GetDataObjectInput()))
   {
     const std::int64_t cells = TetrahedraOfCell * input->GetNumberOfCells();
-    const std::string obstacle = tetralux::FindObstacle(
-      { { "faces", 4 * cells, 8 }, { "points", input->GetNumberOfPoints(), 16 } }, card.Limits);
+    std::string obstacle = tetralux::RayTargets::FindObstacle(cells);
+    if (obstacle.empty())
+    {
+      obstacle = tetralux::FindObstacle(
+        { { "faces", 4 * cells, 8 }, { "points", input->GetNumberOfPoints(), 16 } }, card.Limits);
+    }
     if (!obstacle.empty())
     {
       this->SupportReason += ": there may be no room, " + obstacle;
@@ -355,8 +365,12 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
     reentry == GpuReentry::Imaginary ? pointsVersion : 0);
   if (!this->Mesh.HasFaces(frame.Window, facesKey))
   {
-    const std::string obstacle =
-      tetralux::WalkTextures::FindObstacle(frame.Window, tables, numberOfPoints);
+    std::string obstacle =
+      tetralux::RayTargets::FindObstacle(static_cast<std::int64_t>(tables.Faces.size() / 4));
+    if (obstacle.empty())
+    {
+      obstacle = tetralux::WalkTextures::FindObstacle(frame.Window, tables, numberOfPoints);
+    }
     if (!obstacle.empty())
     {
       throw std::runtime_error(obstacle);
@@ -388,17 +402,25 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::Internals::Read(vtkImageData* image)
 {
-  tetralux::FloatTarget& picture = this->Caster.GetPicture();
-  const int width = picture.GetSettings().Width;
-  const int height = picture.GetSettings().Height;
+  tetralux::RayPicture& picture = this->Caster.GetPicture();
   tetralux::Span<float> colors, depths;
-  MapperFrame::PrepareImage(image, width, height, colors, depths);
-  picture.Read(0, colors);
-  std::vector<float> pairs(2 * depths.size());
-  picture.Read(1, pairs);
-  for (std::size_t k = 0; k < depths.size(); ++k)
+  MapperFrame::PrepareImage(image, picture.GetWidth(), picture.GetHeight(), colors, depths);
+  picture.Read(tetralux::RayPicture::Colors, colors);
+  picture.Read(tetralux::RayPicture::Distances, depths);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraGPURayCastMapper::Internals::Composite(
+  vtkOpenGLRenderWindow* window, const tetralux::PixelRectangle& visible)
+{
+  tetralux::RayPicture& picture = this->Caster.GetPicture();
+  for (int band = 0; band < picture.GetNumberOfBands(); ++band)
   {
-    depths[k] = pairs[2 * k];
+    tetralux::PixelRectangle rectangle = visible;
+    rectangle.Y += picture.GetFirstRow(band);
+    rectangle.Height = picture.GetBand(band).GetSettings().Height;
+    this->Compositor.Composite(
+      window, rectangle, picture.GetBand(band).GetTexture(tetralux::RayPicture::Colors));
   }
 }
 
@@ -452,6 +474,7 @@ void vtkTetrahedraGPURayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
 
 //------------------------------------------------------------------------------------------------
 tetraluxSetNumberMacro(vtkTetrahedraGPURayCastMapper, StepsPerPass, int);
+tetraluxSetNumberMacro(vtkTetrahedraGPURayCastMapper, RayMaximumBytes, vtkIdType);
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::PrintProperties(ostream& os, vtkIndent indent)
@@ -459,6 +482,7 @@ void vtkTetrahedraGPURayCastMapper::PrintProperties(ostream& os, vtkIndent inden
   this->Superclass::PrintProperties(os, indent);
   tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("StepsPerPass", this->StepsPerPass);
+  printer.Print("RayMaximumBytes", this->RayMaximumBytes);
   printer.Print("CountFragments", this->CountFragments);
 }
 

@@ -18,9 +18,10 @@
  * the cell that contributes and begins nearest.
  *
  * @warning A mesh has at most a quarter as many tetrahedra as the driver's texture buffers have
- * texels (2^27 on most), and must fit into free memory if the driver tells how much there is. Both
- * are checked before anything is sent; one error says which limit was exceeded. A mesh whose size
- * in the world is beyond the range of single precision is refused.
+ * texels (2^27 on most) and 67,108,863 tetrahedra on any, and must fit into free memory if the
+ * driver tells how much there is. All is checked before anything is sent; one error says which
+ * limit was exceeded. A mesh whose size in the world is beyond the range of single precision is
+ * refused.
  *
  * @sa vtkTetrahedraRayCastMapper
  */
@@ -49,6 +50,18 @@ public:
    */
   virtual void SetStepsPerPass(int steps);
   vtkGetMacro(StepsPerPass, int);
+  ///@}
+
+  ///@{
+  /**
+   * Set the largest size of what rays keep between passes, bytes, 4096 to 2^40. Default 2^30. Rays
+   * keep 38 bytes a pixel, or 42 with boundary layers. A picture for which that is not enough is
+   * cast in bands of rows, one after the other; so is one that is larger than what OpenGL draws
+   * into, or for which the driver has no memory. The picture does not depend on it. One row is cast
+   * in any case. The picture itself takes 20 bytes a pixel more.
+   */
+  virtual void SetRayMaximumBytes(vtkIdType bytes);
+  vtkGetMacro(RayMaximumBytes, vtkIdType);
   ///@}
 
   ///@{
@@ -86,6 +99,7 @@ protected:
   void PrintResults(ostream& os, vtkIndent indent) override;
 
   int StepsPerPass = 128;
+  vtkIdType RayMaximumBytes = 1073741824;
   vtkTypeBool CountFragments = 0;
 
 private:

@@ -15,7 +15,6 @@
 #include "RayFrameDec.h"
 #include "RayLayerFS.h"
 #include "RayLayerVS.h"
-#include "RayPictureFS.h"
 #include "RayStatesDec.h"
 #include "RayWalkFS.h"
 #include "View/RayDisplacements.h"
@@ -27,9 +26,7 @@
 #include "vtk_glew.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
-#include <limits>
 
 namespace tetralux
 {
@@ -42,6 +39,7 @@ constexpr std::size_t PassesAhead = 2;
 
 /// Of rays, the first one is none.
 constexpr int NumberOfDisplacements = 1 + NumberOfRayDisplacements;
+static_assert(NumberOfDisplacements <= RayTargets::MostDisplacements);
 
 void SetDisplacements(vtkShaderProgram* program)
 {
@@ -56,7 +54,8 @@ void SetDisplacements(vtkShaderProgram* program)
 
 /// A program's source from its file.
 std::string MakeSource(const char* file, const std::vector<std::string>& defines,
-  const std::string& rays = {}, const std::string& integral = {}, const std::string& lighting = {})
+  const std::string& rays = {}, const std::string& integral = {}, const std::string& lighting = {},
+  const std::string& firstContribution = {})
 {
   std::string source = file;
   std::string system = "#version 150\n";
@@ -75,6 +74,7 @@ std::string MakeSource(const char* file, const std::vector<std::string>& defines
   vtkShaderProgram::Substitute(source, "//VTK::BoundaryNodes::Dec", BoundaryNodesDec);
   vtkShaderProgram::Substitute(source, "//VTK::Lighting::Dec", lighting);
   vtkShaderProgram::Substitute(source, "//VTK::RayIntegral::Dec", integral);
+  vtkShaderProgram::Substitute(source, "//VTK::FirstContribution::Dec", firstContribution);
   return source;
 }
 
@@ -181,6 +181,7 @@ public:
     , Stencil(State, GL_STENCIL_TEST)
     , DepthMask(State)
     , DepthFunction(State)
+    , BlendFunction(State)
     , ColorMask(State)
   {
     for (const unsigned int capability :
@@ -208,9 +209,40 @@ public:
     {
       statistics.Variant += (statistics.Variant.empty() ? "" : " ") + name;
     }
-    this->Self.Targets.Clear(
-      this->Options.LargestScalar ? -std::numeric_limits<float>::max() : 0.f);
-    PassCounts counts(statistics.Fragments);
+    RayPicture& picture = this->Self.Picture;
+    statistics.Bands = picture.GetNumberOfBands();
+    for (this->Band = 0; this->Band < statistics.Bands && !statistics.Aborted; ++this->Band)
+    {
+      this->Self.Targets.SetBand(picture.GetBand(this->Band));
+      this->DrawBand(statistics);
+    }
+    if (!statistics.Aborted)
+    {
+      statistics.Steps = this->Options.CountFragments ? picture.CountSteps() : 0;
+    }
+    return statistics;
+  }
+
+private:
+  const FloatTarget::Settings& GetBandSettings() const
+  {
+    return this->Self.Picture.GetBand(this->Band).GetSettings();
+  }
+
+  /// Of the picture, where a share of the band is done.
+  double FindShare(double ofBand) const
+  {
+    const RayPicture& picture = this->Self.Picture;
+    return (picture.GetFirstRow(this->Band) + ofBand * this->GetBandSettings().Height) /
+      picture.GetHeight();
+  }
+
+  void DrawBand(GpuRayCastStatistics& statistics)
+  {
+    this->State->vtkglDepthMask(GL_TRUE); // clearing, too, heeds it
+    this->Self.Targets.Clear(this->Options.LargestScalar);
+    std::vector<std::int64_t> fragments;
+    PassCounts counts(fragments);
     for (int pass = 0;; ++pass)
     {
       const int from = pass % 2;
@@ -225,7 +257,7 @@ public:
           this->FindEntries(from);
         }
       }
-      this->CoverDone(from);
+      this->FinishDone(from);
       counts.Begin();
       this->WalkOn(from);
       counts.End();
@@ -235,25 +267,18 @@ public:
       {
         break;
       }
-      const double running = statistics.Fragments.empty()
+      const double running = fragments.empty()
         ? 1
-        : static_cast<double>(statistics.Fragments.back()) /
-          static_cast<double>(statistics.Fragments.front());
-      if (this->Options.Continue && !this->Options.Continue(1 - running))
+        : static_cast<double>(fragments.back()) / static_cast<double>(fragments.front());
+      if (this->Options.Continue && !this->Options.Continue(this->FindShare(1 - running)))
       {
         statistics.Aborted = true;
         break;
       }
     }
-    if (!statistics.Aborted)
-    {
-      this->MakePicture(statistics.Passes % 2);
-      statistics.Steps = this->Options.CountFragments ? this->CountSteps() : 0;
-    }
-    return statistics;
+    statistics.Fragments.insert(statistics.Fragments.end(), fragments.begin(), fragments.end());
   }
 
-private:
   void Deactivate()
   {
     this->Limits.Deactivate();
@@ -315,6 +340,8 @@ private:
     define(lit, "LIT");
     define(lit && this->Options.SmoothGradients, "SMOOTH_GRADIENTS");
     define(this->Integral.GetIntegrator() == Integrator::Isosurfaces, "ISOSURFACES");
+    define(!this->GetFirstContribution().empty(), "FIND_FIRST");
+    define(this->Options.CountFragments, "COUNT_STEPS");
     return names;
   }
 
@@ -325,17 +352,23 @@ private:
     this->State->vtkglDepthMask(GL_FALSE);
   }
 
+  /// For programs that read states.
+  void SetBand(vtkShaderProgram* program)
+  {
+    program->SetUniformf(
+      "firstRow", static_cast<float>(this->Self.Picture.GetFirstRow(this->Band)));
+  }
+
   void FindEntries(int from)
   {
     RayTargets& targets = this->Self.Targets;
     vtkShaderProgram* program = this->Self.Entry.Use(this->Window, "RayEntryFS",
       MakeSource(RayEntryFS, this->GetEntryDefines(), this->Limits.GetDeclarations()));
+    this->SetBand(program);
     this->Limits.Activate(program);
     this->Mesh.ActivateForEntry(program);
     SetDisplacements(program);
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
-    const ActiveTexture entries(
-      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
     targets.DrawInto(RayTargets::OfNextEntries);
     this->TestDepth();
     this->Self.Entry.Draw();
@@ -350,6 +383,7 @@ private:
     vtkShaderProgram* program = this->Self.Layer.Use(this->Window, "RayLayerFS",
       MakeSource(RayLayerFS, this->GetEntryDefines(), this->Limits.GetDeclarations()),
       MakeSource(RayLayerVS, {}));
+    this->SetBand(program);
     this->Limits.Activate(program);
     this->Mesh.ActivateForEntry(program);
     float rows[3][4];
@@ -359,14 +393,11 @@ private:
         rows[row], [](double x) { return static_cast<float>(x); });
     }
     program->SetUniform4fv("pixelFromRay", 3, rows);
-    const FloatTarget::Settings& settings = this->Self.Picture.GetSettings();
-    const float size[2] = { static_cast<float>(settings.Width),
-      static_cast<float>(settings.Height) };
-    program->SetUniform2f("pictureSize", size);
+    const FloatTarget::Settings& band = this->GetBandSettings();
+    const float size[2] = { static_cast<float>(band.Width), static_cast<float>(band.Height) };
+    program->SetUniform2f("bandSize", size);
     SetDisplacements(program);
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
-    const ActiveTexture entries(
-      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
     targets.DrawInto(RayTargets::OfLayer);
     this->State->vtkglDepthFunc(GL_LESS);
     constexpr int VerticesOfEntry = 6;
@@ -374,20 +405,33 @@ private:
     this->Deactivate();
   }
 
-  void CoverDone(int from)
+  void FinishDone(int from)
   {
     RayTargets& targets = this->Self.Targets;
+    const bool largest = this->Options.LargestScalar;
+    std::vector<std::string> defines = { "NUMBER_OF_PARTS " +
+      std::to_string(this->Limits.GetNumberOfParts()) };
+    if (largest)
+    {
+      defines.emplace_back("GATHER_LARGEST");
+    }
     vtkShaderProgram* program = this->Self.Done.Use(this->Window, "RayDoneFS",
       MakeSource(
-        RayDoneFS, { "NUMBER_OF_PARTS " + std::to_string(this->Limits.GetNumberOfParts()) }));
+        RayDoneFS, defines, {}, largest ? this->Integral.GetDeclarations() : std::string()));
+    if (largest)
+    {
+      this->Integral.Activate(program);
+    }
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
-    const ActiveTexture entries(
-      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
+    const ActiveTexture sums(program, "raySums", targets.GetTexture(from, RayTargets::Sums));
     const ActiveTexture next(program, "nextEntries", targets.GetNextEntries());
-    targets.DrawInto(RayTargets::OfDepth);
+    targets.DrawInto(RayTargets::OfColors);
     this->State->vtkglDepthFunc(GL_LESS);
     this->State->vtkglDepthMask(GL_TRUE);
+    const vtkOpenGLState::ScopedglColorMask mask(this->State);
+    this->State->vtkglColorMask(largest, largest, largest, GL_TRUE);
     this->Self.Done.Draw();
+    this->Deactivate();
   }
 
   void WalkOn(int from)
@@ -395,7 +439,8 @@ private:
     RayTargets& targets = this->Self.Targets;
     vtkShaderProgram* program = this->Self.Walk.Use(this->Window, "RayWalkFS",
       MakeSource(RayWalkFS, this->GetWalkDefines(), this->Limits.GetDeclarations(),
-        this->Integral.GetDeclarations(), this->GetLighting()));
+        this->Integral.GetDeclarations(), this->GetLighting(), this->GetFirstContribution()));
+    this->SetBand(program);
     this->Limits.Activate(program);
     program->SetUniformi("numberOfCells", this->Options.NumberOfCells);
     program->SetUniformi("stepsOfPass", this->Options.StepsPerPass);
@@ -408,62 +453,14 @@ private:
     this->Integral.Activate(program);
     SetDisplacements(program);
     const ActiveTexture states(program, "rayStates", targets.GetTexture(from, RayTargets::States));
-    const ActiveTexture entries(
-      program, "rayEntries", targets.GetTexture(from, RayTargets::Entries));
-    const ActiveTexture colors(program, "rayColors", targets.GetTexture(from, RayTargets::Colors));
-    const ActiveTexture firsts(program, "rayFirsts", targets.GetTexture(from, RayTargets::Firsts));
+    const ActiveTexture sums(program, "raySums", targets.GetTexture(from, RayTargets::Sums));
     const ActiveTexture next(program, "nextEntries", targets.GetNextEntries());
     targets.DrawInto(1 - from);
     this->TestDepth();
+    targets.BeginAdding();
     this->Self.Walk.Draw();
+    targets.EndAdding();
     this->Deactivate();
-  }
-
-  void MakePicture(int last)
-  {
-    RayTargets& targets = this->Self.Targets;
-    const FloatTarget::Use use(this->Self.Picture);
-    std::vector<std::string> defines = this->GetWalkDefines();
-    if (!this->GetFirstContribution().empty())
-    {
-      defines.emplace_back("FIND_FIRST");
-    }
-    std::string source = MakeSource(RayPictureFS, defines, this->Limits.GetDeclarations(),
-      this->Integral.GetDeclarations(), this->GetLighting());
-    vtkShaderProgram::Substitute(
-      source, "//VTK::FirstContribution::Dec", this->GetFirstContribution());
-    vtkShaderProgram* program = this->Self.Result.Use(this->Window, "RayPictureFS", source);
-    this->Limits.Activate(program);
-    this->Integral.Activate(program);
-    const int other = 1 - last;
-    const ActiveTexture entries(
-      program, "rayEntries", targets.GetTexture(last, RayTargets::Entries));
-    const ActiveTexture colors(program, "rayColors", targets.GetTexture(last, RayTargets::Colors));
-    const ActiveTexture firsts(program, "rayFirsts", targets.GetTexture(last, RayTargets::Firsts));
-    const ActiveTexture otherEntries(
-      program, "otherRayEntries", targets.GetTexture(other, RayTargets::Entries));
-    const ActiveTexture otherColors(
-      program, "otherRayColors", targets.GetTexture(other, RayTargets::Colors));
-    const ActiveTexture otherFirsts(
-      program, "otherRayFirsts", targets.GetTexture(other, RayTargets::Firsts));
-    this->State->vtkglDisable(GL_DEPTH_TEST);
-    this->Self.Result.Draw();
-    this->State->vtkglEnable(GL_DEPTH_TEST);
-    this->Deactivate();
-  }
-
-  std::int64_t CountSteps()
-  {
-    const FloatTarget::Settings& settings = this->Self.Picture.GetSettings();
-    std::vector<float> distancesAndSteps(
-      2 * static_cast<std::size_t>(settings.Width) * static_cast<std::size_t>(settings.Height));
-    this->Self.Picture.Read(1, distancesAndSteps);
-    std::int64_t steps = 0;
-    for (std::size_t k = 1; k < distancesAndSteps.size(); k += 2)
-    {
-      steps += std::lround(distancesAndSteps[k]);
-    }
-    return steps;
   }
 
   GpuRayCaster& Self;
@@ -473,25 +470,50 @@ private:
   WalkTextures& Mesh;
   GpuSegmentIntegral& Integral;
   const GpuRayCastOptions& Options;
+  int Band = 0; ///< that is drawn
 
   vtkOpenGLState::ScopedglActiveTexture Unit;
   vtkOpenGLState::ScopedglEnableDisable Blend, DepthTest, CullFace, Scissor, Stencil;
   vtkOpenGLState::ScopedglDepthMask DepthMask;
   vtkOpenGLState::ScopedglDepthFunc DepthFunction;
+  vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
   vtkOpenGLState::ScopedglColorMask ColorMask;
 };
+
+//------------------------------------------------------------------------------------------------
+void GpuRayCaster::Prepare(
+  vtkOpenGLRenderWindow* window, int width, int height, const GpuRayCastOptions& options)
+{
+  const bool layers = options.Layers != nullptr;
+  int largestTexture = 0;
+  int largestViewport[2] = { 0, 0 };
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largestTexture);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, largestViewport);
+  RayBandRequest request;
+  request.Width = width;
+  request.Height = height;
+  request.BytesPerPixel = static_cast<std::int64_t>(RayTargets::GetPixelSize(layers));
+  request.MaximumBytes = options.MaximumBytes;
+  request.LargestSize = std::min({ largestTexture, largestViewport[0], largestViewport[1] });
+  if (this->RowsOfBand == 0 || !(request == this->Request))
+  {
+    this->RowsOfBand = FindRowsOfBand(request);
+    this->Request = request;
+  }
+  this->RowsOfBand = HalveRowsUntilMade(this->RowsOfBand,
+    [&](int rows)
+    {
+      this->Targets.Prepare(window, width, rows, layers);
+      this->Picture.Prepare(window, width, height, rows, options.CountFragments);
+    });
+}
 
 //------------------------------------------------------------------------------------------------
 GpuRayCastStatistics GpuRayCaster::Cast(vtkOpenGLRenderWindow* window, int width, int height,
   GpuRayLimits& limits, WalkTextures& mesh, GpuSegmentIntegral& integral,
   const GpuRayCastOptions& options)
 {
-  this->Targets.Prepare(window, width, height);
-  FloatTarget::Settings settings;
-  settings.Width = width;
-  settings.Height = height;
-  settings.Pictures = { { 4, ChannelFormat::Float }, { 2, ChannelFormat::Float } };
-  this->Picture.Prepare(window, settings);
+  this->Prepare(window, width, height, options);
   Frame frame(*this, window, limits, mesh, integral, options);
   return frame.Draw();
 }
@@ -500,8 +522,8 @@ void GpuRayCaster::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Targets.ReleaseGraphicsResources(window);
   this->Picture.ReleaseGraphicsResources(window);
-  for (ScreenProgram* program :
-    { &this->Entry, &this->Layer, &this->Walk, &this->Done, &this->Result })
+  this->RowsOfBand = 0;
+  for (ScreenProgram* program : { &this->Entry, &this->Layer, &this->Walk, &this->Done })
   {
     program->ReleaseGraphicsResources(window);
   }

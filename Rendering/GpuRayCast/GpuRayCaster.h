@@ -2,8 +2,9 @@
 #ifndef tetralux_GpuRayCaster_h
 #define tetralux_GpuRayCaster_h
 
+#include "GpuRayCast/RayBands.h"
+#include "GpuRayCast/RayPicture.h"
 #include "GpuRayCast/RayTargets.h"
-#include "OpenGL/FloatTarget.h"
 #include "OpenGL/ScreenProgram.h"
 #include "TetraluxRenderingModule.h"
 
@@ -47,6 +48,8 @@ struct GpuRayCastOptions
   const PixelProjection* Layers = nullptr;
   float MaximumOpacity = 1; ///< a ray that is this opaque is done; more than 1: never
   int StepsPerPass = 1;
+  /// Of what rays keep between passes; the picture is cast in bands of rows where it is not enough.
+  std::int64_t MaximumBytes = 0;
   bool CountFragments = false; ///< wait for the count of each pass, and count steps
   /// Called between passes, with the share of the rays that is known to be done, 0..1; returns
   /// false to abort.
@@ -56,8 +59,9 @@ struct GpuRayCastOptions
 struct GpuRayCastStatistics
 {
   bool Aborted = false;
-  int Passes = 0;
-  /// Rays that took part in each pass, as far as they are known.
+  int Bands = 0;
+  int Passes = 0; ///< of all bands
+  /// Rays that took part in each pass, as far as they are known; one band after the other.
   std::vector<std::int64_t> Fragments;
   std::int64_t Steps = 0; ///< of all rays through cells, where fragments are counted
   std::string Variant;    ///< of the shader that walks: its defines
@@ -68,14 +72,14 @@ struct GpuRayCastStatistics
 class TETRALUXRENDERING_EXPORT GpuRayCaster
 {
 public:
-  /// Casts a picture of rays, whatever limits says of them. Leaves OpenGL's state as it was. Throws
-  /// std::runtime_error, with one line, where the graphics card lacks something.
+  /// Casts a picture of rays, whatever limits says of them. A band that the graphics card has no
+  /// memory for is halved. Leaves OpenGL's state as it was. Throws std::runtime_error, with one
+  /// line, where the graphics card lacks something.
   GpuRayCastStatistics Cast(vtkOpenGLRenderWindow* window, int width, int height,
     GpuRayLimits& limits, WalkTextures& mesh, GpuSegmentIntegral& integral,
     const GpuRayCastOptions& options);
 
-  /// The picture: RGBA, premultiplied; and distance of the first contribution and number of steps.
-  FloatTarget& GetPicture() { return this->Picture; }
+  RayPicture& GetPicture() { return this->Picture; }
 
   std::size_t GetNumberOfBytes() const
   {
@@ -87,9 +91,14 @@ public:
 private:
   class Frame;
 
+  void Prepare(
+    vtkOpenGLRenderWindow* window, int width, int height, const GpuRayCastOptions& options);
+
   RayTargets Targets;
-  FloatTarget Picture;
-  ScreenProgram Entry, Layer, Walk, Done, Result;
+  RayPicture Picture;
+  ScreenProgram Entry, Layer, Walk, Done;
+  RayBandRequest Request; ///< that RowsOfBand were found for
+  int RowsOfBand = 0;
 };
 
 } // namespace tetralux

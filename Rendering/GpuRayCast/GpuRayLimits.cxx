@@ -2,6 +2,7 @@
 #include "GpuRayCast/GpuRayLimits.h"
 
 #include "Frame/CameraRays.h"
+#include "GpuRayCast/RayTargets.h"
 #include "RayGridDec.h"
 #include "RayLimitsDec.h"
 
@@ -20,6 +21,7 @@ namespace
 
 /// The most parts that six cropping planes can leave of a ray.
 constexpr int MostParts = 4;
+static_assert(MostParts <= RayTargets::MostParts);
 
 /// Homogeneous coordinates relative to a position in the world, times a factor, in the coordinates
 /// of rays: radii of the mesh from its centre.

@@ -12,21 +12,16 @@
 //VTK::BoundaryEntry::Dec
 //VTK::BoundaryNodes::Dec
 
-uniform isampler2D rayStates;
-uniform isampler2D rayEntries;
-
 out ivec4 fragOutput0; // gl_FragData[0]
 
 void main()
 {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  RayState state = LoadState();
   int next = NoEntry;
-  if (numberOfBoundaryNodes > 0 && texelFetch(rayStates, pixel, 0).w == RayNeedsEntry)
+  if (numberOfBoundaryNodes > 0 && state.Face == RayNeedsEntry)
   {
-    ivec4 lastEntry = texelFetch(rayEntries, pixel, 0);
-    int displacement = GetDisplacement(lastEntry.w);
-    RayFrame frame = DisplaceFrame(MakeRayFrame(GetRay(gl_FragCoord.xy)), displacement);
-    int last = lastEntry.x;
+    RayFrame frame = DisplaceFrame(MakeRayFrame(GetRay(GetPixel())), state.Displacement);
+    int last = state.Entry;
     float lastDistance = last >= 0 ? TestEntry(frame, last).Distance : -LargestFloat;
     bool near = false;
     float nearest = LargestFloat;
@@ -96,7 +91,7 @@ void main()
       }
     }
 #ifdef DISPLACES
-    if (near && displacement == 0)
+    if (near && state.Displacement == 0)
     {
       next = AskForDisplacement(frame);
     }

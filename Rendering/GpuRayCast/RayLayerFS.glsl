@@ -11,9 +11,6 @@
 //VTK::BoundaryEntry::Dec
 //VTK::BoundaryNodes::Dec
 
-uniform isampler2D rayStates;
-uniform isampler2D rayEntries;
-
 flat in int entryVSOutput;
 
 out ivec4 fragOutput0; // gl_FragData[0]
@@ -27,17 +24,15 @@ float FindDepth(RayFrame frame, float distance)
 
 void main()
 {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  if (texelFetch(rayStates, pixel, 0).w != RayNeedsEntry)
+  RayState state = LoadState();
+  if (state.Face != RayNeedsEntry)
   {
     discard;
   }
-  ivec4 lastEntry = texelFetch(rayEntries, pixel, 0);
-  int displacement = GetDisplacement(lastEntry.w);
-  RayFrame frame = DisplaceFrame(MakeRayFrame(GetRay(gl_FragCoord.xy)), displacement);
+  RayFrame frame = DisplaceFrame(MakeRayFrame(GetRay(GetPixel())), state.Displacement);
   FaceTest test = TestEntry(frame, entryVSOutput);
 #ifdef DISPLACES
-  if (test.Near && displacement == 0)
+  if (test.Near && state.Displacement == 0)
   {
     gl_FragDepth = 0.0; // in front of all entries
     fragOutput0 = ivec4(AskForDisplacement(frame));
@@ -49,7 +44,7 @@ void main()
     discard;
   }
   float depth = FindDepth(frame, test.Distance);
-  int last = lastEntry.x;
+  int last = state.Entry;
   if (last >= 0)
   {
     // In the order of depths, and of faces, which are drawn in their order, where they are the

@@ -8,7 +8,8 @@ uniform samplerBuffer walkPoints;
 uniform isamplerBuffer boundaryEntries;
 // Homogeneous position in pixels of a point in the coordinates of rays.
 uniform vec4 pixelFromRay[3];
-uniform vec2 pictureSize;     // pixels
+uniform vec2 bandSize;  // of the band of the picture that is drawn, pixels
+uniform float firstRow; // of the band in the picture
 
 flat out int entryVSOutput;
 
@@ -31,7 +32,7 @@ void main()
   int corner = gl_VertexID % 6;
   bool right = corner == 1 || corner == 2 || corner == 4;
   bool top = corner == 2 || corner == 4 || corner == 5;
-  vec2 pixel = vec2(right ? upper.x : lower.x, top ? upper.y : lower.y);
-  pixel = clamp(pixel, vec2(-2.0), pictureSize + 2.0);
-  gl_Position = vec4(2.0 * pixel / pictureSize - 1.0, 0.0, 1.0);
+  vec2 pixel = vec2(right ? upper.x : lower.x, (top ? upper.y : lower.y) - firstRow);
+  pixel = clamp(pixel, vec2(-2.0), bandSize + 2.0);
+  gl_Position = vec4(2.0 * pixel / bandSize - 1.0, 0.0, 1.0);
 }

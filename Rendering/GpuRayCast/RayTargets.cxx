@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuRayCast/RayTargets.h"
 
+#include "GpuRayCast/RayPicture.h"
+#include "OpenGL/FloatTarget.h"
+#include "OpenGL/GraphicsMemory.h"
+
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkTextureObject.h"
@@ -16,7 +20,6 @@ namespace
 {
 
 /// As in RayStatesDec.glsl.
-constexpr GLint RayNeedsEntry = -2;
 constexpr GLfloat LargestFloat = 3.402823e38f;
 
 struct Format
@@ -29,15 +32,55 @@ struct Format
 };
 
 constexpr Format FormatOf[RayTargets::NumberOfTextures] = {
-  { GL_RGBA32I, GL_RGBA_INTEGER, GL_INT, VTK_INT, 4 },
-  { GL_RGBA32I, GL_RGBA_INTEGER, GL_INT, VTK_INT, 4 },
-  { GL_RGBA32F, GL_RGBA, GL_FLOAT, VTK_FLOAT, 4 },
-  { GL_RGBA32F, GL_RGBA, GL_FLOAT, VTK_FLOAT, 4 },
+  { GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, VTK_UNSIGNED_INT, 2 },
+  { GL_RG32F, GL_RG, GL_FLOAT, VTK_FLOAT, 2 },
 };
 constexpr Format FormatOfNextEntries = { GL_R32I, GL_RED_INTEGER, GL_INT, VTK_INT, 1 };
 
-/// Bytes of a pixel: both sets, next entries and two depths, four each.
-constexpr std::size_t PixelSize = 4 * (2 * 16 + 1 + 2);
+/// Bytes of a pixel: both sets, next entries, and 16 bits of depth, which is 0 or 1.
+constexpr std::size_t PixelSize = 2 * (8 + 8) + 4 + 2;
+constexpr std::size_t LayerPixelSize = 4;
+
+/// What a pass draws into.
+constexpr GLenum Attachments[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2,
+  GL_COLOR_ATTACHMENT3, GL_COLOR_ATTACHMENT4 };
+
+void Attach(GLenum attachment, vtkTextureObject* texture)
+{
+  glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture->GetHandle(), 0);
+}
+
+/// Of the frame buffer that is bound: the first so many attachments.
+void SelectAttachments(int number)
+{
+  glDrawBuffers(number, Attachments);
+  glReadBuffer(Attachments[0]);
+}
+
+void CheckFramebuffer()
+{
+  if (glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+  {
+    throw std::runtime_error("this OpenGL cannot draw into integer and floating point textures");
+  }
+}
+
+/// Sets the frame buffers back that were bound before.
+class FramebufferKeeper
+{
+public:
+  explicit FramebufferKeeper(vtkOpenGLState* state)
+    : State(state)
+  {
+    state->PushFramebufferBindings();
+  }
+  ~FramebufferKeeper() { this->State->PopFramebufferBindings(); }
+  FramebufferKeeper(const FramebufferKeeper&) = delete;
+  FramebufferKeeper& operator=(const FramebufferKeeper&) = delete;
+
+private:
+  vtkOpenGLState* State;
+};
 
 void AllocateTexture(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, const Format& format,
   int width, int height)
@@ -76,9 +119,23 @@ RayTargets::RayTargets() = default;
 
 RayTargets::~RayTargets() { this->ReleaseGraphicsResources(this->Window); }
 
-void RayTargets::Prepare(vtkOpenGLRenderWindow* window, int width, int height)
+std::string RayTargets::FindObstacle(std::int64_t tetrahedra)
 {
-  if (this->Window == window && this->Size[0] == width && this->Size[1] == height)
+  constexpr std::int64_t Most = MostFaces / 4;
+  return tetrahedra <= Most ? std::string()
+                            : "the mesh has " + std::to_string(tetrahedra) +
+      " tetrahedra, and rays on the graphics card tell apart at most " + std::to_string(Most);
+}
+
+std::size_t RayTargets::GetPixelSize(bool layers)
+{
+  return PixelSize + (layers ? LayerPixelSize : 0);
+}
+
+void RayTargets::Prepare(vtkOpenGLRenderWindow* window, int width, int rows, bool layers)
+{
+  if (this->Window == window && this->Size[0] == width && this->Size[1] == rows &&
+    this->Layers == layers)
   {
     return;
   }
@@ -86,7 +143,7 @@ void RayTargets::Prepare(vtkOpenGLRenderWindow* window, int width, int height)
   this->Window = window;
   try
   {
-    this->Allocate(window, width, height);
+    this->Allocate(window, width, rows, layers);
   }
   catch (...)
   {
@@ -94,60 +151,74 @@ void RayTargets::Prepare(vtkOpenGLRenderWindow* window, int width, int height)
     throw;
   }
   this->Size[0] = width;
-  this->Size[1] = height;
+  this->Size[1] = rows;
+  this->Layers = layers;
 }
 
-void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int height)
+void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int rows, bool layers)
 {
   vtkOpenGLState* state = window->GetState();
   const vtkOpenGLState::ScopedglActiveTexture unit(state);
+  const GraphicsMemoryCheck memory;
   for (auto& set : this->Textures)
   {
     for (int k = 0; k < NumberOfTextures; ++k)
     {
-      AllocateTexture(window, set[k], FormatOf[k], width, height);
+      AllocateTexture(window, set[k], FormatOf[k], width, rows);
     }
   }
-  AllocateTexture(window, this->NextEntries, FormatOfNextEntries, width, height);
-  AllocateDepth(window, this->Depth, width, height, vtkTextureObject::Fixed24);
-  // Distances in it are compared with each other in single precision.
-  AllocateDepth(window, this->LayerDepth, width, height, vtkTextureObject::Float32);
-
-  bool complete = true;
-  constexpr GLenum Attachments[NumberOfTextures] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-    GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3 };
-  const auto attach = [](GLenum attachment, vtkTextureObject* texture)
+  AllocateTexture(window, this->NextEntries, FormatOfNextEntries, width, rows);
+  AllocateDepth(window, this->Depth, width, rows, vtkTextureObject::Fixed16);
+  if (layers)
   {
-    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture->GetHandle(), 0);
-  };
-  state->PushFramebufferBindings();
+    // Distances in it are compared with each other in single precision.
+    AllocateDepth(window, this->LayerDepth, width, rows, vtkTextureObject::Float32);
+  }
+  memory.Finish("the states of " + std::to_string(width) + " x " + std::to_string(rows) + " rays");
+
+  const FramebufferKeeper keeper(state);
   glGenFramebuffers(NumberOfFramebuffers, this->Framebuffers);
   for (int k = 0; k < NumberOfFramebuffers; ++k)
   {
+    if (k == OfLayer && !layers)
+    {
+      continue;
+    }
     state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffers[k]);
-    attach(GL_DEPTH_ATTACHMENT, k == OfLayer ? this->LayerDepth : this->Depth);
-    int colors = 0;
+    Attach(GL_DEPTH_ATTACHMENT, k == OfLayer ? this->LayerDepth : this->Depth);
     if (k == OfNextEntries || k == OfLayer)
     {
-      attach(Attachments[colors++], this->NextEntries);
+      Attach(Attachments[0], this->NextEntries);
+      SelectAttachments(1);
+      CheckFramebuffer();
     }
-    else if (k != OfDepth)
+    else if (k != OfColors)
     {
-      for (const auto& texture : this->Textures[k])
+      for (int texture = 0; texture < NumberOfTextures; ++texture)
       {
-        attach(Attachments[colors++], texture);
+        Attach(Attachments[texture], this->Textures[k][texture]);
       }
     }
-    glDrawBuffers(colors, Attachments);
-    glReadBuffer(
-      colors > 0 ? Attachments[0] : GL_NONE); // OpenGL before 4.1 wants that one to exist
-    complete = complete && glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   }
-  state->PopFramebufferBindings();
-  if (!complete)
+}
+
+void RayTargets::SetBand(const FloatTarget& band)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  this->NumberOfPictures = static_cast<int>(band.GetSettings().Pictures.size());
+  for (const int k : { OfSet0, OfSet1, OfColors })
   {
-    throw std::runtime_error("this OpenGL cannot draw into integer and floating point textures");
+    state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffers[k]);
+    int colors = k == OfColors ? 0 : NumberOfTextures;
+    const int pictures = k == OfColors ? 1 : this->NumberOfPictures;
+    for (int picture = 0; picture < pictures; ++picture)
+    {
+      Attach(Attachments[colors++], band.GetTexture(RayPicture::Colors + picture));
+    }
+    SelectAttachments(colors);
+    CheckFramebuffer();
   }
+  state->vtkglViewport(0, 0, band.GetSettings().Width, band.GetSettings().Height);
 }
 
 void RayTargets::BeginDrawing()
@@ -155,7 +226,6 @@ void RayTargets::BeginDrawing()
   vtkOpenGLState* state = this->Window->GetState();
   state->PushFramebufferBindings();
   state->vtkglGetIntegerv(GL_VIEWPORT, this->Viewport);
-  state->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
 }
 
 void RayTargets::EndDrawing()
@@ -180,27 +250,45 @@ void RayTargets::ClearLayer()
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
-void RayTargets::Clear(float firstColor)
+void RayTargets::Clear(bool largest)
 {
-  const GLint states[4] = { 0, 0, 0, RayNeedsEntry };
-  const GLint entries[4] = { -1, 0, 0, 0 };
-  const GLfloat colors[4] = { firstColor, 0, 0, 0 };
-  const GLfloat firsts[4] = { LargestFloat, 0, 0, 0 };
+  // The face is RayNeedsEntry, the entry NoEntry, the part the first one.
+  const GLuint states[4] = { 0, 0, 0, 0 };
+  const GLfloat sums[4] = { largest ? -LargestFloat : 0.f, LargestFloat, 0, 0 };
   const GLfloat farthest = 1;
-  for (int set = 0; set < 2; ++set)
+  this->DrawInto(OfSet0);
+  glClearBufferuiv(GL_COLOR, States, states);
+  glClearBufferfv(GL_COLOR, Sums, sums);
+  for (int picture = 0; picture < this->NumberOfPictures; ++picture)
   {
-    this->DrawInto(set);
-    glClearBufferiv(GL_COLOR, States, states);
-    glClearBufferiv(GL_COLOR, Entries, entries);
-    glClearBufferfv(GL_COLOR, Colors, colors);
-    glClearBufferfv(GL_COLOR, Firsts, firsts);
+    const GLfloat value = picture == RayPicture::Distances ? -1.f : 0.f;
+    const GLfloat values[4] = { value, value, value, value };
+    glClearBufferfv(GL_COLOR, NumberOfTextures + picture, values);
   }
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
+void RayTargets::BeginAdding()
+{
+  // The opacity of colours is written where a ray is done.
+  this->Window->GetState()->vtkglBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
+  for (int picture = 0; picture < this->NumberOfPictures; ++picture)
+  {
+    glEnablei(GL_BLEND, static_cast<GLuint>(NumberOfTextures + picture));
+  }
+}
+
+void RayTargets::EndAdding()
+{
+  for (int picture = 0; picture < this->NumberOfPictures; ++picture)
+  {
+    glDisablei(GL_BLEND, static_cast<GLuint>(NumberOfTextures + picture));
+  }
+}
+
 std::size_t RayTargets::GetNumberOfBytes() const
 {
-  return PixelSize * static_cast<std::size_t>(this->Size[0]) *
+  return GetPixelSize(this->Layers) * static_cast<std::size_t>(this->Size[0]) *
     static_cast<std::size_t>(this->Size[1]);
 }
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A number of steps of each ray from cell to cell (Weiler et al. 2003, section 3), front to back:
 // exit face, scalar there, ray integral, blending, next cell. What a ray has come to is read from
-// textures and written to others; the next pass goes on from there.
+// textures and written to others; the next pass goes on from there. Colours are added to those of
+// the picture by blending, as no ray needs to read them: so there is one of them, not two.
 //
 // A cell is entered through the triangle a b c, whose corners surround the ray counter-clockwise.
 // The cell's fourth point p replaces one of them: the signs of det(p, a), det(p, b), det(p, c) tell
@@ -16,7 +17,8 @@
 // still come in pairs, the ends of walks: a crossing is an entry where the walk from it ends behind
 // it. So rays that come in again walk twice: first to tell, then to gather. ISOSURFACES: surfaces
 // of constant scalar are looked for. LIT: lights shine on segments, by the gradients of cells or,
-// SMOOTH_GRADIENTS, of points; of isosurfaces only where there is one.
+// SMOOTH_GRADIENTS, of points; of isosurfaces only where there is one. FIND_FIRST: the distance of
+// the first contribution is looked for within its segment. COUNT_STEPS: cells are counted.
 
 //VTK::RayStates::Dec
 //VTK::GetRay::Dec
@@ -24,17 +26,11 @@
 //VTK::BoundaryEntry::Dec
 //VTK::Lighting::Dec
 //VTK::RayIntegral::Dec
+//VTK::FirstContribution::Dec
 
-// What rays have come to. States: points of the triangle, and index of the face that is crossed
-// next, or what RayStatesDec.glsl says. Entries: the last boundary entry, part of the ray, steps,
-// whether the walk is to tell only and the ray's displacement.
-// Colors: gathered so far, or the largest scalar. Firsts: of the first segment that contributed the
-// distances of its ends from the point nearest to the centre, and the scalars there; or the
-// distance of the largest scalar.
-uniform isampler2D rayStates;
-uniform isampler2D rayEntries;
-uniform sampler2D rayColors;
-uniform sampler2D rayFirsts;
+// Opacity that was gathered so far, or the largest scalar; and where the segment begins that
+// contributed first, from the point nearest to the centre.
+uniform sampler2D raySums;
 
 uniform isampler2D nextEntries; // of rays that need one, or what RayStatesDec.glsl says
 
@@ -43,11 +39,17 @@ uniform int numberOfCells;
 uniform int stepsOfPass;
 uniform float maximumOpacity; // a ray that is this opaque ends
 
-// gl_FragData[0], gl_FragData[1], gl_FragData[2], gl_FragData[3]
-out ivec4 fragOutput0;
-out ivec4 fragOutput1;
+// gl_FragData[0], gl_FragData[1], gl_FragData[2], gl_FragData[3]: state and sums; then colour, and
+// distance of the first contribution from where the ray starts, -1 where there is none. The last
+// two, and the steps, are added to what their pictures show times their fourth number: 1 adds, 0
+// begins anew.
+out uvec2 fragOutput0;
+out vec2 fragOutput1;
 out vec4 fragOutput2;
 out vec4 fragOutput3;
+#ifdef COUNT_STEPS
+out vec4 fragOutput4; // gl_FragData[4]
+#endif
 
 // Distance and scalar where the ray goes through a triangle. By differences: a constant stays
 // exactly what it is, also next to a step of the transfer function.
@@ -105,49 +107,82 @@ bool EndsBehind(RayFrame frame, int entry, ivec3 ids, int face)
 }
 #endif
 
+// The points of a face of a cell: those that are opposite to the cell's other faces. Each is told
+// by what is behind such a face: the boundary, or a cell, one face of which leads back.
+ivec3 FindPoints(int face)
+{
+  int cell = face >> 2;
+  ivec3 points = ivec3(0);
+  for (int k = 1; k < 4; ++k)
+  {
+    ivec2 behind = texelFetch(walkFaces, 4 * cell + ((face + k) & 3)).xy;
+    int point = behind.y;
+    for (int m = 0; behind.x >= 0 && m < 4; ++m)
+    {
+      ivec2 back = texelFetch(walkFaces, 4 * behind.x + m).xy;
+      point = back.x == cell ? back.y : point;
+    }
+    points = ivec3(points.yz, point);
+  }
+  return points;
+}
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  ivec4 state = texelFetch(rayStates, pixel, 0);
-  ivec4 entry = texelFetch(rayEntries, pixel, 0);
-  vec4 gathered = texelFetch(rayColors, pixel, 0);
-  vec4 first = texelFetch(rayFirsts, pixel, 0);
+  RayState state = LoadState();
+  vec2 sums = texelFetch(raySums, pixel, 0).xy;
+#ifdef GATHER_LARGEST
+  vec4 gathered = vec4(sums.x, 0.0, 0.0, 0.0);
+#else
+  vec4 gathered = vec4(0.0, 0.0, 0.0, sums.x);
+#endif
+  // Of the first segment that contributed the distances of its ends, and the scalars there.
+  vec4 first = vec4(sums.y, 0.0, 0.0, 0.0);
 
-  Ray ray = GetRay(gl_FragCoord.xy);
-  int displacement = GetDisplacement(entry.w);
-  bool tells = GetTells(entry.w);
-  RayFrame frame = DisplaceFrame(MakeRayFrame(ray), displacement);
-  bool walking = state.w >= 0;
-  if (state.w == RayNeedsEntry)
+  Ray ray = GetRay(GetPixel());
+  RayFrame frame = DisplaceFrame(MakeRayFrame(ray), state.Displacement);
+  bool walking = state.Face >= 0;
+  ivec3 ids = ivec3(0);
+  if (walking)
+  {
+    ids = FindPoints(state.Face);
+  }
+  else if (state.Face == RayNeedsEntry)
   {
     int next = texelFetch(nextEntries, pixel, 0).x;
     if (next < NoEntry)
     {
-      // As before the first pass, but for the displacement; a step is counted, so that what it came
-      // to before is the older state.
-      fragOutput0 = ivec4(0, 0, 0, RayNeedsEntry);
-      fragOutput1 = ivec4(NoEntry, 0, entry.z + 1, PackFlags(false, NoEntry - next));
+      // As before the first pass, but for the displacement.
+      fragOutput0 = PackState(RayState(RayNeedsEntry, NoEntry - next, NoEntry, 0, false));
 #ifdef GATHER_LARGEST
-      fragOutput2 = vec4(-LargestFloat, 0.0, 0.0, 0.0);
+      fragOutput1 = vec2(-LargestFloat, LargestFloat);
 #else
-      fragOutput2 = vec4(0.0);
+      fragOutput1 = vec2(0.0, LargestFloat);
 #endif
-      fragOutput3 = vec4(LargestFloat, 0.0, 0.0, 0.0);
+      fragOutput2 = vec4(0.0);
+      fragOutput3 = vec4(-1.0, 0.0, 0.0, 0.0);
+#ifdef COUNT_STEPS
+      fragOutput4 = vec4(0.0, 0.0, 0.0, 1.0);
+#endif
       return;
     }
     walking = next >= 0;
 #ifdef PAIRED
-    tells = entry.x >= 0; // the nearest crossing of all is an entry
+    state.Tells = state.Entry >= 0; // the nearest crossing of all is an entry
 #endif
-    entry.x = next;
-    state = walking ? texelFetch(boundaryEntries, next) : ivec4(0);
+    state.Entry = next;
+    ivec4 entry = walking ? texelFetch(boundaryEntries, next) : ivec4(0);
+    ids = entry.xyz;
+    state.Face = entry.w;
   }
-  vec2 limits = GetRayPart(ray, gl_FragCoord.xy, entry.y) - (frame.Start - ray.Distance);
+  bool tells = state.Tells;
+  vec2 limits = GetRayPart(ray, GetPixel(), state.Part) - (frame.Start - ray.Distance);
 
   // The triangle. Weights of the corners are areas across, and not normalized.
-  Corner a = LoadCorner(frame, state.x);
-  Corner b = LoadCorner(frame, state.y);
-  Corner c = LoadCorner(frame, state.z);
+  Corner a = LoadCorner(frame, ids.x);
+  Corner b = LoadCorner(frame, ids.y);
+  Corner c = LoadCorner(frame, ids.z);
   bool clockwise;
   bool unused;
   vec3 weights = vec3(GetDeterminant(b, c, clockwise), 0.0, 0.0);
@@ -166,7 +201,7 @@ void main()
   Interpolate(weights, a, b, c, along, scalar);
 
   // At a boundary face that is entered its own cell is meant.
-  int face = max(state.w, 0);
+  int face = max(state.Face, 0);
   ivec2 behind = texelFetch(walkFaces, face).xy;
   int cell = behind.x < 0 ? face >> 2 : behind.x;
   bool outside = false;
@@ -326,28 +361,50 @@ void main()
 #endif
   if (gathered.a >= maximumOpacity)
   {
-    state.w = RayIsDone;
+    state.Face = RayIsDone;
   }
   else if (partEnded || ended)
   {
-    state.w = entry.y + 1 < NUMBER_OF_PARTS ? RayNeedsEntry : RayIsDone;
-    entry.xy = ivec2(NoEntry, entry.y + 1);
-    tells = false;
+    bool last = state.Part + 1 == NUMBER_OF_PARTS;
+    state.Face = last ? RayIsDone : RayNeedsEntry;
+    state.Part += int(!last);
+    state.Entry = NoEntry;
+    state.Tells = false;
   }
   else
   {
-    state = ivec4(a.Id, b.Id, c.Id, passed ? RayNeedsEntry : face);
+    state.Face = passed ? RayNeedsEntry : face;
 #ifdef PAIRED
     if (tells && outside)
     {
-      tells = false;
-      state =
-        EndsBehind(frame, entry.x, state.xyz, face) ? texelFetch(boundaryEntries, entry.x) : state;
+      state.Tells = false;
+      state.Face = EndsBehind(frame, state.Entry, ivec3(a.Id, b.Id, c.Id), face)
+        ? GetFaceOfEntry(state.Entry)
+        : RayNeedsEntry;
     }
 #endif
   }
-  fragOutput0 = state;
-  fragOutput1 = ivec4(entry.xy, entry.z + steps, PackFlags(tells, displacement));
-  fragOutput2 = gathered;
-  fragOutput3 = first;
+
+#ifdef GATHER_LARGEST
+  bool found = gathered.r > sums.x;
+  float sum = gathered.r;
+  vec3 color = vec3(0.0);
+#else
+  bool found = first.x < sums.y;
+  float sum = gathered.a;
+  vec3 color = gathered.rgb;
+#endif
+  float distance = first.x;
+#ifdef FIND_FIRST
+  float share = found ? FindFirst(first.z, first.w) : 0.0;
+  distance += share <= 1.0 ? share * (first.y - first.x) : 0.0;
+#endif
+  fragOutput0 = PackState(state);
+  fragOutput1 = vec2(sum, first.x);
+  fragOutput2 = vec4(color, 1.0);
+  fragOutput3 = found ? vec4((frame.Start + distance) * rayLengthUnit, 0.0, 0.0, 0.0)
+                      : vec4(0.0, 0.0, 0.0, 1.0);
+#ifdef COUNT_STEPS
+  fragOutput4 = vec4(float(steps), 0.0, 0.0, 1.0);
+#endif
 }

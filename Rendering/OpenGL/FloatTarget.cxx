@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenGL/FloatTarget.h"
 
+#include "OpenGL/GraphicsMemory.h"
+
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -82,6 +84,7 @@ void FloatTarget::Allocate(vtkOpenGLRenderWindow* window, const Settings& settin
     std::to_string(settings.Width) + " x " + std::to_string(settings.Height) + " pixels";
   vtkOpenGLState* state = window->GetState();
   const vtkOpenGLState::ScopedglActiveTexture unit(state);
+  const GraphicsMemoryCheck memory;
   for (const Picture& picture : settings.Pictures)
   {
     auto texture = vtkSmartPointer<vtkTextureObject>::New();
@@ -111,6 +114,7 @@ void FloatTarget::Allocate(vtkOpenGLRenderWindow* window, const Settings& settin
     }
     this->DepthTexture->Deactivate();
   }
+  memory.Finish("a picture of " + size);
 
   this->Framebuffer->SetContext(window);
   state->PushFramebufferBindings();

@@ -63,7 +63,8 @@ public:
   FloatTarget& operator=(const FloatTarget&) = delete;
 
   /// Makes the pictures, unless they are there already; what they show is then undefined. Throws
-  /// std::runtime_error, with one line, where the graphics card cannot draw into such ones.
+  /// OutOfGraphicsMemory, and std::runtime_error, with one line, where the graphics card cannot
+  /// draw into such ones.
   void Prepare(vtkOpenGLRenderWindow* window, const Settings& settings);
 
   const Settings& GetSettings() const { return this->Made; }

@@ -25,6 +25,11 @@ constexpr double SmallestTableBytes = 65536;
 constexpr double LargestTableBytes = 1099511627776;
 constexpr double DefaultTableBytes = 67108864;
 
+/// Bytes of what rays keep: a row of a small picture, 1 TiB, and a picture of 5,300 x 5,300 pixels.
+constexpr double SmallestRayBytes = 4096;
+constexpr double LargestRayBytes = 1099511627776;
+constexpr double DefaultRayBytes = 1073741824;
+
 constexpr const char* Quality = "Quality";
 constexpr const char* Model = "Optical model";
 constexpr const char* Table = "Pre-integration table";
@@ -154,6 +159,9 @@ std::vector<MapperProperty> MakeProperties()
 
     { "StepsPerPass", PropertyType::Integer, GPURayCastKind, Rays, true, {}, 1, 65535, { 128 }, "",
       "cells", "Cells that a ray passes in one draw call at most." },
+    { "RayMaximumBytes", PropertyType::Size, GPURayCastKind, Rays, true, {}, SmallestRayBytes,
+      LargestRayBytes, { DefaultRayBytes }, "", "bytes",
+      "Largest size of what rays keep between draw calls; larger pictures are cast in bands." },
     MakeBoolean("CountFragments", GPURayCastKind, Rays, true, false,
       "Count the rays of every pass, which waits for each pass."),
 

@@ -45,3 +45,11 @@ assert rays["fragments_per_pass"] == sorted(rays["fragments_per_pass"], reverse=
 assert rays["segments"] > 1000
 assert mapper.IsSupported(scene.window) != statistics["graphics_card"]["software"]
 assert statistics["graphics_card"]["renderer"] in mapper.GetSupportReason()
+
+# In bands of rows: the same picture.
+assert rays["bands"] == 1
+assert statistics["graphics_card"]["picture_bytes_per_pixel"] == 42 + 20 + 4
+mapper.SetRayMaximumBytes(60 * 42 * 8)
+banded, banded_depths, statistics = scene.render()
+assert statistics["rays"]["bands"] == 7 and statistics["rays"]["rows_per_band"] == 8
+assert (banded == picture).all() and (banded_depths == depths).all()
