@@ -251,7 +251,7 @@ std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
   {
     const auto statistics = nlohmann::ordered_json::parse(mapper->GetStatistics());
     CheckRendered(input, statistics);
-    const std::string fault = mayChange ? FindFault(mapper, statistics) : "";
+    std::string fault = mayChange ? FindFault(mapper, statistics) : "";
     if (!fault.empty())
     {
       return fault;

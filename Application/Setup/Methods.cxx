@@ -101,7 +101,7 @@ std::string FindLackingProperty(const std::string& method, const std::vector<std
   const vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeDefaultMapper(method);
   for (const std::string& setting : settings)
   {
-    const std::string name = ParseAssignment("--set", setting).first;
+    std::string name = ParseAssignment("--set", setting).first;
     if (!HasProperty(mapper, name))
     {
       return name;

@@ -18,7 +18,7 @@ def make_table(titles, rows):
 
 
 def replace_table(page, marker, table):
-    """Puts a table into a page of Markdown, in place of the first one after a line with a marker."""
+    """Puts a table into a page of Markdown, in place of the first one after a line's marker."""
     with open(page, encoding="utf-8") as file:
         lines = file.read().splitlines(keepends=True)
     try:

@@ -287,7 +287,9 @@ def main():
     )
     parser.add_argument("--output", required=True, help="folder of the tables")
     parser.add_argument("--sizes", default="512,1024,2048", help="pixels along an edge")
-    parser.add_argument("--frames", type=int, default=5, help="of each: the best, or of views the median (5)")
+    parser.add_argument(
+        "--frames", type=int, default=5, help="of each: the best, or of views the median (5)"
+    )
     parser.add_argument("--views", type=int, default=36, help="of each mesh in table 2 (36)")
     parser.add_argument("--parts", default=",".join(PARTS), help="a list of " + ", ".join(PARTS))
     parser.add_argument("--documentation", help="folder of Benchmarks.md, which takes the views")

@@ -320,10 +320,10 @@ def add_speeds(page, scenes, options):
             print(name, *rows[-1][2:], flush=True)
     page.add_section(
         "Tetrahedra a second (table 2)",
-        "Seconds of a frame, and thousands of tetrahedra a second. The cylinder and the body are made "
-        "by formulas, as large as the paper's meshes: layers around a tapered cylinder and around "
-        "a flat ellipsoid, which grow outwards. The body's longest edge is 130,000 times as long as "
-        "its shortest; the paper says only that this ratio is very high of the X38.",
+        "Seconds of a frame, and thousands of tetrahedra a second. The cylinder and the body are "
+        "made by formulas, as large as the paper's meshes: layers around a tapered cylinder and "
+        "around a flat ellipsoid, which grow outwards. The body's longest edge is 130,000 times as "
+        "long as its shortest; of the X38 the paper says only that this ratio is very high.",
         columns=("data set", "cells", "pixels", "VTK's mapper", "table, 8-bit buffer",
                  "closed form, float buffer"),
         rows=rows,
@@ -395,10 +395,10 @@ def add_approximations(page, scenes, options):
         f"What the length and the attenuation are worth, {size} x {size} pixels",
         "The paper allows to take the difference of depths for the length of a segment (section "
         "2.3). Stein et al. took the mean of the attenuations at its ends for the attenuation "
-        "along it, before there was pre-integration. The mapper has neither as a setting. What they "
-        "would show is computed by the ray caster: with each ray shortened by its cosine to the "
-        "view axis, and with the attenuation as the scalar. The exact length takes a fragment the "
-        "length of its ray's direction, one dot product and one square root.",
+        "along it, before there was pre-integration. The mapper has neither as a setting. What "
+        "they would show is computed by the ray caster: with each ray shortened by its cosine to "
+        "the view axis, and with the attenuation as the scalar. The exact length takes a fragment "
+        "one dot product and one square root.",
         columns=("data set", *ERROR_HEADER),
         rows=rows,
         notes=("Errors in units of 1/255.",),

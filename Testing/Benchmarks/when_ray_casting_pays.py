@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """When ray casting pays: times of all methods over pixels, cells, depth and opacity.
 
-    PYTHONPATH=build/lib/python3.11/dist-packages python3 Testing/Benchmarks/when_ray_casting_pays.py \
-        [--tool build/bin/tetralux] [--output Documentation/bench] [--page Documentation/Benchmarks.md]
+    PYTHONPATH=build/lib/python3.11/dist-packages \
+        python3 Testing/Benchmarks/when_ray_casting_pays.py [--tool build/bin/tetralux] \
+        [--output Documentation/bench] [--page Documentation/Benchmarks.md]
 
 Renders by the processor's ray caster, by ray casting in OpenGL and by projection in OpenGL, on
 whatever OpenGL the window without a display finds. Meshes of about 1e4, 1e5 and 1e6 cells (with
