@@ -31,7 +31,7 @@ import sys
 import numpy
 import tetralux
 from benchmark_chart import BLUE, RED, Axis, Panel, write_chart
-from benchmark_meshes import generate, make_lattice, read_blunt_fin
+from benchmark_meshes import generate, make_lattice, read_blunt_fin, split_by_vtk
 from benchmark_scene import VolumeWindow, get_statistics, make_property, time_render
 from benchmark_tables import make_table, replace_table, write_csv
 
@@ -210,7 +210,7 @@ def draw_views(path, rows, renderer_name):
         panels.append([panel])
     write_chart(
         path,
-        f"Frame time over the view, 512 x 512: OpenGL by {renderer_name}",
+        f"Frame time over the view, 512 x 512: {renderer_name}",
         panels,
         [("time of a frame", BLUE, False), ("cell steps", RED, True)],
         panel_width=640,
@@ -305,7 +305,7 @@ def main():
     meshes = {}
     fin = read_blunt_fin()
     if fin:
-        meshes["blunt fin"] = fin
+        meshes["blunt fin"] = split_by_vtk(fin)  # into five of a cell, as the paper
     for name, (generator, parameters) in GENERATED.items():
         meshes[name] = generate(arguments.tool, generator, *parameters)
 

@@ -219,7 +219,7 @@ def make_chart(path, rows, renderer):
             panels[-1].append(panel)
     legend = [(method, color, False) for method, (_, color) in METHODS.items()]
     legend += [(opacity, INK, opacity == "opaque") for opacity in OPACITIES]
-    write_chart(path, f"When ray casting pays: OpenGL by {renderer}", panels, legend)
+    write_chart(path, f"When ray casting pays: {renderer}", panels, legend)
 
 
 def format_ratios(rows):
