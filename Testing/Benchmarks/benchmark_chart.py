@@ -166,7 +166,7 @@ def draw_legend(drawing, legend, x, y):
 
 
 def write_chart(path, title, rows, legend, panel_width=PANEL_WIDTH):
-    """rows: of panels, all rows equally many."""
+    """rows: of panels, none longer than the first one."""
     width = MARGIN_LEFT + len(rows[0]) * (panel_width + GAP) - GAP + MARGIN_RIGHT
     height = MARGIN_TOP + len(rows) * (PANEL_HEIGHT + GAP) - GAP + MARGIN_BOTTOM
     drawing = Drawing(width, height)
@@ -176,7 +176,8 @@ def write_chart(path, title, rows, legend, panel_width=PANEL_WIDTH):
         for c, panel in enumerate(panels):
             left = MARGIN_LEFT + c * (panel_width + GAP)
             top = MARGIN_TOP + r * (PANEL_HEIGHT + GAP)
-            draw_panel(drawing, panel, left, top, panel_width, (c == 0, r == len(rows) - 1))
+            is_last = all(len(below) <= c for below in rows[r + 1 :])
+            draw_panel(drawing, panel, left, top, panel_width, (c == 0, is_last))
     x_title, y_axis = rows[0][0].x.title, rows[0][0].left
     drawing.write_text((MARGIN_LEFT + width - MARGIN_RIGHT) / 2, height - 14, x_title)
     middle = (MARGIN_TOP + height - MARGIN_BOTTOM) / 2
