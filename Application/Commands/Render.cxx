@@ -11,6 +11,7 @@
 #include "Files/TransferFunctionFile.h"
 #include "Setup/Arrays.h"
 #include "Setup/MapperProperties.h"
+#include "Setup/MethodCosts.h"
 #include "Setup/Methods.h"
 #include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
@@ -36,6 +37,7 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <vector>
 
 namespace
 {
@@ -80,17 +82,17 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
   return mapper;
 }
 
-MethodChoice ChooseMethodFor(const RenderOptions& options, vtkRenderWindow* window)
+std::vector<MethodChoice> ListMethodsFor(const RenderOptions& options, vtkRenderWindow* window)
 {
   // The window may fail to make an OpenGL context.
   const MessageCapture messages;
-  MethodChoice choice =
-    ChooseMethod(options.Method, window, options.Scene.NumberOfThreads, options.Settings);
+  std::vector<MethodChoice> methods =
+    ListMethods(options.Method, window, options.Scene.NumberOfThreads, options.Settings);
   if (!messages.GetError().empty())
   {
     throw WorkError(messages.GetError());
   }
-  return choice;
+  return methods;
 }
 
 /// What is rendered: the data, the scalars that are shown, their colour and opacity.
@@ -217,9 +219,26 @@ void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutpu
   }
 }
 
+/// Returns what is wrong with a picture for which another method may be taken, or an empty text.
+std::string FindFault(vtkTetrahedraVolumeMapper* mapper, const nlohmann::ordered_json& statistics)
+{
+  if (!mapper->IsMaximumErrorKept())
+  {
+    return "its error is estimated to be larger than MaximumError";
+  }
+  // What cells that overlap do to the picture is in no estimate. They have no exact order.
+  const auto projection = statistics.find("projection");
+  if (projection != statistics.end() && projection->at("order") != "none" &&
+    projection->at("order") != "meshed polyhedra")
+  {
+    return "its order of cells is not known to be exact";
+  }
+  return "";
+}
+
 /// Renders the volume of an input once. Returns VTK's first error. Without an error, returns an
-/// empty text and prints the warnings. mayChange: another method is taken if this one's error is
-/// too large, which is returned as an error.
+/// empty text and prints the warnings. mayChange: another method is taken if this one's picture is
+/// not right enough; what is wrong is returned as an error.
 std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
   vtkRenderWindow* window, bool mayChange)
 {
@@ -230,10 +249,12 @@ std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
   window->Render();
   if (messages.GetError().empty())
   {
-    CheckRendered(input, nlohmann::ordered_json::parse(mapper->GetStatistics()));
-    if (mayChange && !mapper->IsMaximumErrorKept())
+    const auto statistics = nlohmann::ordered_json::parse(mapper->GetStatistics());
+    CheckRendered(input, statistics);
+    std::string fault = mayChange ? FindFault(mapper, statistics) : "";
+    if (!fault.empty())
     {
-      return "its error is estimated to be larger than MaximumError";
+      return fault;
     }
     messages.PrintWarnings();
   }
@@ -264,8 +285,9 @@ void RenderPicture(const RenderOptions& options)
   vtkNew<vtkHeadlessRenderWindow> window;
   window->SetSize(options.Scene.Width, options.Scene.Height);
   window->SetMultiSamples(0);
-  MethodChoice method = ChooseMethodFor(options, window);
-  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeConfiguredMapper(method.Method, options);
+  std::vector<MethodChoice> methods = ListMethodsFor(options, window);
+  // Before a large file is read: wrong settings are an error.
+  MakeConfiguredMapper(methods.front().Method, options);
 
   AtomicOutput output(options.Output);
   std::optional<AtomicOutput> statisticsOutput;
@@ -274,27 +296,35 @@ void RenderPicture(const RenderOptions& options)
     statisticsOutput.emplace(options.StatisticsFile);
   }
   const RenderInput input = ReadInput(options.Scene);
-  SetInput(input, mapper);
+  RankMethods(
+    { EstimateTetrahedra(input.Data), options.Scene.Width, options.Scene.Height }, methods);
   vtkNew<vtkVolume> volume;
-  volume->SetMapper(mapper);
-  ShowVolume(options, input, volume, window);
-
-  const bool mayChange = options.Method == "auto" && method.Method != "ray-cast";
-  std::string error = Draw(options.Scene.Input.Name, mapper, window, mayChange);
-  if (mayChange && !error.empty())
+  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper;
+  std::string error;
+  std::size_t used = 0;
+  for (; used < methods.size(); ++used)
   {
-    // No room for the mesh, or too few digits, say: a processor has both.
-    method = { "ray-cast", method.Method + " failed: " + error };
-    mapper = MakeConfiguredMapper(method.Method, options);
+    mapper = MakeConfiguredMapper(methods[used].Method, options);
     SetInput(input, mapper);
     volume->SetMapper(mapper);
-    error = Draw(options.Scene.Input.Name, mapper, window, false);
+    if (used == 0)
+    {
+      ShowVolume(options, input, volume, window);
+    }
+    const bool mayChange = used + 1 < methods.size();
+    error = Draw(options.Scene.Input.Name, mapper, window, mayChange);
+    if (error.empty() || !mayChange)
+    {
+      break;
+    }
+    // No room for the mesh, or too few digits, say: the last one, a processor, has both.
+    methods[used + 1].Reason = methods[used].Method + " failed: " + error;
   }
   if (!error.empty())
   {
     throw WorkError("'" + options.Scene.Input.Name + "': " + error);
   }
-  const nlohmann::ordered_json statistics = ReadStatistics(mapper, method);
+  const nlohmann::ordered_json statistics = ReadStatistics(mapper, methods[used]);
   vtkImageData* image = mapper->GetOutputImage();
   if (IsEmpty(image))
   {

@@ -82,6 +82,34 @@ void Describe(const tetralux::MapperProperty& property, std::ostream& text)
   }
 }
 
+vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeDefaultMapper(const std::string& method)
+{
+  for (const Method& candidate : GetMethods())
+  {
+    if (candidate.Name == method)
+    {
+      return candidate.Make();
+    }
+  }
+  throw UsageError("--method: this version has no method '" + method + "'; there are " +
+    JoinNames(GetMethodNames()));
+}
+
+/// Returns the first property of settings that the mapper of a method has not, or an empty text.
+std::string FindLackingProperty(const std::string& method, const std::vector<std::string>& settings)
+{
+  const vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeDefaultMapper(method);
+  for (const std::string& setting : settings)
+  {
+    std::string name = ParseAssignment("--set", setting).first;
+    if (!HasProperty(mapper, name))
+    {
+      return name;
+    }
+  }
+  return "";
+}
+
 } // namespace
 
 std::string DescribeProperties()
@@ -124,55 +152,64 @@ std::vector<std::string> GetMethodNames()
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
   const std::string& method, int numberOfThreads, const std::vector<std::string>& settings)
 {
-  for (const Method& candidate : GetMethods())
+  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeDefaultMapper(method);
+  if (HasProperty(mapper, "AutoAdjustSampleDistances"))
   {
-    if (candidate.Name != method)
-    {
-      continue;
-    }
-    vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = candidate.Make();
-    if (HasProperty(mapper, "AutoAdjustSampleDistances"))
-    {
-      SetProperty(mapper, "AutoAdjustSampleDistances=0");
-    }
-    if (HasProperty(mapper, "NumberOfThreads"))
-    {
-      SetProperty(mapper, "NumberOfThreads=" + std::to_string(numberOfThreads));
-    }
-    else if (numberOfThreads > 0)
-    {
-      throw UsageError("--threads: the method '" + method + "' has none to set");
-    }
-    for (const std::string& setting : settings)
-    {
-      SetProperty(mapper, setting);
-    }
-    return mapper;
+    SetProperty(mapper, "AutoAdjustSampleDistances=0");
   }
-  throw UsageError("--method: this version has no method '" + method + "'; there are " +
-    JoinNames(GetMethodNames()));
+  if (HasProperty(mapper, "NumberOfThreads"))
+  {
+    SetProperty(mapper, "NumberOfThreads=" + std::to_string(numberOfThreads));
+  }
+  else if (numberOfThreads > 0)
+  {
+    throw UsageError("--threads: the method '" + method + "' has none to set");
+  }
+  for (const std::string& setting : settings)
+  {
+    SetProperty(mapper, setting);
+  }
+  return mapper;
 }
 
-MethodChoice ChooseMethod(const std::string& method, vtkRenderWindow* window, int numberOfThreads,
-  const std::vector<std::string>& settings)
+std::vector<MethodChoice> ListMethods(const std::string& method, vtkRenderWindow* window,
+  int numberOfThreads, const std::vector<std::string>& settings)
 {
   if (method != "auto")
   {
-    return { method, "" };
+    return { { method, "" } };
   }
   if (numberOfThreads > 0)
   {
-    return { "ray-cast", "a number of threads is set" };
+    return { { "ray-cast", "a number of threads is set" } };
   }
-  vtkNew<vtkTetrahedraGPURayCastMapper> mapper;
-  for (const std::string& setting : settings)
+  std::vector<MethodChoice> methods;
+  std::string reason;
+  for (const char* name : { "gpu-ray-cast", "projection" })
   {
-    const std::string name = ParseAssignment("--set", setting).first;
-    if (!HasProperty(mapper, name))
+    const std::string lacking = FindLackingProperty(name, settings);
+    if (lacking.empty())
     {
-      return { "ray-cast", "gpu-ray-cast has no property " + name };
+      methods.push_back({ name, "" });
+    }
+    else
+    {
+      reason += (reason.empty() ? "" : ", ") + std::string(name) + " has no property " + lacking;
     }
   }
-  const bool supported = mapper->IsSupported(window);
-  return { supported ? "gpu-ray-cast" : "ray-cast", mapper->GetSupportReason() };
+  if (!methods.empty())
+  {
+    vtkNew<vtkTetrahedraGPURayCastMapper> rayCaster;
+    if (!rayCaster->IsSupported(window))
+    {
+      methods.clear();
+    }
+    reason = rayCaster->GetSupportReason() + (reason.empty() ? "" : ", ") + reason;
+    for (MethodChoice& choice : methods)
+    {
+      choice.Reason = reason;
+    }
+  }
+  methods.push_back({ "ray-cast", reason });
+  return methods;
 }

@@ -29,9 +29,11 @@ struct MethodChoice
   std::string Reason; ///< one line; empty if --method named the method
 };
 
-/// Chooses a method if --method is "auto": gpu-ray-cast if the window draws on a graphics card,
-/// else ray-cast. A setting that only ray-cast has also chooses ray-cast.
-MethodChoice ChooseMethod(const std::string& method, vtkRenderWindow* window, int numberOfThreads,
-  const std::vector<std::string>& settings);
+/// Lists the methods to try, one after the other. If method is not "auto", it alone. Else, if the
+/// window draws on a graphics card, gpu-ray-cast and projection, as far as they have all settings,
+/// and last ray-cast. A number of threads leaves ray-cast alone, as software OpenGL does: rays are
+/// cast faster without it in every picture that was measured. RankMethods says which one is faster.
+std::vector<MethodChoice> ListMethods(const std::string& method, vtkRenderWindow* window,
+  int numberOfThreads, const std::vector<std::string>& settings);
 
 #endif

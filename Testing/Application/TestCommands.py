@@ -132,7 +132,9 @@ class Commands(ToolTest):
                         statistics = json.load(file)
                     if method == "auto":
                         # With OpenGL in software, as in most tests, or on a graphics card.
-                        self.assertIn(statistics["method"], ("ray-cast", "gpu-ray-cast"))
+                        self.assertIn(
+                            statistics["method"], ("ray-cast", "gpu-ray-cast", "projection")
+                        )
                         self.assertGreater(len(statistics["method_reason"]), 10)
                     else:
                         self.assertEqual(statistics["method"], method)
