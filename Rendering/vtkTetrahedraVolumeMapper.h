@@ -157,7 +157,9 @@ public:
    * - TABLE_INTEGRATION: the smallest table whose error is within a quarter of MaximumError. If
    *   none is, the best one within TableMaximumBytes; GetErrorEstimate() returns its error.
    *
-   * Scalars at cells, constant colours and other blend modes use no table.
+   * Scalars at cells, constant colours, other blend modes and light that varies in cells use no
+   * table: what is lit by gradients of points, or by positional lights, is integrated in closed
+   * form.
    */
   virtual void SetIntegration(int integration);
   vtkGetMacro(Integration, int);

@@ -9,7 +9,7 @@
 namespace tetralux
 {
 
-/// The functions of SegmentIntegral.h as compiled for one instruction set: a call computes
+/// The functions of SegmentIntegral.h and LaneFunctions.h as compiled for one instruction set: a call computes
 /// LaneCount results from arrays of LaneCount numbers.
 struct SegmentLanes
 {
@@ -19,6 +19,9 @@ struct SegmentLanes
   Function ExpMinus;
   Function Erfcx;
   Function Dawson;
+  Function MinusLog;
+  void (*Power)(const float* x, const float* power, float* result);
+  void (*FindBulgeShare)(const float* d0, const float* d1, float* share);
   void (*IntegrateConstant)(const float* depth, float* opacity, float* transmittance);
   void (*IntegrateSegment)(
     const float* d0, const float* d1, float* front, float* back, float* transmittance);

@@ -19,6 +19,11 @@ SegmentLanes MakeSegmentLanes(InstructionSet set)
   lanes.ExpMinus = [](const float* x, float* result) { Store(result, ExpMinus(LoadFloat8(x))); };
   lanes.Erfcx = [](const float* x, float* result) { Store(result, Erfcx(LoadFloat8(x))); };
   lanes.Dawson = [](const float* x, float* result) { Store(result, Dawson(LoadFloat8(x))); };
+  lanes.MinusLog = [](const float* x, float* result) { Store(result, MinusLog(LoadFloat8(x))); };
+  lanes.Power = [](const float* x, const float* power, float* result)
+  { Store(result, Power(LoadFloat8(x), LoadFloat8(power))); };
+  lanes.FindBulgeShare = [](const float* d0, const float* d1, float* share)
+  { Store(share, FindBulgeShare(LoadFloat8(d0), LoadFloat8(d1))); };
   lanes.IntegrateConstant = [](const float* depth, float* opacity, float* transmittance)
   {
     Float8 o, t;

@@ -46,8 +46,8 @@ LightSteps FindLightSteps(const std::vector<Light>& lights, const Material& surf
     byDistance = std::max(byDistance, approaching);
   }
   // A parabola at the Chebyshev points is off by a third derivative over 192, up and down: most of
-  // that cancels in the integral. Measured over single segments with narrow peaks of attenuation, an
-  // eighth is left.
+  // that cancels in the integral. Measured over single segments with narrow peaks of attenuation,
+  // an eighth is left.
   constexpr double OfChebyshevPoints = 192;
   constexpr double Cancelled = 8;
   const auto find = [error](double derivative)

@@ -60,7 +60,8 @@ public:
   /// The largest weight in the picture for which the part is right enough.
   TETRALUX_INLINE Float8 GetWeight() const { return this->Weight; }
 
-  /// Goes on to the parts of some rays that begin at shares of the cell, for a weight in the picture.
+  /// Goes on to the parts of some rays that begin at shares of the cell, for a weight in the
+  /// picture.
   /// heavyEnd: no part goes beyond that which weighs more than SmallLightWeight. So the weight is
   /// spread over the part, and most of what the parabola is off by cancels.
   TETRALUX_NOINLINE void Begin(

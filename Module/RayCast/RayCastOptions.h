@@ -37,8 +37,8 @@ struct RayCastOptions
   Precision Arithmetic = Precision::Automatic;
 
   /// Whether lights shine (RayCastLight.h) on OpticalModel::Isosurfaces, and on EmissionAbsorption
-  /// if scalars are at points. The light of surfaces is clamped to 0..1, that of volumes is not. Lights do not change other models, nor
-  /// volumes whose scalars are at cells.
+  /// if scalars are at points. The light of surfaces is clamped to 0..1, that of volumes is not.
+  /// Lights do not change other models, nor volumes whose scalars are at cells.
   bool Shaded = false;
   bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
   std::vector<Light> Lights;

@@ -36,8 +36,8 @@ struct Piece
 };
 
 /// Cuts a cell at the nodes of the transfer function. The scalar runs linearly from s0 at z0 to s1
-/// at z1. Calls add(contributes, piece, from, to) for each piece that attenuates any ray, between two
-/// distances z. interval: the interval of each ray's last scalar; updated.
+/// at z1. Calls add(contributes, piece, from, to) for each piece that attenuates any ray, between
+/// two distances z. interval: the interval of each ray's last scalar; updated.
 template <class Real, class V, class AddT>
 TETRALUX_INLINE void CutAtNodes(
   const KernelInput& in, Int8& interval, Mask8 valid, V z0, V s0, V z1, V s1, AddT add)

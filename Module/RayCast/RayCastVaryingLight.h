@@ -4,11 +4,11 @@
 
 // The density-emitter model under light that varies on a ray's way through a cell.
 //
-// The way is cut into parts on which light is nearly a parabola, see RayCastLightParts.h; on a piece
-// of the transfer function colour and attenuation are linear. Where a piece and a part overlap the
-// lit colour is taken for a parabola, too: linear between both ends, plus a bulge 4 w (1 - w) times
-// what the middle is off from that. The linear part has the weights of SegmentIntegral.h, which are
-// exact; the bulge has FindBulgeShare.
+// The way is cut into parts on which light is nearly a parabola, see RayCastLightParts.h. On a
+// piece of the transfer function colour and attenuation are linear. Where a piece and a part
+// overlap the lit colour is taken for a parabola, too: linear between both ends, plus a bulge
+// 4 w (1 - w) times what the middle is off from that. The linear part has the weights of
+// SegmentIntegral.h, which are exact; the bulge has FindBulgeShare.
 
 #include "Integral/SegmentIntegral.h"
 #include "RayCast/RayCastLightParts.h"

@@ -70,8 +70,8 @@ struct SegmentSource
   std::uint64_t CellValuesVersion = 0;
 };
 
-/// Of a scene that is prepared, as long as it does not change; its segments of any length. lighting:
-/// of what can be lit.
+/// Of a scene that is prepared, as long as it does not change; its segments of any length.
+/// lighting: of what can be lit.
 TETRALUXRENDERING_EXPORT SegmentSource MakeSegmentSource(
   const VolumeScene& scene, Lighting lighting);
 

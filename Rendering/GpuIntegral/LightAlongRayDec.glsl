@@ -111,7 +111,8 @@ float FindLightEnd(LightPath path, float begin, float weight, float heavyEnd)
       float approach = dot(toLight, change);
       float way2 = dot(change, change);
       end = CutLightAtRoots(dot(path.Gradient, toLight),
-        dot(path.Gradient, change) + dot(path.Change, toLight), dot(path.Change, change), begin, end);
+        dot(path.Gradient, change) + dot(path.Change, toLight), dot(path.Change, change), begin,
+        end);
       end = CutAtSide(approach, way2, begin, end);
       end = LimitLight(FindTurn(fromBegin, change, tangent), begin, end);
       if (lightFalloffs[light].y != 0.0 || lightFalloffs[light].z != 0.0)

@@ -26,8 +26,8 @@ struct LightFactors
   vec3 Add;
 };
 
-// What makes gradients of the mesh ones of about 1, whose squares are in any range; 0 where there is
-// none. By the largest component.
+// What makes gradients of the mesh ones of about 1, whose squares are in any range; 0 where there
+// is none. By the largest component.
 float FindGradientScale(vec3 gradient)
 {
   vec3 size = abs(gradient);
@@ -41,7 +41,7 @@ vec3 ToWorld(vec3 gradient, float scale)
   return scale > 0.0 ? normalFromMesh * (gradient * scale) : vec3(0.0);
 }
 
-// place and gradient: in the world, from the centre of the mesh; view: from the viewer, of length 1.
+// place and gradient: in the world, from the centre of the mesh; view: from the viewer, 1 long.
 // The normal is the gradient turned to the viewer; what has no gradient faces the viewer.
 LightFactors Illuminate(vec3 place, vec3 gradient, vec3 view)
 {

@@ -34,7 +34,7 @@ struct ReferenceSegment
 ReferenceSegment IntegrateReference(const TransferFunction& function, double s0, double s1,
   double length, OpticalModel model = OpticalModel::EmissionAbsorption);
 
-/// The same of EmissionAbsorption under lights. light: at a share of the segment, 0..1; it may jump.
+/// The same of EmissionAbsorption under lights. light: at a share of the segment, 0..1, may jump.
 /// sharpest: the share about which it may change within so little of the segment that no quadrature
 /// would notice; intervals end there. Each interval is halved until both halves add what it did, to
 /// 1e-10, and light goes on to its ends as between points of the rule, or until it is 2^-40 long.

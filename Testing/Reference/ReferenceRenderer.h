@@ -40,8 +40,8 @@ struct ReferenceOptics
   /// Of the model Isosurfaces: strictly ascending in Value.
   std::vector<Isosurface> Isosurfaces;
 
-  /// Whether lights shine on surfaces, and on what emits and absorbs: there the light of every point
-  /// of the ray, and nothing is clamped.
+  /// Whether lights shine on surfaces, and on what emits and absorbs: there the light of every
+  /// point of the ray, and nothing is clamped.
   bool Shaded = false;
   bool SmoothShading = false; ///< by means of the cells' gradients at points, weighted by volume
   Material Surface;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -433,6 +434,56 @@ TEST(ReferenceModels, PicturesOfFlatSurfaces)
   // Rays that meet none and some of them.
   EXPECT_GT(met[0], 10);
   EXPECT_GT(met[2] + met[3], 100);
+}
+
+/// Light that scales colours by factor(share), and adds nothing.
+std::function<ReferenceLight(double)> ScaleBy(const std::function<double(double)>& factor)
+{
+  return [factor](double share)
+  {
+    ReferenceLight light;
+    light.Scale = { factor(share), factor(share), factor(share) };
+    return light;
+  };
+}
+
+// In an even medium what reaches the eye has a density exp(-depth share) along the segment.
+TEST(ReferenceModels, LitSegmentsHaveClosedForms)
+{
+  const TransferFunction function = MakeConstantFunction(2, { 1, 0.5, 0.25 });
+  for (const double length : { 1e-3, 0.5, 4., 60. })
+  {
+    const double depth = 2 * length;
+    const auto until = [depth](double share) { return -std::expm1(-depth * share); };
+    const auto expect = [&](const std::function<double(double)>& factor, double expected)
+    {
+      const ReferenceSegment segment =
+        IntegrateLitReference(function, 0.3, 0.7, length, ScaleBy(factor));
+      EXPECT_NEAR(segment.Color[0], expected, 1e-10);
+      EXPECT_NEAR(segment.Color[1], 0.5 * expected, 1e-10);
+      EXPECT_NEAR(segment.Alpha, until(1), 1e-12);
+    };
+    expect([](double) { return 1; }, until(1));
+    expect([](double share) { return share; }, until(1) / depth - std::exp(-depth));
+    // Jumps, next to the ends as well.
+    for (const double jump : { 0.001, 0.31415, 0.9995 })
+    {
+      expect([jump](double share) { return share < jump ? 0.2 : 0.9; },
+        0.2 * until(jump) + 0.9 * (until(1) - until(jump)));
+    }
+  }
+}
+
+// A spike of light that no point of a quadrature would meet.
+TEST(ReferenceModels, LitSegmentsAreSplitWhereLightIsSharpest)
+{
+  const TransferFunction function = MakeConstantFunction(1, { 1, 1, 1 });
+  constexpr double Place = 0.45;
+  constexpr double Width = 1e-5;
+  const auto light = ScaleBy(
+    [](double share) { return 1 / (1 + (share - Place) * (share - Place) / (Width * Width)); });
+  const ReferenceSegment segment = IntegrateLitReference(function, 0, 1, 1e-3, light, Place);
+  EXPECT_NEAR(segment.Color[0], 1e-3 * Width * std::acos(-1.), 1e-3 * Width * 1e-3);
 }
 
 TEST(ReferenceModels, PicturesOfShadedSurfaces)

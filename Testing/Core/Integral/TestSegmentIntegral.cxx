@@ -31,6 +31,13 @@ constexpr double ExpMinusError = 2e-7;
 constexpr double ErfcxError = 3e-7;
 constexpr double DawsonError = 8e-7;
 
+constexpr double MinusLogError = 2e-7;
+constexpr double PowerError = 3e-7;   ///< for each e-fold, and one more for the exponential itself
+constexpr double BulgeError = 2.5e-4; ///< absolute
+
+/// Optical depth that is thin, as in SegmentIntegral.h.
+constexpr double ThinDepth = 1.5;
+
 /// From here on exp(-x) counts as zero.
 constexpr double ExpMinusEnd = 87;
 
@@ -129,6 +136,96 @@ TEST(SegmentIntegral, FunctionsHaveTheErrorTheyPromise)
     const double dawson = MeasureError(lanes.Dawson, x, PreciseDawson);
     EXPECT_LE(dawson, DawsonError);
     Report(lanes, "Dawson", dawson);
+  }
+}
+
+TEST(SegmentIntegral, LogarithmsKeepTheirRelativeAccuracyNearOne)
+{
+  for (const SegmentLanes& lanes : GetSegmentLanes())
+  {
+    SCOPED_TRACE(lanes.Name);
+    std::vector<float> x = MakeArguments(-30, 0, 20000);
+    for (std::size_t i = 0; i < x.size(); i += 2)
+    {
+      x[i] = 1 - std::min(x[i], 0.5f);
+    }
+    const double log =
+      MeasureError(lanes.MinusLog, x, [](long double y) { return y < 1 ? -std::log(y) : 0; });
+    EXPECT_LE(log, MinusLogError);
+    Report(lanes, "MinusLog", log);
+    const Lanes beyond = { 1.f, 1.0000001f, 1.5f, 2.f, 10.f, 1e10f, 1e30f, 3e38f };
+    Lanes result;
+    lanes.MinusLog(beyond.data(), result.data());
+    EXPECT_EQ(*std::max_element(result.begin(), result.end()), 0) << "no more than 1";
+  }
+}
+
+TEST(SegmentIntegral, PowersLoseARoundingForEachEFold)
+{
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<float> unit(0, 1);
+  for (const SegmentLanes& lanes : GetSegmentLanes())
+  {
+    double worst = 0;
+    for (int i = 0; i < 5000; ++i)
+    {
+      Lanes x, power, result;
+      for (int lane = 0; lane < NumberOfLanes; ++lane)
+      {
+        x[lane] = lane % 2 == 0 ? unit(generator) : 1 - 0.01f * unit(generator);
+        power[lane] = std::exp(7 * unit(generator)) * unit(generator);
+      }
+      lanes.Power(x.data(), power.data(), result.data());
+      for (int lane = 0; lane < NumberOfLanes; ++lane)
+      {
+        const double folds = -power[lane] * std::log(static_cast<double>(x[lane]));
+        if (folds < ExpMinusEnd)
+        {
+          worst = std::max(worst, std::abs(result[lane] / std::exp(-folds) - 1) / (1 + folds));
+        }
+      }
+    }
+    EXPECT_LE(worst, PowerError);
+    Report(lanes, "Power", worst);
+  }
+}
+
+// Against quadrature, over all thin segments.
+TEST(SegmentIntegral, WeightsOfBulges)
+{
+  for (const SegmentLanes& lanes : GetSegmentLanes())
+  {
+    double worst = 0;
+    for (int i = 1; i <= 60; ++i)
+    {
+      const double depth = ThinDepth * i / 60;
+      Lanes d0, d1, share;
+      for (int lane = 0; lane < NumberOfLanes; ++lane)
+      {
+        d0[lane] = static_cast<float>(2 * depth * lane / (NumberOfLanes - 1));
+        d1[lane] = static_cast<float>(2 * depth) - d0[lane];
+      }
+      lanes.FindBulgeShare(d0.data(), d1.data(), share.data());
+      for (int lane = 0; lane < NumberOfLanes; ++lane)
+      {
+        // The midpoint rule, whose error is below 1e-7 with so many steps.
+        constexpr int Steps = 2000;
+        double opacity = 0;
+        double bulge = 0;
+        for (int step = 0; step < Steps; ++step)
+        {
+          const double w = (step + 0.5) / Steps;
+          const double slope = static_cast<double>(d1[lane]) - d0[lane];
+          const double weight =
+            (d0[lane] + slope * w) * std::exp(-w * (d0[lane] + slope * w / 2)) / Steps;
+          opacity += weight;
+          bulge += weight * 4 * w * (1 - w);
+        }
+        worst = std::max(worst, std::abs(share[lane] - bulge / opacity));
+      }
+    }
+    EXPECT_LE(worst, BulgeError);
+    Report(lanes, "FindBulgeShare", worst);
   }
 }
 

@@ -127,5 +127,32 @@ TEST(PointGradients, DoNotDependOnThreads)
     });
 }
 
+TEST(CellGradients, AreThoseOfEachCell)
+{
+  const std::vector<double> scalars = { -1, 0, 0, 0, 8 };
+  const std::vector<GradientRow> g = MakeCellGradients(MakeTwoCells(), scalars, 1, 1);
+  ASSERT_EQ(g.size(), 2u);
+  EXPECT_NEAR(g[0].X, 1, Rounding);
+  EXPECT_NEAR(g[1].X, 4, 4 * Rounding);
+  EXPECT_NEAR(g[1].Y, 0, Rounding);
+  const std::vector<GradientRow> scaled = MakeCellGradients(MakeTwoCells(), scalars, 8, 4);
+  EXPECT_NEAR(scaled[0].X, 2, 2 * Rounding);
+}
+
+TEST(CellGradients, FlatCellsKeepADirectionAndBlankOnesHaveNone)
+{
+  TetrahedralMesh flat = MakeTwoCells();
+  flat.Points[0] = 0;
+  const std::vector<GradientRow> g =
+    MakeCellGradients(flat, std::vector<double>{ -1, 0, 0, 0, 8 }, 1, 1);
+  EXPECT_GT(g[0].X, 0);
+  EXPECT_EQ(g[0].Y, 0);
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<GradientRow> blank =
+    MakeCellGradients(MakeTwoCells(), std::vector<double>{ missing, 0, 0, 0, 8 }, 1, 1);
+  EXPECT_EQ(blank[0].X, 0);
+  EXPECT_NEAR(blank[1].X, 4, 4 * Rounding);
+}
+
 } // namespace
 } // namespace tetralux
