@@ -197,7 +197,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
     { "summation", segments * std::numeric_limits<float>::epsilon() / 2 },
     { "table", IsTabulated(integrator) ? scene.Optics.GetTableError() : 0 },
-    { "light", frame.Budget.Light }, { "geometry", geometryError } };
+    { "geometry", geometryError } };
   frame.ReportOmission(
     tables == scene.GetVisibleTables(), "transparent tetrahedra", "nothing of them is seen");
   frame.ReportOmission(reentry != GpuReentry::Imaginary, "imaginary cells",

@@ -467,7 +467,6 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   frame.Errors = { { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
     { "summation", EstimateSummationError(volume, scene.Format, this->WorldRadius, scene.Dither) },
     { "table", IsTabulated(integrator) ? volume.Optics.GetTableError() : 0 },
-    { "light", frame.Budget.Light },
     { "geometry", volume.EstimateGeometryError(this->WorldRadius, tetralux::CellShaderRounding) },
     { "perspective", this->EstimatePerspectiveError(volume) },
     { "order", isOrderWrong ? volume.EstimateOrderError(this->WorldRadius) : 0 } };

@@ -50,8 +50,7 @@ void Describe(const tetralux::RayCastStatistics& rays, const tetralux::RayGrid& 
   frame.Budget = rays.Budget;
   frame.Errors = { { "early_termination", rays.TerminationError },
     { "integrals", rays.IntegralError }, { "summation", rays.SummationError },
-    { "table", rays.TableError }, { "light", frame.Budget.Light },
-    { "geometry", rays.GeometryError } };
+    { "table", rays.TableError }, { "geometry", rays.GeometryError } };
 
   frame.ReportOmission(
     !rays.DoublePrecision, "double precision", "single precision is right enough");

@@ -233,6 +233,10 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   }
   times["frame"] = seconds;
 
+  frame.Errors.emplace_back("light",
+    frame.Integration == tetralux::Integrator::VaryingLight
+      ? std::max(frame.Budget.Light, tetralux::SmallestLightError)
+      : 0);
   frame.Errors.emplace_back("transfer_function", frame.Scene->Optics.GetFunctionError());
   this->ErrorEstimate = 0;
   for (const auto& [name, value] : frame.Errors)

@@ -20,9 +20,13 @@ struct LightSteps
 
 /// Of parts that add as little as this the light may be off by more, in proportion: some such parts
 /// together add as much as one that hides all behind it.
-constexpr double SmallLightWeight = 1. / 128;
+constexpr double SmallLightWeight = 1. / 32;
 
-/// Steps with which the light of each part is off by at most an error, of a channel of what is lit.
+/// Of a channel: single precision knows no better what lights make of a colour.
+constexpr double SmallestLightError = 1e-7;
+
+/// Steps with which the light of each part is off by at most an error, of a channel of what is lit;
+/// a smaller one than SmallestLightError counts as that.
 TETRALUXCORE_EXPORT LightSteps FindLightSteps(
   const std::vector<Light>& lights, const Material& surface, double error);
 

@@ -9,7 +9,7 @@ uniform float lightApproach;
 const float ShortestPart = 1.0 / 1048576.0;
 
 // As there, and in LightSteps.h.
-const float SmallLightWeight = 1.0 / 128.0;
+const float SmallLightWeight = 1.0 / 32.0;
 const float LeastLightWeight = 1.0 / 512.0;
 
 // As in LightSteps.h, from the middle of a part.

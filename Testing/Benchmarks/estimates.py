@@ -75,8 +75,12 @@ def make_steps(factor):
     return scale(nodes, factor)
 
 
+LIT = "-lit"  # behind the name of a function: lights shine on it
+
 FUNCTIONS = {
     "smooth": SMOOTH,
+    "smooth-lit": SMOOTH,
+    "dense-lit": scale(SMOOTH, 30),
     "dense": scale(SMOOTH, 30),
     "needle": make_needle(0.3, NEEDLE_HALF_WIDTH, 10),
     "needles": make_needle(0.3, 0.02 * NEEDLE_HALF_WIDTH, 500),
@@ -132,7 +136,7 @@ def read_can():
 def list_meshes(tool):
     """Names, and what makes them; the functions that they are seen by."""
     every = tuple(FUNCTIONS)
-    some = ("smooth", "needle", "stiff")
+    some = ("smooth", "smooth-lit", "needle", "stiff")
     few = ("smooth", "steps")
     return (
         ("ring", lambda: generate(tool, "ring", "--around", "120", "--across", "12"), every),
@@ -160,7 +164,7 @@ def list_quick_meshes(tool):
         return make_o_grid(around=24, across=12, along=3, first=1e-3)
 
     return (
-        ("ring", make_ring, ("smooth", "needle", "needles", "steps", "stiff")),
+        ("ring", make_ring, ("smooth", "smooth-lit", "needle", "needles", "steps", "stiff")),
         ("o-grid", make_small_o_grid, ("smooth", "dense", "steps", "stiff", "constant")),
         ("ring-cells", lambda: make_cell_data(make_ring()), ("smooth", "steps")),
     )
@@ -177,6 +181,8 @@ def table(size, lengths, scale_=2, format_=4, axis=1):
     }
 
 
+CENTROIDS = tetralux.vtkMeshedPolyhedraVisibilitySort.CENTROID_ORDER
+
 SETTINGS = (
     ("ray-cast", "ray-cast", {}),
     ("ray-cast-1e-3", "ray-cast", {"MaximumError": 1e-3}),
@@ -186,6 +192,9 @@ SETTINGS = (
     ("projection", "projection", {}),
     ("projection-half", "projection", {"ColorBuffer": 2}),
     ("projection-8-bit", "projection", {"ColorBuffer": 3, "AlphaDithering": 0}),
+    ("projection-dithered", "projection", {"ColorBuffer": 3, "AlphaDithering": 1}),
+    ("projection-linear", "projection", {"PerspectiveInterpolation": 0}),
+    ("projection-centroids", "projection", {"Order": CENTROIDS}),
     ("table", "ray-cast", {"Integration": 2}),
     ("kraus", "ray-cast", table(256, 16, format_=2)),
     ("weiler", "ray-cast", table(128, 256, scale_=1, format_=1)),
@@ -208,7 +217,7 @@ REFERENCE = ("reference", "ray-cast", {"MaximumError": 0, "Precision": 2, "Integ
 class Scene:
     """A mesh seen as a whole by a transfer function."""
 
-    def __init__(self, data, nodes, size):
+    def __init__(self, data, nodes, size, lit):
         attributes = data.GetPointData()
         if not attributes.GetScalars():
             attributes = data.GetCellData()
@@ -216,6 +225,9 @@ class Scene:
         scaled = [(lower + share * (upper - lower), *node) for share, *node in nodes]
         self.data = data
         self.property = make_property(scaled, data.GetLength() / 10)
+        self.property.SetShade(lit)
+        self.property.SetSpecular(0.3)
+        self.property.SetSpecularPower(20)
         self.size = size
 
     def render(self, method, values, right=0, up=0):
@@ -252,7 +264,7 @@ def move(camera, right, up):
 
 
 def measure_scene(name, data, nodes, arguments):
-    scene = Scene(data, nodes, arguments.size)
+    scene = Scene(data, nodes, arguments.size, name.endswith(LIT))
     exact, _ = scene.render(*REFERENCE[1:])
     change = numpy.zeros(len(exact))
     for right, up in ((1, 0), (-1, 0), (0, 1), (0, -1)):

@@ -271,7 +271,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LitVolumes,
     LitCase{ "Ring", "ring", { { "around", 40 }, { "across", 6 } }, Smooth, 1. / 30 },
     LitCase{ "Needle", "ring", { { "around", 40 }, { "across", 6 } }, Needle, 1. / 300 },
     LitCase{ "Ball", "ball", { { "cells", 7 } }, Smooth, 1. / 30 },
-    LitCase{ "OpaqueBall", "ball", { { "cells", 7 } }, Opaque, 1. / 6000 },
+    LitCase{ "OpaqueBall", "ball", { { "cells", 6 } }, Opaque, 1. / 2000 },
     LitCase{ "Layers", "boundary-layer", { { "cells", 6 }, { "layers", 10 } }, Smooth, 1. / 30 },
     LitCase{ "Random", "random", { { "cells", 6 } }, Smooth, 1. / 30 }),
   [](const auto& info) { return std::string(info.param.Name); });

@@ -56,6 +56,14 @@ TEST(LightSteps, WhatNarrowsHighlightsShortensSteps)
   EXPECT_GT(FindLightSteps(lights, surface, 1e-5).Turn, wide);
 }
 
+TEST(LightSteps, NoErrorAtAllIsThatOfSinglePrecision)
+{
+  const std::vector<Light> lights = { MakeLight(false) };
+  const LightSteps steps = FindLightSteps(lights, {}, 0);
+  EXPECT_GT(steps.Turn, 0.01);
+  EXPECT_EQ(steps.Turn, FindLightSteps(lights, {}, SmallestLightError).Turn);
+}
+
 TEST(LightSteps, NothingThatShinesNeedsNoSteps)
 {
   const LightSteps steps = FindLightSteps({}, {}, 1e-9);
