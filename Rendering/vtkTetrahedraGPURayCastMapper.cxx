@@ -148,8 +148,12 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   options.NumberOfCells = scene.Mesh.GetMesh()->GetNumberOfCells();
   options.CellData = scene.Mesh.HasCellScalars();
   options.LargestScalar = integrator == Integrator::Maximum;
-  const double brightness =
-    IsLit(integrator) ? tetralux::FindLargestBrightness(frame.Lights, frame.Surface) : 1;
+  const double brightness = IsLit(integrator)
+    ? tetralux::FindLargestBrightness(frame.Lights, frame.Surface, grid.MeshFromWorld,
+        scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius(),
+        tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Smallest)
+    : 1;
+  frame.Brightness = brightness;
   options.MaximumOpacity =
     EndsEarly(integrator) ? static_cast<float>(1 - frame.Budget.Termination / brightness) : 2.f;
   if (frame.Shaded)

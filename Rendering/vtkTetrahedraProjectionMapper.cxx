@@ -461,6 +461,13 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
       this->Method == VisibilityMethod::MeshedNonConvex ||
       this->Sorter->GetCycles().GetNumberOfCycles() > 0);
   const Integrator integrator = frame.Integration;
+  if (IsLit(integrator))
+  {
+    const auto& meshFromWorld = scene.Grid.MeshFromWorld;
+    const tetralux::WalkMesh& mesh = *volume.Mesh.GetMesh();
+    frame.Brightness = tetralux::FindLargestBrightness(frame.Lights, frame.Surface, meshFromWorld,
+      mesh.GetCenter(), mesh.GetRadius(), tetralux::MeasureMeshToWorld(meshFromWorld).Smallest);
+  }
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError,
     { false, IsTabulated(integrator), scene.Format != ChannelFormat::Float,
       volume.Optics.GetFunctionError() > 0, integrator == Integrator::VaryingLight });

@@ -48,6 +48,7 @@ void Describe(const tetralux::RayCastStatistics& rays, const tetralux::RayGrid& 
   frame.Sections.emplace_back("rays", section);
 
   frame.Budget = rays.Budget;
+  frame.Brightness = rays.Brightness;
   frame.Errors = { { "early_termination", rays.TerminationError },
     { "integrals", rays.IntegralError }, { "summation", rays.SummationError },
     { "table", rays.TableError }, { "geometry", rays.GeometryError } };

@@ -233,9 +233,14 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   }
   times["frame"] = seconds;
 
+  for (auto& [name, value] : frame.Errors)
+  {
+    // What is behind a ray's end counts by the brightness already.
+    value *= name == "early_termination" ? 1 : frame.Brightness;
+  }
   frame.Errors.emplace_back("light",
     frame.Integration == tetralux::Integrator::VaryingLight
-      ? std::max(frame.Budget.Light, tetralux::SmallestLightError)
+      ? tetralux::FindLightSteps(frame.Lights, frame.Surface, frame.Budget.Light).Error
       : 0);
   frame.Errors.emplace_back("transfer_function", frame.Scene->Optics.GetFunctionError());
   this->ErrorEstimate = 0;

@@ -23,7 +23,9 @@
  *
  * If the property's Shade is on, lights of the renderer shine on composite volumes and isosurfaces
  * of scalars at points, from the side of the viewer: ambient, diffuse and specular (Blinn) as in
- * VTK's mappers of image data.
+ * VTK's mappers of image data. What is lit is integrated along each ray, within a quarter of
+ * MaximumError; by gradients of cells and under distant lights it is exact. Mappers that draw on
+ * the graphics card take at most 8 lights, more are an error.
  *
  * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
  * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper

@@ -9,8 +9,8 @@
 namespace tetralux
 {
 
-/// The functions of SegmentIntegral.h and LaneFunctions.h as compiled for one instruction set: a call computes
-/// LaneCount results from arrays of LaneCount numbers.
+/// The functions of SegmentIntegral.h and LaneFunctions.h as compiled for one instruction set: a
+/// call computes LaneCount results from arrays of LaneCount numbers.
 struct SegmentLanes
 {
   using Function = void (*)(const float* x, float* result);

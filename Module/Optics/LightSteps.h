@@ -16,6 +16,7 @@ struct LightSteps
 {
   double Turn = 1;     ///< of a direction, radians, at most 1
   double Approach = 1; ///< of a distance, as a share of it, at most 1
+  double Error = 0;    ///< of a channel, that follows from both
 };
 
 /// Of parts that add as little as this the light may be off by more, in proportion: some such parts
@@ -26,7 +27,8 @@ constexpr double SmallLightWeight = 1. / 32;
 constexpr double SmallestLightError = 1e-7;
 
 /// Steps with which the light of each part is off by at most an error, of a channel of what is lit;
-/// a smaller one than SmallestLightError counts as that.
+/// a smaller one than SmallestLightError counts as that. Where highlights are so narrow, or lights
+/// so bright, that a direction would have to be found every 1/256 of a radian, the error is larger.
 TETRALUXCORE_EXPORT LightSteps FindLightSteps(
   const std::vector<Light>& lights, const Material& surface, double error);
 

@@ -3,6 +3,7 @@
 #define tetralux_OpticalModel_h
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace tetralux
@@ -69,17 +70,38 @@ struct Material
 };
 
 /// How much brighter than what is lit, at 1 or less, lights may make it; at least 1. What is behind
-/// a ray's end counts by that.
-inline double FindLargestBrightness(const std::vector<Light>& lights, const Material& surface)
+/// a ray's end counts by that. center, radius: of the mesh, in its coordinates; scale: least world
+/// length of a unit of them. A positional light counts as it shines at the mesh's nearest, but not
+/// nearer than a twentieth of the radius.
+inline double FindLargestBrightness(const std::vector<Light>& lights, const Material& surface,
+  const double (*meshFromWorld)[4], const double center[3], double radius, double scale)
 {
+  constexpr double Nearest = 1. / 20;
   double largest = 1;
   for (int c = 0; c < 3; ++c)
   {
     double sum = 0;
     for (const Light& light : lights)
     {
-      sum += surface.Ambient * light.Ambient[c] + surface.Diffuse * light.Diffuse[c] +
-        surface.Specular * light.Specular[c];
+      double share = 1;
+      if (light.Positional)
+      {
+        double offset[3];
+        for (int a = 0; a < 3; ++a)
+        {
+          const double* row = meshFromWorld[a];
+          offset[a] = row[0] * light.Position[0] + row[1] * light.Position[1] +
+            row[2] * light.Position[2] + row[3] - center[a];
+        }
+        const double toCenter = std::hypot(offset[0], offset[1], offset[2]);
+        const double distance = scale * std::max(toCenter - radius, Nearest * radius);
+        const double* k = light.Attenuation;
+        share = 1 / (k[0] + distance * (k[1] + distance * k[2]));
+      }
+      sum += std::abs(surface.Ambient * light.Ambient[c]) +
+        share *
+          (std::abs(surface.Diffuse * light.Diffuse[c]) +
+            std::abs(surface.Specular * light.Specular[c]));
     }
     largest = std::max(largest, sum);
   }

@@ -79,14 +79,17 @@ KernelLight MakeLight(const Light& light, const Material& surface, double unit)
   for (int a = 0; a < 3; ++a)
   {
     result.Position[a] = light.Position[a];
-    result.Axis[a] = static_cast<float>(light.Axis[a]);
+    result.Axis[a] = light.Axis[a];
     result.Falloff[a] = static_cast<float>(power * light.Attenuation[a]);
     result.Ambient[a] = surface.Ambient * light.Ambient[a];
     result.Diffuse[a] = surface.Diffuse * light.Diffuse[a];
     result.Specular[a] = surface.Specular * light.Specular[a];
     power *= unit;
   }
-  result.ConeCosine = static_cast<float>(light.ConeCosine);
+  result.IsWide = light.ConeCosine < 0;
+  // Narrow cones have a sine with all of its digits.
+  result.ConeSine =
+    static_cast<float>(std::sqrt(std::max(0., 1 - light.ConeCosine * light.ConeCosine)));
   result.Exponent = static_cast<float>(light.Exponent);
   return result;
 }
@@ -142,11 +145,10 @@ void FillRays(const RayGrid& grid, const RayLimits& limits, KernelInput& in)
   in.MaximumDistances = limits.MaximumDistances;
 }
 
-void FillEnds(const RayCastOptions& options, const CastChoices& choices, KernelInput& in)
+void FillEnds(const CastChoices& choices, KernelInput& in)
 {
   // Light may make what is behind brighter.
-  const double behind = choices.TerminationError /
-    (IsLit(choices.Method) ? FindLargestBrightness(options.Lights, options.Surface) : 1);
+  const double behind = choices.TerminationError / choices.Brightness;
   in.MaximumOpacity = static_cast<float>(1 - behind);
   in.MaximumDepth = static_cast<float>(-std::log(choices.TerminationError));
 }
@@ -181,7 +183,7 @@ void FillKernelInput(const VolumeScene& scene, const RayGrid& grid, const RayLim
   in.DistanceRounding = choices.WorldRadius *
     (choices.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);
   FillRays(grid, limits, in);
-  FillEnds(options, choices, in);
+  FillEnds(choices, in);
 }
 
 } // namespace tetralux

@@ -50,8 +50,9 @@ struct KernelLight
   bool IsSpot;
   bool Fades;         ///< with distance
   double Position[3]; ///< in the world; of a distant light the direction to it
-  float Axis[3];
-  float ConeCosine;
+  double Axis[3];
+  bool IsWide;    ///< a spot whose cone is more than a half-space
+  float ConeSine; ///< of half the cone
   float Exponent;
   float Falloff[3]; ///< coefficients of the distance, in KernelLighting::Unit
   float Ambient[3];

@@ -100,13 +100,54 @@ public:
     const KernelLighting& lighting, const KernelLight& light, Double8 z) const
   {
     const Double8 distance = this->Start + z;
-    LaneVector way;
+    Double8 units[3];
+    Double8 largest = 0.;
     for (int a = 0; a < 3; ++a)
     {
       const Double8 position = Fma(distance, this->Rays.Direction[a], this->Rays.Origin[a]);
-      way.C[a] = ToFloat((Double8(light.Position[a]) - position) * Double8(1 / lighting.Unit));
+      units[a] = (Double8(light.Position[a]) - position) * Double8(1 / lighting.Unit);
+      largest = Max(largest, Abs(units[a]));
     }
-    return way;
+    // Squares of it are finite.
+    constexpr double Farthest = 1e15;
+    const Double8 scale = Min(Double8(1.), Double8(Farthest) / largest);
+    return { { ToFloat(units[0] * scale), ToFloat(units[1] * scale), ToFloat(units[2] * scale) } };
+  }
+
+  static TETRALUX_INLINE LaneVector GetAxis(const KernelLight& light)
+  {
+    return { { static_cast<float>(light.Axis[0]), static_cast<float>(light.Axis[1]),
+      static_cast<float>(light.Axis[2]) } };
+  }
+
+  /// The way to a spot times its axis, as vectors: how far the rays are beside the axis. Not from
+  /// the way in single precision, whose rounding may be wider than the cone of a spot far away.
+  TETRALUX_INLINE LaneVector GetAcrossAxis(
+    const KernelLighting& lighting, const KernelLight& light, Double8 z) const
+  {
+    const Double8 distance = this->Start + z;
+    Double8 way[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      const Double8 position = Fma(distance, this->Rays.Direction[a], this->Rays.Origin[a]);
+      way[a] = (Double8(light.Position[a]) - position) * Double8(1 / lighting.Unit);
+    }
+    LaneVector across;
+    for (int a = 0; a < 3; ++a)
+    {
+      const int b = (a + 1) % 3;
+      const int c = (a + 2) % 3;
+      across.C[a] = ToFloat(way[b] * Double8(light.Axis[c]) - way[c] * Double8(light.Axis[b]));
+    }
+    return across;
+  }
+
+  /// What distance leaves of a positional light.
+  static TETRALUX_INLINE Float8 GetShare(const KernelLight& light, Float8 distance)
+  {
+    const Float8 falloff = Fma(distance,
+      Fma(distance, Float8(light.Falloff[2]), Float8(light.Falloff[1])), Float8(light.Falloff[0]));
+    return Float8(1.f) / falloff;
   }
 
   /// Returns a gradient in the world, of any length.
@@ -152,15 +193,17 @@ public:
         const Float8 distance = Sqrt(squared);
         const Mask8 apart = zero < distance;
         toLight = way * Keep(apart, one / distance);
-        share = Keep(apart,
-          one /
-            Fma(Float8(light.Falloff[2]), squared,
-              Fma(Float8(light.Falloff[1]), distance, Float8(light.Falloff[0]))));
+        share = Keep(apart, GetShare(light, distance));
         if (light.IsSpot)
         {
-          const Float8 cosine = zero - Dot(toLight, Broadcast(light.Axis));
-          share =
-            share * Keep(Float8(light.ConeCosine) <= cosine, Power(cosine, Float8(light.Exponent)));
+          const Float8 cosine = zero - Dot(toLight, GetAxis(light));
+          const LaneVector across = this->GetAcrossAxis(lighting, light, z);
+          const Float8 sine2 = Dot(across, across);
+          const Float8 ofCone2 = Float8(light.ConeSine * light.ConeSine) * squared;
+          const Mask8 before = zero < cosine;
+          const Mask8 inside =
+            light.IsWide ? before | (ofCone2 <= sine2) : before & (sine2 <= ofCone2);
+          share = share * Keep(inside, Power(Max(zero, cosine), Float8(light.Exponent)));
         }
       }
       else

@@ -76,8 +76,10 @@ public:
     const Float8 longer =
       Float8(1.f) / Power(bounded * (Float8(1.f) / small), Float8(1.f / 3)); // 1 for larger weights
     const Float8 one = 1.f;
+    const Float8 brighter = this->FindBrightness(lighting, begin);
+    const Float8 steps = longer * Power(one / brighter, Float8(1.f / 3));
     const Float8 farthest = Select(small < weight, Min(heavyEnd, one), one);
-    const Float8 end = this->FindEnd(lighting, begin, farthest, longer);
+    const Float8 end = this->FindEnd(lighting, begin, farthest, steps);
     const Float8 length = end - begin;
     const auto find = [&](float share)
     {
@@ -119,6 +121,23 @@ public:
 private:
   /// Of SmallLightWeight: parts that add less are no longer.
   static constexpr float LeastWeight = 1.f / 512;
+
+  /// How much brighter near lights shine at a share than LightSteps knows; at least 1.
+  TETRALUX_INLINE Float8 FindBrightness(const KernelLighting& lighting, Float8 share) const
+  {
+    Float8 brightness = 1.f;
+    for (int i = 0; i < lighting.NumberOfLights; ++i)
+    {
+      const KernelLight& light = lighting.Lights[i];
+      if (light.Fades)
+      {
+        const LaneVector way = this->Lights.GetWayToLight(
+          lighting, light, Fma(ToDouble(share), this->Length, this->Near));
+        brightness = Max(LaneLights::GetShare(light, Sqrt(Dot(way, way))), brightness);
+      }
+    }
+    return brightness;
+  }
 
   void EnterWorld(const KernelLighting& lighting)
   {
@@ -228,14 +247,19 @@ private:
       }
       if (light.IsSpot)
       {
-        // Where the cosine to the axis is that of the cone, or opposite to it.
-        const LaneVector axis = Broadcast(light.Axis);
-        const Float8 squared = light.ConeCosine * light.ConeCosine;
+        // Where the angle to the axis is that of the cone, or opposite to it: across the axis and
+        // along it apart, so that nothing cancels in narrow cones.
+        const LaneVector axis = LaneLights::GetAxis(light);
+        const LaneVector across = this->Lights.GetAcrossAxis(lighting, light, this->Near);
+        const LaneVector acrossChange =
+          this->Lights.GetAcrossAxis(lighting, light, this->Near + this->Length) - across;
         const Float8 axial = Dot(toLight, axis);
         const Float8 axialChange = Dot(change, axis);
-        part.CutAtRoots(axial * axial - squared * Dot(toLight, toLight),
-          Float8(2.f) * (axial * axialChange - squared * approach),
-          axialChange * axialChange - squared * way2);
+        const Float8 sine2 = light.ConeSine * light.ConeSine;
+        const Float8 cosine2 = one - sine2;
+        part.CutAtRoots(cosine2 * Dot(across, across) - sine2 * axial * axial,
+          Float8(2.f) * (cosine2 * Dot(across, acrossChange) - sine2 * axial * axialChange),
+          cosine2 * Dot(acrossChange, acrossChange) - sine2 * axialChange * axialChange);
       }
     }
     return Select(part.End < one - Float8(ShortestLightPart), part.End, one);

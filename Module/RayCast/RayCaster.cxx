@@ -126,6 +126,13 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
   statistics.IntegralError = HasWeights(choices.Method) ? SegmentWeightError : 0;
   statistics.GeometryError = choices.DoublePrecision ? 0 : geometryError;
   choices.LightError = budget.Light;
+  if (IsLit(choices.Method))
+  {
+    const WalkMesh& mesh = *scene.Mesh.GetMesh();
+    choices.Brightness = FindLargestBrightness(options.Lights, options.Surface, grid.MeshFromWorld,
+      mesh.GetCenter(), mesh.GetRadius(), MeasureMeshToWorld(grid.MeshFromWorld).Smallest);
+    statistics.Brightness = choices.Brightness;
+  }
   statistics.TableError = tabulated ? scene.Optics.GetTableError() : 0;
   choices.Tables = ChooseTables(scene, options, statistics);
   if (choices.Tables)

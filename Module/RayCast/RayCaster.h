@@ -33,6 +33,7 @@ struct RayCastStatistics
   ErrorBudget Budget;                ///< how MaximumError was divided
   double ErrorEstimate = 0;          ///< sum of the five below
   double TerminationError = 0;       ///< at most, by ending rays early
+  double Brightness = 1;             ///< FindLargestBrightness of what is lit
   double IntegralError = 0;          ///< at most, by the weights of segments
   double SummationError = 0;         ///< estimated, by adding segments up; of a path of mean length
   double TableError = 0;             ///< estimated, by interpolation in a table

@@ -64,6 +64,10 @@ struct MapperFrame
   /// What the method spent of MaximumError.
   ErrorBudget Budget;
 
+  /// How much brighter lights make what is lit, FindLargestBrightness: as much larger are errors of
+  /// what they shine on.
+  double Brightness = 1;
+
   /// Contributions to the largest error of a channel, absolute, 0..1; their sum is the estimate.
   std::vector<std::pair<std::string, double>> Errors;
 

@@ -38,6 +38,10 @@ Light MakeLight(vtkLight* source)
     light.Specular[a] = light.Diffuse[a];
   }
   source->GetAttenuationValues(light.Attenuation);
+  if (light.Attenuation[0] == 0 && light.Attenuation[1] == 0 && light.Attenuation[2] == 0)
+  {
+    light.Attenuation[0] = 1; // nothing to divide by: distance does not weaken it
+  }
   light.ConeCosine = source->GetConeAngle() < SmallestOpenCone
     ? std::cos(vtkMath::RadiansFromDegrees(source->GetConeAngle()))
     : -1;

@@ -20,6 +20,9 @@ namespace
 
 using Vector = std::array<double, 3>;
 
+/// In the place of a cone's sine, see LightingDec.glsl.
+constexpr float NoCone = 2;
+
 /// Coordinates of the mesh into those of the world.
 Vector Transform(const double worldFromMesh[9], const Vector& x)
 {
@@ -44,6 +47,12 @@ float ToSingle(double x)
 void GpuLighting::Update(const std::vector<Light>& lights, const Material& surface,
   const LightSteps& steps, const RayGrid& grid, const double center[3], double radius)
 {
+  if (lights.size() > LargestNumberOfLights)
+  {
+    throw std::invalid_argument(std::to_string(lights.size()) +
+      " lights shine; methods of the graphics card take at most " +
+      std::to_string(LargestNumberOfLights) + ", ray-cast takes any number");
+  }
   double meshFromWorld[9];
   Vector offset;
   double largest = 0;
@@ -83,7 +92,7 @@ void GpuLighting::Update(const std::vector<Light>& lights, const Material& surfa
   {
     vectors->clear();
   }
-  for (auto* vectors : { &this->Ambient, &this->Diffuse, &this->Specular })
+  for (auto* vectors : { &this->Ambient, &this->Diffuse, &this->Specular, &this->AcrossAxes })
   {
     vectors->clear();
   }
@@ -93,18 +102,38 @@ void GpuLighting::Update(const std::vector<Light>& lights, const Material& surfa
   for (const Light& light : lights)
   {
     Vector4 position, cone, falloff;
+    // Farther than this the light is a distant one for single precision.
+    constexpr double Farthest = 1e15;
+    double largest = Farthest;
+    for (int a = 0; a < 3 && light.Positional; ++a)
+    {
+      largest = std::max(largest, std::abs(light.Position[a] - worldCenter[a]) / unit);
+    }
     double power = 1; // of the unit
     for (int a = 0; a < 3; ++a)
     {
-      position[a] = ToSingle(
-        light.Positional ? (light.Position[a] - worldCenter[a]) / unit : light.Position[a]);
+      position[a] = ToSingle(light.Positional
+          ? (light.Position[a] - worldCenter[a]) / unit * (Farthest / largest)
+          : light.Position[a]);
       cone[a] = static_cast<float>(light.Axis[a]);
       falloff[a] = ToSingle(power * light.Attenuation[a]);
       power *= unit;
     }
     position[3] = light.Positional ? 1.f : 0.f;
-    cone[3] = static_cast<float>(light.ConeCosine);
+    // Narrow cones have a sine with all of its digits.
+    const double sine = std::sqrt(std::max(0., 1 - light.ConeCosine * light.ConeCosine));
+    cone[3] =
+      light.ConeCosine <= -1 ? NoCone : static_cast<float>(light.ConeCosine < 0 ? -sine : sine);
     falloff[3] = static_cast<float>(light.Exponent);
+    Vector3 across;
+    for (int a = 0; a < 3; ++a)
+    {
+      const int b = (a + 1) % 3;
+      const int c = (a + 2) % 3;
+      across[a] = ToSingle((light.Position[b] - worldCenter[b]) / unit * light.Axis[c] -
+        (light.Position[c] - worldCenter[c]) / unit * light.Axis[b]);
+    }
+    this->AcrossAxes.push_back(across);
     this->Positions.push_back(position);
     this->Cones.push_back(cone);
     this->Falloffs.push_back(falloff);
@@ -126,8 +155,9 @@ std::string GpuLighting::GetDeclarations() const
   defines += any(this->Positions, [](const Vector4& position) { return position[3] > 0; })
     ? "#define POSITIONAL_LIGHTS\n"
     : "";
-  defines +=
-    any(this->Cones, [](const Vector4& cone) { return cone[3] > -1; }) ? "#define SPOTS\n" : "";
+  defines += any(this->Cones, [](const Vector4& cone) { return cone[3] != NoCone; })
+    ? "#define SPOTS\n"
+    : "";
   defines += this->Shines ? "#define HIGHLIGHTS\n" : "";
   return defines + LightingDec + LightAlongRayDec;
 }
@@ -147,6 +177,7 @@ void GpuLighting::Set(vtkShaderProgram* program) const
   program->SetUniform4fv("lightPositions", count, this->Positions.front().data());
   program->SetUniform4fv("lightCones", count, this->Cones.front().data());
   program->SetUniform4fv("lightFalloffs", count, this->Falloffs.front().data());
+  program->SetUniform3fv("lightAcrossAxes", count, this->AcrossAxes.front().data());
   program->SetUniform3fv("lightAmbient", count, this->Ambient.front().data());
   program->SetUniform3fv("lightDiffuse", count, this->Diffuse.front().data());
   program->SetUniform3fv("lightSpecular", count, this->Specular.front().data());

@@ -26,7 +26,11 @@ namespace tetralux
 class TETRALUXRENDERING_EXPORT GpuLighting
 {
 public:
-  /// For one frame. center and radius: see WalkMesh. steps: of light that varies in cells.
+  /// As many as a shader takes: loops over more of them are cut short on some graphics cards.
+  static constexpr int LargestNumberOfLights = 8;
+
+  /// For one frame. Throws std::invalid_argument, with one line, if there are more lights than
+  /// that. center and radius: see WalkMesh. steps: of light that varies in cells.
   void Update(const std::vector<Light>& lights, const Material& surface, const LightSteps& steps,
     const RayGrid& grid, const double center[3], double radius);
 
@@ -47,6 +51,7 @@ private:
   bool Shines = false; ///< any highlights
   std::vector<Vector4> Positions, Cones, Falloffs;
   std::vector<Vector3> Ambient, Diffuse, Specular;
+  std::vector<Vector3> AcrossAxes; ///< from the centre, see LightingDec.glsl
 };
 
 } // namespace tetralux

@@ -3,8 +3,11 @@
 // which this follows. Needs SegmentWeightsDec.glsl, TransferIntervalsDec.glsl and
 // LightAlongRayDec.glsl.
 
-// There is always an end, whatever a compiler makes of the arithmetic.
+// There is always an end, whatever a compiler makes of the arithmetic. With the shortest steps that
+// FindLightSteps allows a direction turns around in some 800; from half of these on parts are as
+// long as lets the others reach the end.
 const int LargestNumberOfLightParts = 1024;
+const float LongLightPart = 2.0 / 1024.0;
 
 // Shares of a segment that are nearer than this are one: half the shortest part.
 const float NearlyLightPart = 0.5 * ShortestPart;
@@ -20,12 +23,14 @@ struct LightPart
   LightFactors Middle, Slope, Bend;
 };
 
-LightPart MakeLightPart(LightPath path, float begin, float weight, float heavyEnd)
+// shortest: no part is shorter.
+LightPart MakeLightPart(
+  LightPath path, float begin, float weight, float heavyEnd, float shortest)
 {
   LightPart part;
   part.Begin = begin;
   part.Weight = weight >= SmallLightWeight ? 1.0 : max(weight, SmallLightWeight * LeastLightWeight);
-  float end = FindLightEnd(path, begin, weight, heavyEnd);
+  float end = min(1.0, max(FindLightEnd(path, begin, weight, heavyEnd), begin + shortest));
   float size = end - begin;
   part.End = end < 1.0 ? end : 2.0; // no share comes there
   part.InverseLength = 1.0 / size;
@@ -95,7 +100,8 @@ vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradie
 #endif
       if (light.End <= share + NearlyLightPart || light.Weight < weight)
       {
-        light = MakeLightPart(path, share, weight, segmentBegin + end * segmentLength);
+        float shortest = part < LargestNumberOfLightParts / 2 ? 0.0 : LongLightPart;
+        light = MakeLightPart(path, share, weight, segmentBegin + end * segmentLength, shortest);
       }
       float ofPart = segmentLength > 0.0 ? (light.End - segmentBegin) / segmentLength : 1.0;
       end = min(end, max(begin, ofPart));

@@ -86,10 +86,30 @@ float CutAtSide(float atFront, float change, float begin, float end)
   return change != 0.0 ? CutLight(-atFront / change, begin, end) : end;
 }
 
+#ifdef POSITIONAL_LIGHTS
+// How much brighter near lights shine than LightSteps knows; at least 1.
+float FindNearBrightness(vec3 place)
+{
+  float brightness = 1.0;
+  for (int light = 0; light < NUMBER_OF_LIGHTS; ++light)
+  {
+    vec4 falloff = lightFalloffs[light];
+    bool fades = lightPositions[light].w > 0.0 && (falloff.y != 0.0 || falloff.z != 0.0);
+    float distance = length(lightPositions[light].xyz - place);
+    float weakened = falloff.x + distance * (falloff.y + distance * falloff.z);
+    brightness = fades && weakened > 0.0 ? max(brightness, 1.0 / weakened) : brightness;
+  }
+  return brightness;
+}
+#endif
+
 // weight: of the part in the picture; if it is not small the part ends at heavyEnd.
 float FindLightEnd(LightPath path, float begin, float weight, float heavyEnd)
 {
   float longer = pow(clamp(weight / SmallLightWeight, LeastLightWeight, 1.0), -1.0 / 3.0);
+#ifdef POSITIONAL_LIGHTS
+  longer *= pow(FindNearBrightness(path.Place + begin * path.Way), -1.0 / 3.0);
+#endif
   float tangent = tan(min(1.0, longer * lightTurn));
   float end = LimitLight(weight > SmallLightWeight ? heavyEnd - begin : 1.0, begin, 1.0);
   end = CutAtSide(dot(path.Gradient, path.View), dot(path.Change, path.View), begin, end);
@@ -122,15 +142,20 @@ float FindLightEnd(LightPath path, float begin, float weight, float heavyEnd)
         end = LimitLight(step, begin, end);
       }
 #ifdef SPOTS
-      if (lightCones[light].w > -1.0)
+      if (lightCones[light].w <= 1.0)
       {
-        // Where the cosine to the axis is that of the cone, or opposite to it.
-        float squared = lightCones[light].w * lightCones[light].w;
-        float axial = dot(toLight, lightCones[light].xyz);
-        float axialChange = dot(change, lightCones[light].xyz);
-        end = CutLightAtRoots(axial * axial - squared * dot(toLight, toLight),
-          2.0 * (axial * axialChange - squared * approach),
-          axialChange * axialChange - squared * way2, begin, end);
+        // Where the angle to the axis is that of the cone, or opposite to it.
+        vec3 axis = lightCones[light].xyz;
+        vec3 across = lightAcrossAxes[light] - cross(path.Place, axis);
+        vec3 acrossChange = cross(change, axis);
+        float axial = dot(toLight, axis);
+        float axialChange = dot(change, axis);
+        float sine2 = lightCones[light].w * lightCones[light].w;
+        float cosine2 = 1.0 - sine2;
+        end = CutLightAtRoots(cosine2 * dot(across, across) - sine2 * axial * axial,
+          2.0 * (cosine2 * dot(across, acrossChange) - sine2 * axial * axialChange),
+          cosine2 * dot(acrossChange, acrossChange) - sine2 * axialChange * axialChange, begin,
+          end);
       }
 #endif
     }

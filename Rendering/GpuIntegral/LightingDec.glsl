@@ -12,7 +12,11 @@ uniform float specularPower;
 #if NUMBER_OF_LIGHTS > 0
 uniform vec4 lightPositions[NUMBER_OF_LIGHTS]; // from the centre of the mesh and 1; of a distant
                                                // light the direction towards it and 0
-uniform vec4 lightCones[NUMBER_OF_LIGHTS];     // axis of a spot, cosine of half its cone
+uniform vec4 lightCones[NUMBER_OF_LIGHTS];     // axis of a spot, sine of half its cone, negative if
+                                               // that is wide; above 1 there is no cone
+uniform vec3 lightAcrossAxes[NUMBER_OF_LIGHTS]; // of a spot the way from the centre of the mesh to it
+                                                // times the axis: of a spot far away its cone may
+                                                // be narrower than the rounding of the way
 uniform vec4 lightFalloffs[NUMBER_OF_LIGHTS];  // coefficients of the distance, exponent of a spot
 uniform vec3 lightAmbient[NUMBER_OF_LIGHTS];   // all times the material's
 uniform vec3 lightDiffuse[NUMBER_OF_LIGHTS];
@@ -65,7 +69,11 @@ LightFactors Illuminate(vec3 place, vec3 gradient, vec3 view)
 #ifdef SPOTS
     vec4 cone = lightCones[light];
     float spot = -dot(toLight, cone.xyz);
-    share *= cone.w <= -1.0 ? 1.0 : spot >= cone.w ? pow(max(spot, 1e-30), falloff.w) : 0.0;
+    vec3 across = lightAcrossAxes[light] - cross(place, cone.xyz);
+    float sine2 = dot(across, across);
+    float ofCone2 = cone.w * cone.w * distance * distance;
+    bool inside = cone.w < 0.0 ? spot > 0.0 || sine2 >= ofCone2 : spot > 0.0 && sine2 <= ofCone2;
+    share *= cone.w > 1.0 ? 1.0 : inside ? pow(max(spot, 1e-30), falloff.w) : 0.0;
 #endif
     share = positional ? share : 1.0;
 #endif

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <stdexcept>
 
 namespace
 {
@@ -216,6 +217,16 @@ TEST_F(GpuLightingTest, NoLightsAreBlack)
     "vec4(FindLight(a.xyz, b.xyz, b.xyz).Scale + FindLight(a.xyz, b.xyz, b.xyz).Add, a.x)",
     { { 0.5f, 0, 0, 0, 0, 0, 1 } }, [&](vtkShaderProgram* program) { lighting.Set(program); });
   EXPECT_EQ(results.front(), (Result{ 0, 0, 0, 0.5f }));
+}
+
+TEST_F(GpuLightingTest, MoreLightsThanShadersTakeAreAnError)
+{
+  const std::vector<Light> lights(
+    tetralux::GpuLighting::LargestNumberOfLights + 1, MakeLight({ 0.6, 0, 0.8 }, false));
+  tetralux::GpuLighting lighting;
+  EXPECT_THROW(
+    lighting.Update(lights, this->Surface, {}, this->Grid, this->Center.data(), this->Radius),
+    std::invalid_argument);
 }
 
 TEST_F(GpuLightingTest, LitSegments)

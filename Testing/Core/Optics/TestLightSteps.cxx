@@ -56,6 +56,28 @@ TEST(LightSteps, WhatNarrowsHighlightsShortensSteps)
   EXPECT_GT(FindLightSteps(lights, surface, 1e-5).Turn, wide);
 }
 
+TEST(LightSteps, StepsHaveAnEndAndTellTheErrorThatIsLeft)
+{
+  const std::vector<Light> lights = { MakeLight(false) };
+  Material surface;
+  EXPECT_EQ(FindLightSteps(lights, surface, 1e-5).Error, 1e-5);
+  surface.SpecularPower = 1e8;
+  const LightSteps steps = FindLightSteps(lights, surface, 1e-5);
+  EXPECT_GT(steps.Turn, 1e-3);
+  EXPECT_GT(steps.Error, 1);
+}
+
+TEST(LightSteps, DarkLightsAreAsCurvedAsBrightOnes)
+{
+  Light dark = MakeLight(false);
+  for (int c = 0; c < 3; ++c)
+  {
+    dark.Diffuse[c] = dark.Specular[c] = -1;
+  }
+  const LightSteps both = FindLightSteps({ MakeLight(false), dark }, {}, 1e-5);
+  EXPECT_LT(both.Turn, FindLightSteps({ MakeLight(false) }, {}, 1e-5).Turn);
+}
+
 TEST(LightSteps, NoErrorAtAllIsThatOfSinglePrecision)
 {
   const std::vector<Light> lights = { MakeLight(false) };

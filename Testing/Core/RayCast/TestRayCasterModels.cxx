@@ -141,6 +141,37 @@ RayScene Shaded(RayScene scene)
   return scene;
 }
 
+/// A light so far away that squares of its distance are beyond single precision.
+RayScene LitFromFar(RayScene scene)
+{
+  scene.Shaded = true;
+  scene.Lights = { MakeLights()[0] };
+  Light& light = scene.Lights[0];
+  light.Positional = true;
+  for (double& x : light.Position)
+  {
+    x *= 1e20;
+  }
+  return scene;
+}
+
+/// A spot from so far away that its cone's cosine is 1 in single precision; the cone is as wide as a
+/// few cells.
+RayScene LitByNarrowSpot(RayScene scene)
+{
+  constexpr double Distance = 2000;
+  scene.Shaded = true;
+  scene.Lights = { MakeLights()[1] };
+  Light& light = scene.Lights[0];
+  light.Attenuation[1] = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    light.Position[a] = 0.5 - Distance * light.Axis[a];
+  }
+  light.ConeCosine = std::cos(0.3 / Distance);
+  return scene;
+}
+
 RayScene Smoothly(RayScene scene)
 {
   scene.SmoothShading = true;
@@ -278,6 +309,8 @@ INSTANTIATE_TEST_SUITE_P(RayCaster, Models,
     NamedScene{ "LitSheared", [] { return Sheared(Shaded(MakeScene(Emitter))); } },
     NamedScene{ "LitClipped", [] { return Clipped(Shaded(MakeScene(Emitter))); } },
     NamedScene{ "LitOneColor", [] { return Shaded(OneColor(MakeScene(Emitter))); } },
+    NamedScene{ "LitFromFar", [] { return LitFromFar(MakeScene(Emitter)); } },
+    NamedScene{ "LitByNarrowSpot", [] { return LitByNarrowSpot(MakeScene(Emitter)); } },
     NamedScene{ "LitSmoothly", [] { return Smoothly(Shaded(MakeScene(Emitter))); } },
     NamedScene{
       "LitSmoothlySheared", [] { return Sheared(Smoothly(Shaded(MakeScene(Emitter)))); } },
