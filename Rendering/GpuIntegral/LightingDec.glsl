@@ -14,9 +14,9 @@ uniform vec4 lightPositions[NUMBER_OF_LIGHTS]; // from the centre of the mesh an
                                                // light the direction towards it and 0
 uniform vec4 lightCones[NUMBER_OF_LIGHTS];     // axis of a spot, sine of half its cone, negative if
                                                // that is wide; above 1 there is no cone
-uniform vec3 lightAcrossAxes[NUMBER_OF_LIGHTS]; // of a spot the way from the centre of the mesh to it
-                                                // times the axis: of a spot far away its cone may
-                                                // be narrower than the rounding of the way
+uniform vec3 lightAcrossAxes[NUMBER_OF_LIGHTS]; // of a spot the way from the mesh to it
+                                                // times the axis: of a spot far away its
+                                                // cone may be narrower than what the way rounds
 uniform vec4 lightFalloffs[NUMBER_OF_LIGHTS];  // coefficients of the distance, exponent of a spot
 uniform vec3 lightAmbient[NUMBER_OF_LIGHTS];   // all times the material's
 uniform vec3 lightDiffuse[NUMBER_OF_LIGHTS];

@@ -155,8 +155,8 @@ RayScene LitFromFar(RayScene scene)
   return scene;
 }
 
-/// A spot from so far away that its cone's cosine is 1 in single precision; the cone is as wide as a
-/// few cells.
+/// A spot from so far away that its cone's cosine is 1 in single precision. The cone is as wide as
+/// a few cells.
 RayScene LitByNarrowSpot(RayScene scene)
 {
   constexpr double Distance = 2000;
