@@ -26,10 +26,10 @@ struct MethodCosts
 };
 
 // Fitted by Testing/Benchmarks/when_ray_casting_pays.py, see Documentation/Benchmarks.md: llvmpipe
-// with two threads. A frame is missed by a factor of 1.3 and 2.1.
+// with two threads. A frame is missed by a factor of 1.3 and 1.5.
 constexpr MethodCosts Costs[] = {
-  { "gpu-ray-cast", 0, 3.7e-08, 3e-08, 1.5e-06, 1.8e-06 },
-  { "projection", 0, 3.6e-07, 4e-08, 0, 3.1e-06 },
+  { "gpu-ray-cast", 0.0048, 1.6e-08, 9.1e-09, 4.6e-07, 3.3e-07 },
+  { "projection", 0.006, 2.7e-07, 1.5e-08, 0, 5.4e-07 },
 };
 
 /// How many times faster than llvmpipe a graphics card draws. An assumption: no card was measured.
