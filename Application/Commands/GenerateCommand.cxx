@@ -8,11 +8,16 @@
 #include "Files/AtomicOutput.h"
 #include "Files/GeneratedGrid.h"
 #include "Files/WriteData.h"
+#include "Files/WriteSeries.h"
 #include "Generate/GeneratedMeshes.h"
 
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <list>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -27,8 +32,12 @@ struct GenerateOptions
   std::string Name;
   std::string Output;
   std::vector<std::string> Parameters; ///< "--name", "value", or "--name=value"
+  int Steps = 0;                       ///< of time; 0: a single mesh
   bool List = false;
 };
+
+constexpr int LargestNumberOfSteps = 10000;
+constexpr const char* TimeParameter = "time";
 
 std::map<std::string, double> ReadParameters(const std::vector<std::string>& arguments)
 {
@@ -53,27 +62,101 @@ std::map<std::string, double> ReadParameters(const std::vector<std::string>& arg
   return parameters;
 }
 
-void GenerateFile(const GenerateOptions& options)
+void CheckExtension(const GenerateOptions& options, const std::string& extension)
 {
-  if (GetExtension(options.Output) != ".vtu")
+  if (GetExtension(options.Output) != extension)
   {
-    throw UsageError("--output: '" + options.Output + "' must end in .vtu");
+    throw UsageError("--output: '" + options.Output + "' must end in " + extension +
+      (options.Steps > 0 ? ", a list of time steps" : ""));
   }
-  const std::map<std::string, double> parameters = ReadParameters(options.Parameters);
-  AtomicOutput output(options.Output);
-  ProgressLine progress("generating " + options.Name);
-  progress.ShowLabel();
+}
+
+void WriteMesh(const std::string& name, const std::map<std::string, double>& parameters,
+  const AtomicOutput& output)
+{
   tetralux::GeneratedMesh generated;
   try
   {
-    generated = tetralux::GenerateMesh(options.Name, parameters);
+    generated = tetralux::GenerateMesh(name, parameters);
   }
   catch (const std::invalid_argument& error)
   {
     throw UsageError(std::string("generate: ") + error.what());
   }
-  WriteXml(MakeGrid(generated), output.GetTemporaryName(), options.Output);
+  WriteXml(MakeGrid(generated), output.GetTemporaryName(), output.GetName());
+}
+
+void GenerateFile(const GenerateOptions& options)
+{
+  CheckExtension(options, ".vtu");
+  const std::map<std::string, double> parameters = ReadParameters(options.Parameters);
+  AtomicOutput output(options.Output);
+  ProgressLine progress("generating " + options.Name);
+  progress.ShowLabel();
+  WriteMesh(options.Name, parameters, output);
   output.Commit();
+}
+
+bool Moves(const tetralux::Generator& generator)
+{
+  return std::any_of(generator.Parameters.begin(), generator.Parameters.end(),
+    [](const tetralux::GeneratorParameter& parameter) { return parameter.Name == TimeParameter; });
+}
+
+void CheckMoves(const std::string& name)
+{
+  std::vector<std::string> moving;
+  bool stands = false;
+  for (const tetralux::Generator& generator : tetralux::GetGenerators())
+  {
+    if (Moves(generator))
+    {
+      moving.push_back(generator.Name);
+    }
+    else
+    {
+      stands = stands || generator.Name == name;
+    }
+  }
+  if (stands)
+  {
+    throw UsageError(
+      "--steps: the mesh '" + name + "' does not move; these do: " + JoinNames(moving));
+  }
+}
+
+/// The steps of one period, in files beside the list of them.
+void GenerateSteps(const GenerateOptions& options)
+{
+  CheckExtension(options, ".pvd");
+  CheckMoves(options.Name);
+  std::map<std::string, double> parameters = ReadParameters(options.Parameters);
+  if (parameters.count(TimeParameter) != 0)
+  {
+    throw UsageError("--steps has all times of a period: leave out --time");
+  }
+  AtomicOutput list(options.Output);
+  const std::filesystem::path path(options.Output);
+  std::vector<SeriesStep> steps;
+  std::list<AtomicOutput> files;
+  ProgressLine progress("generating " + options.Name);
+  for (int step = 0; step < options.Steps; ++step)
+  {
+    char number[16];
+    std::snprintf(number, sizeof(number), "_%04d", step);
+    const std::string file = path.stem().string() + number + ".vtu";
+    files.emplace_back((path.parent_path() / file).string());
+    parameters[TimeParameter] = static_cast<double>(step) / options.Steps;
+    WriteMesh(options.Name, parameters, files.back());
+    steps.push_back({ parameters[TimeParameter], { file } });
+    progress.Show((step + 1.0) / options.Steps);
+  }
+  WritePvd(steps, list.GetTemporaryName(), options.Output);
+  for (AtomicOutput& file : files)
+  {
+    file.Commit();
+  }
+  list.Commit();
 }
 
 void ListGenerators()
@@ -103,9 +186,17 @@ void Run(const GenerateOptions& options)
   }
   if (options.Output.empty())
   {
-    throw UsageError("--output is required: the file to write, ending in .vtu");
+    throw UsageError("--output is required: the file to write, ending in .vtu, or in .pvd with "
+                     "--steps");
   }
-  GenerateFile(options);
+  if (options.Steps > 0)
+  {
+    GenerateSteps(options);
+  }
+  else
+  {
+    GenerateFile(options);
+  }
 }
 
 } // namespace
@@ -115,11 +206,18 @@ void AddGenerateCommand(CLI::App& app)
   CLI::App* command = app.add_subcommand("generate", "Write a mesh that is made from a formula");
   const auto options = std::make_shared<GenerateOptions>();
   command->add_option("NAME", options->Name, "Which one: see --list")->type_name("");
-  command->add_option("--output", options->Output, "File to write")->type_name("FILE.vtu");
+  command->add_option("--output", options->Output, "File to write")->type_name("FILE.vtu|FILE.pvd");
+  command
+    ->add_option("--steps", options->Steps,
+      "Write so many time steps of one period of a mesh that moves, as FILE_0000.vtu and so on "
+      "beside the list of them, FILE.pvd; those move that have a parameter time")
+    ->type_name("N")
+    ->check(CLI::Range(1, LargestNumberOfSteps));
   command->add_flag("--list", options->List, "Print the names, and the parameters of each");
   command->allow_extras();
   command->footer("Each parameter that --list shows is an option with a number behind it, as in\n"
-                  "  tetralux generate ball --cells 20 --output ball.vtu");
+                  "  tetralux generate ball --cells 20 --output ball.vtu\n"
+                  "  tetralux generate ring --steps 20 --output ring.pvd");
   command->final_callback(
     [command, options]
     {

@@ -22,6 +22,7 @@ const std::vector<Recipe>& GetRecipes()
         { "across", 18, 1, 2000, "hexahedra across the tube, in both directions" },
         { "waves", 3, 0, 50, "waves of the ring and of its tube, in one round" },
         { "turns", 10, 0, 200, "thirds of a turn that a strand makes in one round" },
+        { "time", 0, 0, 1, "moment of a period, in which each strand moves to the next one" },
       },
       { "around", "across", "waves", "turns" }, MakeRing },
     { "ball", "a ball around the origin",
@@ -30,6 +31,12 @@ const std::vector<Recipe>& GetRecipes()
         { "cells", 40, 3, 600, "hexahedra across the ball; makes 2.5 cells^3 tetrahedra" },
       },
       { "cells" }, MakeBall },
+    { "swinging-ball", "a ball that becomes long, and wide, and twists; its field goes with it",
+      {
+        { "cells", 40, 6, 600, "hexahedra across the ball; makes 2.5 cells^3 tetrahedra" },
+        { "time", 0, 0, 1, "moment of a period; the ball is round at 0, 0.5 and 1" },
+      },
+      { "cells" }, MakeSwingingBall },
     { "cylinder-with-hole", "a thick pipe, on z = 0",
       {
         { "radius", 1, 1e-30, 1e30, "outer radius" },

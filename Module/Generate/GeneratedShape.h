@@ -71,6 +71,7 @@ inline double GetGyroid(double x, double y, double z, double wavelength)
 // RoundShapes.cxx
 void MakeRing(const Values& values, GeneratedMesh& result);
 void MakeBall(const Values& values, GeneratedMesh& result);
+void MakeSwingingBall(const Values& values, GeneratedMesh& result);
 void MakeCylinderWithHole(const Values& values, GeneratedMesh& result);
 void MakeGear(const Values& values, GeneratedMesh& result);
 void MakeHelicalGear(const Values& values, GeneratedMesh& result);

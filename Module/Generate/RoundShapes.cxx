@@ -60,69 +60,9 @@ void AddGear(const Values& values, double twist, GeneratedMesh& result)
     });
 }
 
-} // namespace
-
-//----------------------------------------------------------------------------
-void MakeRing(const Values& values, GeneratedMesh& result)
+/// A ball around the origin; cells: hexahedra across it.
+void AddBall(double radius, int cells, GeneratedMesh& result)
 {
-  const int around = values.GetCount("around");
-  const int across = values.GetCount("across");
-  const double waves = values.Get("waves");
-  const double turns = values.Get("turns");
-  constexpr double radius = 1;
-  constexpr int strands = 3;
-
-  // The centre line waves up and down, the tube's radius with twice the frequency.
-  const auto getHeight = [waves](double angle) { return 0.16 * std::sin(waves * angle); };
-  const auto getTubeRadius = [waves](double angle)
-  { return 0.4 * (1 + 0.12 * std::cos(2 * waves * angle)); };
-
-  Lattice lattice;
-  lattice.Cells = { across, around, across };
-  lattice.IsPeriodic = { false, true, false };
-  lattice.Place = [=](int i, int j, int k) -> Point
-  {
-    // The square of lattice points of a cross section becomes round, but keeps enough of its
-    // corners for cells of good shape.
-    constexpr double roundness = 0.7;
-    const double a = 2.0 * i / across - 1;
-    const double b = 2.0 * k / across - 1;
-    const double length = std::hypot(a, b);
-    const double rounding = length > 0 ? std::max(std::abs(a), std::abs(b)) / length : 1;
-    const double angle = 2 * Pi * j / around;
-    const double scale = getTubeRadius(angle) * (1 - roundness + roundness * rounding);
-    const double distance = radius + scale * a;
-    return { distance * std::cos(angle), distance * std::sin(angle), getHeight(angle) + scale * b };
-  };
-  AddLattice(lattice, result.Mesh);
-
-  // Strands that wind around the centre line, each a ridge of the field.
-  SetScalars(result,
-    [=](double x, double y, double z)
-    {
-      constexpr double strandDistance = 0.52; // these two in units of the tube's radius
-      constexpr double strandWidth = 0.2;
-      const double angle = std::atan2(y, x);
-      const double tubeRadius = getTubeRadius(angle);
-      const double a = (std::hypot(x, y) - radius) / tubeRadius;
-      const double b = (z - getHeight(angle)) / tubeRadius;
-      double sum = 0;
-      for (int strand = 0; strand < strands; ++strand)
-      {
-        const double phase = (2 * Pi * strand + turns * angle) / strands;
-        sum += std::exp(-(Square(a - strandDistance * std::cos(phase)) +
-                          Square(b - strandDistance * std::sin(phase))) /
-          (2 * Square(strandWidth)));
-      }
-      return sum * (0.8 + 0.2 * std::cos(angle));
-    });
-}
-
-//----------------------------------------------------------------------------
-void MakeBall(const Values& values, GeneratedMesh& result)
-{
-  const double radius = values.Get("radius");
-  const int cells = values.GetCount("cells");
   // A cube in the middle, and on each of its sides layers that grow round.
   const int layers = std::max(1, cells / 4);
   const int inner = cells - 2 * layers;
@@ -218,6 +158,94 @@ void MakeBall(const Values& values, GeneratedMesh& result)
       const double falloff = 1 - 0.5 * (Square(x) + Square(y) + Square(z)) / Square(radius);
       return falloff * GetGyroid(x, y, z, radius);
     });
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------
+void MakeRing(const Values& values, GeneratedMesh& result)
+{
+  const int around = values.GetCount("around");
+  const int across = values.GetCount("across");
+  const double waves = values.Get("waves");
+  const double turns = values.Get("turns");
+  const double time = values.Get("time");
+  constexpr double radius = 1;
+  constexpr int strands = 3;
+
+  // The centre line waves up and down, the tube's radius with twice the frequency.
+  const auto getHeight = [waves](double angle) { return 0.16 * std::sin(waves * angle); };
+  const auto getTubeRadius = [waves](double angle)
+  { return 0.4 * (1 + 0.12 * std::cos(2 * waves * angle)); };
+
+  Lattice lattice;
+  lattice.Cells = { across, around, across };
+  lattice.IsPeriodic = { false, true, false };
+  lattice.Place = [=](int i, int j, int k) -> Point
+  {
+    // The square of lattice points of a cross section becomes round, but keeps enough of its
+    // corners for cells of good shape.
+    constexpr double roundness = 0.7;
+    const double a = 2.0 * i / across - 1;
+    const double b = 2.0 * k / across - 1;
+    const double length = std::hypot(a, b);
+    const double rounding = length > 0 ? std::max(std::abs(a), std::abs(b)) / length : 1;
+    const double angle = 2 * Pi * j / around;
+    const double scale = getTubeRadius(angle) * (1 - roundness + roundness * rounding);
+    const double distance = radius + scale * a;
+    return { distance * std::cos(angle), distance * std::sin(angle), getHeight(angle) + scale * b };
+  };
+  AddLattice(lattice, result.Mesh);
+
+  // Strands that wind around the centre line, each a ridge of the field.
+  SetScalars(result,
+    [=](double x, double y, double z)
+    {
+      constexpr double strandDistance = 0.52; // these two in units of the tube's radius
+      constexpr double strandWidth = 0.2;
+      const double angle = std::atan2(y, x);
+      const double tubeRadius = getTubeRadius(angle);
+      const double a = (std::hypot(x, y) - radius) / tubeRadius;
+      const double b = (z - getHeight(angle)) / tubeRadius;
+      double sum = 0;
+      for (int strand = 0; strand < strands; ++strand)
+      {
+        const double phase = (2 * Pi * (strand + time) + turns * angle) / strands;
+        sum += std::exp(-(Square(a - strandDistance * std::cos(phase)) +
+                          Square(b - strandDistance * std::sin(phase))) /
+          (2 * Square(strandWidth)));
+      }
+      return sum * (0.8 + 0.2 * std::cos(angle));
+    });
+}
+
+//----------------------------------------------------------------------------
+void MakeBall(const Values& values, GeneratedMesh& result)
+{
+  AddBall(values.Get("radius"), values.GetCount("cells"), result);
+}
+
+//----------------------------------------------------------------------------
+void MakeSwingingBall(const Values& values, GeneratedMesh& result)
+{
+  AddBall(1, values.GetCount("cells"), result);
+  const double swing = std::sin(2 * Pi * values.Get("time"));
+  constexpr double Stretch = 0.2;
+  constexpr double Twist = 0.4; // radians a unit of z
+  const double width = 1 + Stretch * swing;
+  const double height = 1 / Square(width); // the volume stays
+  std::vector<double>& points = result.Mesh.Points;
+  const auto size = static_cast<std::int64_t>(points.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t p = 0; p < size; p += 3)
+  {
+    const double angle = Twist * swing * points[p + 2];
+    const double x = width * points[p];
+    const double y = width * points[p + 1];
+    points[p] = x * std::cos(angle) - y * std::sin(angle);
+    points[p + 1] = x * std::sin(angle) + y * std::cos(angle);
+    points[p + 2] *= height;
+  }
 }
 
 //----------------------------------------------------------------------------

@@ -140,6 +140,17 @@ class WrongUsage(ToolTest):
                 self.expect_failure(
                     2, "generate", "ball", "--output", "x.vtu", *arguments, says=says
                 )
+        self.expect_failure(
+            2, "generate", "ball", "--steps", 3, "--output", "x.pvd", says=["'ball'", "ring"]
+        )
+        self.expect_failure(2, "generate", "ring", "--steps", 3, "--output", "x.vtu", says=".pvd")
+        self.expect_failure(
+            2, "generate", "ring", "--steps", 0, "--output", "x.pvd", says="--steps"
+        )
+        self.expect_failure(
+            2, "generate", "ring", "--steps", 2, "--time", 0, "--output", "x.pvd", says="--time"
+        )
+        self.assertFalse([name for name in self.files() if name.startswith("x")])
 
 
 class FailedWork(ToolTest):

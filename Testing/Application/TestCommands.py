@@ -27,8 +27,9 @@ PRESET = {
 }
 
 GENERATORS = [
-    "ring", "ball", "cylinder-with-hole", "boundary-layer", "gear", "helical-gear", "heat-sink",
-    "schoenhardt", "cubes", "cavity", "shared-edge", "checkerboard", "cycle", "random",
+    "ring", "ball", "swinging-ball", "cylinder-with-hole", "boundary-layer", "gear",
+    "helical-gear", "heat-sink", "schoenhardt", "cubes", "cavity", "shared-edge", "checkerboard",
+    "cycle", "random",
 ]
 
 
@@ -98,6 +99,35 @@ class Commands(ToolTest):
         self.assertEqual(len(sizes[4]), 1)
         self.assertEqual(len(sizes[8]), 1)
         self.assertNotEqual(sizes[4], sizes[8])
+
+    def test_time_steps(self):
+        os.mkdir(self.path("steps"))
+        for name, moves in (("ring", "field"), ("swinging-ball", "points")):
+            with self.subTest(name=name):
+                arguments = ("--around", 24, "--across", 3) if name == "ring" else ("--cells", 6)
+                self.succeed(
+                    "generate", name, *arguments, "--steps", 3, "--output", f"steps/{name}.pvd"
+                )
+                text = self.succeed("info", f"steps/{name}.pvd")
+                self.assertRegex(text, r"time steps +3: 0, 0\.333333, 0\.666667")
+                grids = []
+                for step in range(3):
+                    reader = vtkXMLUnstructuredGridReader()
+                    reader.SetFileName(self.path(f"steps/{name}_{step:04}.vtu"))
+                    reader.Update()
+                    grids.append(reader.GetOutput())
+                points = [vtk_to_numpy(grid.GetPoints().GetData()) for grid in grids]
+                fields = [vtk_to_numpy(grid.GetPointData().GetScalars()) for grid in grids]
+                self.assertEqual((points[0] != points[1]).any(), moves == "points")
+                self.assertEqual((fields[0] != fields[1]).any(), moves == "field")
+                pictures = []
+                for step in range(2):
+                    self.succeed(
+                        "render", f"steps/{name}.pvd", "--time-step", step, "--size", "60,60",
+                        "--output", "m.vti",
+                    )
+                    pictures.append(self.read_vti("m.vti")[0])
+                self.assertGreater(abs(pictures[0] - pictures[1]).max(), 0.02)
 
     def test_info(self):
         self.succeed("generate", "ball", "--cells", 6, "--output", "ball.vtu")

@@ -105,6 +105,8 @@ std::vector<Expectation> GetExpectations()
     { "ball", {}, 1, 2, AnyVolume },
     { "ball", { { "cells", 3 } }, 1, 2, AnyVolume },
     { "ball", { { "cells", 17 }, { "radius", 1e-20 } }, 1, 2, AnyVolume },
+    { "swinging-ball", { { "time", 0.25 } }, 1, 2, AnyVolume },
+    { "swinging-ball", { { "cells", 6 }, { "time", 0.75 } }, 1, 2, AnyVolume },
     { "cylinder-with-hole", {}, 1, 0, GetPipeVolume(1, 0.5, 2, 96) },
     { "cylinder-with-hole",
       { { "radius", 5 }, { "hole", 0.9 }, { "height", 3 }, { "around", 7 }, { "across", 1 } }, 1, 0,
@@ -321,6 +323,37 @@ TEST(GeneratedMeshes, RingIsOfTheSizeOfADemonstration)
   EXPECT_LT(size, 500000u);
 }
 
+// Steps of time: the strands of the ring move through its points, those of the ball take its field
+// along. Cells stay, and the period closes.
+TEST(GeneratedMeshes, MoveByScalarsOrByPoints)
+{
+  for (const bool points : { false, true })
+  {
+    const std::string name = points ? "swinging-ball" : "ring";
+    const auto make = [&](double time)
+    {
+      return GenerateMesh(name,
+        points
+          ? std::map<std::string, double>{ { "cells", 8 }, { "time", time } }
+          : std::map<std::string, double>{ { "around", 20 }, { "across", 3 }, { "time", time } });
+    };
+    const auto first = make(0);
+    const auto second = make(0.2);
+    const auto last = make(1);
+    EXPECT_EQ(first.Mesh.Cells, second.Mesh.Cells);
+    EXPECT_EQ(first.Mesh.Points == second.Mesh.Points, !points);
+    EXPECT_EQ(first.Scalars == second.Scalars, points);
+    for (std::size_t i = 0; i < first.Scalars.size(); ++i)
+    {
+      EXPECT_NEAR(last.Scalars[i], first.Scalars[i], 1e-12);
+    }
+    for (std::size_t i = 0; i < first.Mesh.Points.size(); ++i)
+    {
+      EXPECT_NEAR(last.Mesh.Points[i], first.Mesh.Points[i], 1e-12);
+    }
+  }
+}
+
 TEST(GeneratedMeshes, BallIsRound)
 {
   // The volume approaches the ball's from below, with the square of the cells' size.
@@ -456,7 +489,7 @@ TEST(GeneratedMeshes, EveryParameterIsDescribed)
 
 TEST(GeneratedMeshes, ErrorsSayWhatWouldBeRight)
 {
-  EXPECT_EQ(GetError("sphere", {}).substr(0, 46), "unknown mesh 'sphere': there are ring, ball, c");
+  EXPECT_EQ(GetError("sphere", {}).substr(0, 46), "unknown mesh 'sphere': there are ring, ball, s");
   EXPECT_EQ(GetError("ball", { { "size", 3 } }),
     "mesh 'ball' has no parameter 'size': it has radius, cells");
   EXPECT_EQ(GetError("ball", { { "cells", 2 } }),

@@ -653,6 +653,7 @@ TEST(RayCaster, AgreesWithReferenceForEveryGeneratedMesh)
   const std::map<std::string, std::map<std::string, double>> parameters = {
     { "ring", { { "around", 24 }, { "across", 4 } } },
     { "ball", { { "cells", 14 } } },
+    { "swinging-ball", { { "cells", 9 }, { "time", 0.3 } } },
     { "cylinder-with-hole", { { "across", 3 }, { "around", 24 }, { "along", 10 } } },
     { "boundary-layer", { { "cells", 6 }, { "layers", 20 } } },
     { "gear", { { "teeth", 8 }, { "across", 3 }, { "along", 3 } } },
