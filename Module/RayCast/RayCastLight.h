@@ -52,6 +52,10 @@ TETRALUX_INLINE LaneVector Fma(const LaneVector& a, Float8 s, const LaneVector& 
 }
 
 TETRALUX_INLINE LaneVector Broadcast(const float (&v)[3]) { return { { v[0], v[1], v[2] } }; }
+TETRALUX_INLINE LaneVector Broadcast(const double (&v)[3])
+{
+  return { { static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]) } };
+}
 
 /// What lights make of a colour: color Scale + Add.
 struct LaneFactors
@@ -99,25 +103,13 @@ public:
   TETRALUX_INLINE LaneVector GetWayToLight(
     const KernelLighting& lighting, const KernelLight& light, Double8 z) const
   {
-    const Double8 distance = this->Start + z;
-    Double8 units[3];
-    Double8 largest = 0.;
-    for (int a = 0; a < 3; ++a)
-    {
-      const Double8 position = Fma(distance, this->Rays.Direction[a], this->Rays.Origin[a]);
-      units[a] = (Double8(light.Position[a]) - position) * Double8(1 / lighting.Unit);
-      largest = Max(largest, Abs(units[a]));
-    }
+    Double8 way[3];
+    this->FindWay(lighting, light, z, way);
+    const Double8 largest = Max(Max(Abs(way[0]), Abs(way[1])), Abs(way[2]));
     // Squares of it are finite.
     constexpr double Farthest = 1e15;
     const Double8 scale = Min(Double8(1.), Double8(Farthest) / largest);
-    return { { ToFloat(units[0] * scale), ToFloat(units[1] * scale), ToFloat(units[2] * scale) } };
-  }
-
-  static TETRALUX_INLINE LaneVector GetAxis(const KernelLight& light)
-  {
-    return { { static_cast<float>(light.Axis[0]), static_cast<float>(light.Axis[1]),
-      static_cast<float>(light.Axis[2]) } };
+    return { { ToFloat(way[0] * scale), ToFloat(way[1] * scale), ToFloat(way[2] * scale) } };
   }
 
   /// The way to a spot times its axis, as vectors: how far the rays are beside the axis. Not from
@@ -125,13 +117,8 @@ public:
   TETRALUX_INLINE LaneVector GetAcrossAxis(
     const KernelLighting& lighting, const KernelLight& light, Double8 z) const
   {
-    const Double8 distance = this->Start + z;
     Double8 way[3];
-    for (int a = 0; a < 3; ++a)
-    {
-      const Double8 position = Fma(distance, this->Rays.Direction[a], this->Rays.Origin[a]);
-      way[a] = (Double8(light.Position[a]) - position) * Double8(1 / lighting.Unit);
-    }
+    this->FindWay(lighting, light, z, way);
     LaneVector across;
     for (int a = 0; a < 3; ++a)
     {
@@ -196,7 +183,7 @@ public:
         share = Keep(apart, GetShare(light, distance));
         if (light.IsSpot)
         {
-          const Float8 cosine = zero - Dot(toLight, GetAxis(light));
+          const Float8 cosine = zero - Dot(toLight, Broadcast(light.Axis));
           const LaneVector across = this->GetAcrossAxis(lighting, light, z);
           const Float8 sine2 = Dot(across, across);
           const Float8 ofCone2 = Float8(light.ConeSine * light.ConeSine) * squared;
@@ -208,8 +195,7 @@ public:
       }
       else
       {
-        toLight = { { static_cast<float>(light.Position[0]), static_cast<float>(light.Position[1]),
-          static_cast<float>(light.Position[2]) } };
+        toLight = Broadcast(light.Position);
       }
       const Float8 cosine = Dot(normal, toLight);
       const Mask8 faces = zero < cosine;
@@ -237,6 +223,17 @@ public:
   }
 
 private:
+  TETRALUX_INLINE void FindWay(
+    const KernelLighting& lighting, const KernelLight& light, Double8 z, Double8 (&way)[3]) const
+  {
+    const Double8 distance = this->Start + z;
+    for (int a = 0; a < 3; ++a)
+    {
+      const Double8 position = Fma(distance, this->Rays.Direction[a], this->Rays.Origin[a]);
+      way[a] = (Double8(light.Position[a]) - position) * Double8(1 / lighting.Unit);
+    }
+  }
+
   WorldRays Rays;
   Double8 Start; ///< distance of z = 0 along the rays
   LaneVector View;

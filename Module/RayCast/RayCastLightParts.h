@@ -2,7 +2,8 @@
 #ifndef tetralux_RayCastLightParts_h
 #define tetralux_RayCastLightParts_h
 
-// The light along the rays' ways through a cell, cut into parts on which it is nearly a parabola.
+// The light along the rays' ways through a cell, cut into parts on which it is nearly a parabola
+// (what Kraus et al. 2004, section 6, leave to be done).
 //
 // Along a ray the gradient is linear, and so is the vector to a positional light. What lights make
 // of a colour depends on the directions of both alone, besides the distance. So a part ends
@@ -227,8 +228,7 @@ private:
       const KernelLight& light = lighting.Lights[i];
       if (!light.Positional)
       {
-        const LaneVector toLight = { { static_cast<float>(light.Position[0]),
-          static_cast<float>(light.Position[1]), static_cast<float>(light.Position[2]) } };
+        const LaneVector toLight = Broadcast(light.Position);
         part.Cut(Float8(-1.f) * Dot(g, toLight) / Dot(dg, toLight));
         continue;
       }
@@ -249,7 +249,7 @@ private:
       {
         // Where the angle to the axis is that of the cone, or opposite to it: across the axis and
         // along it apart, so that nothing cancels in narrow cones.
-        const LaneVector axis = LaneLights::GetAxis(light);
+        const LaneVector axis = Broadcast(light.Axis);
         const LaneVector across = this->Lights.GetAcrossAxis(lighting, light, this->Near);
         const LaneVector acrossChange =
           this->Lights.GetAcrossAxis(lighting, light, this->Near + this->Length) - across;

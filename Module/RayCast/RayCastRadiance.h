@@ -44,7 +44,7 @@ struct Radiance
   }
 };
 
-/// Radiance that lights do not change.
+/// Radiance that is added as it comes: nothing lights it, or who adds it has lit it.
 struct Unlit : Radiance
 {
   Unlit(const WorldRays&, Double8) {}

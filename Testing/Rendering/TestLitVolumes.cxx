@@ -259,7 +259,7 @@ TEST_P(LitVolumes, CutCellsLookLikeWholeOnes)
         this->Scene.Window->Render();
         const std::vector<float> cut(
           this->Scene.GetColors(), this->Scene.GetColors() + std::size_t(4) * 64 * 64);
-        ExpectSamePicture(cut, whole, 2 * mapper->GetErrorEstimate(),
+        ExpectSamePicture(cut, whole, std::min(2 * mapper->GetErrorEstimate(), DisplayTolerance),
           (kind + (smooth ? ", smooth, " : ", of cells, ") + mapper->GetClassName()).c_str());
       }
     }
