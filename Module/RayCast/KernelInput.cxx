@@ -69,31 +69,6 @@ void FillTable(const PreIntegrationTable& table, const float* texels, OwningKern
   in.Table = &in.Lookup;
 }
 
-KernelLight MakeLight(const Light& light, const Material& surface, double unit)
-{
-  KernelLight result;
-  result.Positional = light.Positional;
-  result.IsSpot = light.Positional && light.ConeCosine > -1;
-  result.Fades = light.Positional && (light.Attenuation[1] != 0 || light.Attenuation[2] != 0);
-  double power = 1; // of the unit
-  for (int a = 0; a < 3; ++a)
-  {
-    result.Position[a] = light.Position[a];
-    result.Axis[a] = light.Axis[a];
-    result.Falloff[a] = static_cast<float>(power * light.Attenuation[a]);
-    result.Ambient[a] = surface.Ambient * light.Ambient[a];
-    result.Diffuse[a] = surface.Diffuse * light.Diffuse[a];
-    result.Specular[a] = surface.Specular * light.Specular[a];
-    power *= unit;
-  }
-  result.IsWide = light.ConeCosine < 0;
-  // Narrow cones have a sine with all of its digits.
-  result.ConeSine =
-    static_cast<float>(std::sqrt(std::max(0., 1 - light.ConeCosine * light.ConeCosine)));
-  result.Exponent = static_cast<float>(light.Exponent);
-  return result;
-}
-
 void FillLighting(const VolumeScene& scene, const RayGrid& grid, const RayCastOptions& options,
   const CastChoices& choices, OwningKernelInput& in)
 {
@@ -103,35 +78,11 @@ void FillLighting(const VolumeScene& scene, const RayGrid& grid, const RayCastOp
   lighting.Gradients = gradients.data();
   lighting.NumberOfGradients = static_cast<std::int32_t>(gradients.size());
   lighting.OfPoints = choices.SmoothShading;
-  double largest = 0;
-  for (const auto& row : grid.MeshFromWorld)
-  {
-    largest = std::max({ largest, std::abs(row[0]), std::abs(row[1]), std::abs(row[2]) });
-  }
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      // Gradients are transformed by the transpose of what takes positions into the mesh.
-      lighting.NormalFromMesh[column][row] =
-        static_cast<float>(grid.MeshFromWorld[row][column] / largest);
-    }
-  }
-  lighting.Unit = choices.WorldRadius;
+  FillKernelLighting(
+    options.Lights, options.Surface, grid, choices.WorldRadius, lighting, in.Lights);
   const LightSteps steps = FindLightSteps(options.Lights, options.Surface, choices.LightError);
   lighting.Turn = static_cast<float>(steps.Turn);
   lighting.Approach = static_cast<float>(steps.Approach);
-  lighting.SpecularPower = options.Surface.SpecularPower;
-  for (const Light& light : options.Lights)
-  {
-    in.Lights.push_back(MakeLight(light, options.Surface, lighting.Unit));
-    for (const float specular : in.Lights.back().Specular)
-    {
-      lighting.Shines = lighting.Shines || specular != 0;
-    }
-  }
-  lighting.Lights = in.Lights.data();
-  lighting.NumberOfLights = static_cast<int>(in.Lights.size());
   in.Lighting = &lighting;
 }
 

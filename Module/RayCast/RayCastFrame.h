@@ -5,6 +5,7 @@
 // The frame of its own in which each ray of a packet sees the mesh, see RayCastKernel.inl.
 
 #include "Base/Check.h"
+#include "Lighting/WorldRays.h"
 #include "RayCast/RayCastKernel.h"
 #include "Simd/Lanes.h"
 
@@ -134,40 +135,16 @@ constexpr int GetLaneColumn(int lane) { return lane % PacketWidth; }
 constexpr int GetLaneRow(int lane) { return lane / PacketWidth; }
 ///@}
 
-/// The rays of a packet in the world.
-struct WorldRays
-{
-  Double8 Origin[3], Direction[3]; ///< directions of length 1
-};
-
 /// The rays of the packet whose first pixel is (px, py).
 TETRALUX_INLINE WorldRays MakeWorldRays(const RayGrid& grid, int px, int py)
 {
-  double laneX[LaneCount], laneY[LaneCount];
+  double x[LaneCount], y[LaneCount];
   for (int i = 0; i < LaneCount; ++i)
   {
-    const int x = px + GetLaneColumn(i);
-    const int y = py + GetLaneRow(i);
-    laneX[i] = x;
-    laneY[i] = y;
+    x[i] = px + GetLaneColumn(i);
+    y[i] = py + GetLaneRow(i);
   }
-  const Double8 x = LoadDouble8(laneX);
-  const Double8 y = LoadDouble8(laneY);
-  WorldRays rays;
-  for (int a = 0; a < 3; ++a)
-  {
-    rays.Origin[a] = Fma(Double8(grid.OriginStepX[a]), x,
-      Fma(Double8(grid.OriginStepY[a]), y, Double8(grid.Origin[a])));
-    rays.Direction[a] = Fma(Double8(grid.DirectionStepX[a]), x,
-      Fma(Double8(grid.DirectionStepY[a]), y, Double8(grid.Direction[a])));
-  }
-  const Double8* d = rays.Direction;
-  const Double8 length = Sqrt(Dot(rays.Direction, d[0], d[1], d[2]));
-  for (Double8& component : rays.Direction)
-  {
-    component = component / length;
-  }
-  return rays;
+  return MakeWorldRays(grid, LoadDouble8(x), LoadDouble8(y));
 }
 
 /// The frames of rays.

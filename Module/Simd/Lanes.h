@@ -5,7 +5,8 @@
 // Vectors of LaneCount floats, doubles or 32-bit integers: what the packet kernels compute with.
 // This header chooses an implementation by the options of the compiler: LanesAvx2.h for AVX2 with
 // FMA, LanesGeneric.h for every other processor. Each lives in a namespace of its own
-// (TETRALUX_ISA), so that one library can hold the kernels of several instruction sets.
+// (TETRALUX_ISA), so that one library can hold the kernels of several instruction sets. What is
+// compiled for AVX-512 uses the lanes of AVX2.
 // InstructionSet.h tells which of them to call.
 //
 // Types
@@ -59,7 +60,11 @@
 #include "Simd/LaneCount.h"
 
 #if defined(__AVX2__) && defined(__FMA__)
+#if defined(__AVX512F__)
+#define TETRALUX_ISA isa_avx512
+#else
 #define TETRALUX_ISA isa_avx2
+#endif
 #define TETRALUX_AVX2 1
 #else
 #define TETRALUX_ISA isa_generic

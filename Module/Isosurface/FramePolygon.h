@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_FramePolygon_h
+#define tetralux_FramePolygon_h
+
+// An isopolygon as the rays of a frame see it, and its intersection with them (Wald et al. 2007,
+// sections 4.2 and 4.3). In a frame an edge and the rays' common origin span a plane, so the
+// half-space of an edge is linear in u and v: a ray costs two products and two sums an edge.
+//
+// No ray passes between two polygons that share an edge. The corners on it are the same bits, the
+// edge functions of both are each other's negative, bit by bit, and a ray counts as inside down to
+// minus the largest rounding error of an edge function.
+
+#include "Isosurface/Isopolygon.h"
+#include "Isosurface/PacketRays.h"
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+struct FramePolygon
+{
+  double U[4], V[4], One[4]; ///< edge functions; 0 or more inside
+  double Key[3];             ///< of the plane: factors of u, v and 1
+  double LowKey, HighKey;    ///< of the corners
+  double Tolerance;          ///< largest rounding error of an edge function
+  float LowU, HighU, LowV, HighV;
+};
+
+enum class Coverage
+{
+  None,
+  Some,
+  All ///< of the packet's rays, whatever their limits
+};
+
+/// What an edge function is rounded by, in squares of the largest coordinate: four products of two
+/// rounded coordinates each, and three sums, with a factor of two to spare.
+constexpr double EdgeRounding = 16. / (1ll << 53);
+
+/// Prepares a polygon for a packet. largest: largest |u| and |v| of the packet, at least 1.
+TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, double largest,
+  float margin, const Isopolygon& polygon, FramePolygon& result)
+{
+  double x[4], y[4], d[4], w[4];
+  for (int i = 0; i < 4; ++i)
+  {
+    const double px = polygon.X[i], py = polygon.Y[i], pz = polygon.Z[i];
+    const double(&m)[3][4] = frame.Rows;
+    x[i] = m[0][0] * px + m[0][1] * py + m[0][2] * pz + m[0][3];
+    y[i] = m[1][0] * px + m[1][1] * py + m[1][2] * pz + m[1][3];
+    d[i] = m[2][0] * px + m[2][1] * py + m[2][2] * pz + m[2][3];
+  }
+  bool allBefore = true;
+  if (frame.Parallel)
+  {
+    result.LowKey = InfiniteKey;
+    result.HighKey = -InfiniteKey;
+    for (int i = 0; i < 4; ++i)
+    {
+      w[i] = 1;
+      result.LowKey = -d[i] < result.LowKey ? -d[i] : result.LowKey;
+      result.HighKey = -d[i] > result.HighKey ? -d[i] : result.HighKey;
+    }
+  }
+  else
+  {
+    double nearest = InfiniteKey;
+    double farthest = -InfiniteKey;
+    for (int i = 0; i < 4; ++i)
+    {
+      w[i] = d[i];
+      nearest = d[i] < nearest ? d[i] : nearest;
+      farthest = d[i] > farthest ? d[i] : farthest;
+    }
+    if (!(farthest > 0))
+    {
+      return Coverage::None;
+    }
+    allBefore = nearest > 0;
+    result.LowKey = 1 / farthest;
+    result.HighKey = allBefore ? 1 / nearest : InfiniteKey;
+  }
+
+  if (allBefore)
+  {
+    double lowU = InfiniteKey, lowV = InfiniteKey, highU = -InfiniteKey, highV = -InfiniteKey;
+    for (int i = 0; i < 4; ++i)
+    {
+      const double u = x[i] / w[i];
+      const double v = y[i] / w[i];
+      lowU = u < lowU ? u : lowU;
+      lowV = v < lowV ? v : lowV;
+      highU = u > highU ? u : highU;
+      highV = v > highV ? v : highV;
+    }
+    if (lowU > packet.HighU + margin || highU < packet.LowU - margin ||
+      lowV > packet.HighV + margin || highV < packet.LowV - margin)
+    {
+      return Coverage::None;
+    }
+    result.LowU = static_cast<float>(lowU) - margin;
+    result.HighU = static_cast<float>(highU) + margin;
+    result.LowV = static_cast<float>(lowV) - margin;
+    result.HighV = static_cast<float>(highV) + margin;
+  }
+  else
+  {
+    result.LowU = result.LowV = -std::numeric_limits<float>::infinity();
+    result.HighU = result.HighV = std::numeric_limits<float>::infinity();
+  }
+
+  double size = 0;
+  double normal[3] = { 0, 0, 0 };
+  for (int i = 0; i < 4; ++i)
+  {
+    const int j = (i + 1) & 3;
+    result.U[i] = y[i] * w[j] - y[j] * w[i];
+    result.V[i] = w[i] * x[j] - w[j] * x[i];
+    result.One[i] = x[i] * y[j] - x[j] * y[i];
+    normal[0] += result.U[i];
+    normal[1] += result.V[i];
+    normal[2] += result.One[i];
+    const double ax = x[i] < 0 ? -x[i] : x[i];
+    const double ay = y[i] < 0 ? -y[i] : y[i];
+    const double aw = (w[i] < 0 ? -w[i] : w[i]) * largest;
+    size = ax > size ? ax : size;
+    size = ay > size ? ay : size;
+    size = aw > size ? aw : size;
+  }
+  result.Tolerance = EdgeRounding * size * size;
+  // Six times the volume between the polygon and the origin; of parallel rays twice its area.
+  double volume = 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    volume += 0.25 * (normal[0] * x[i] + normal[1] * y[i] + normal[2] * w[i]);
+  }
+  if (volume == 0)
+  {
+    return Coverage::None; // seen from its edge
+  }
+  if (frame.Parallel)
+  {
+    // Relative to the first corner, where nothing cancels.
+    double across[3] = { 0, 0, 0 };
+    for (int i = 1; i < 3; ++i)
+    {
+      const double ux = x[i] - x[0], uy = y[i] - y[0], ud = d[i] - d[0];
+      const double vx = x[i + 1] - x[0], vy = y[i + 1] - y[0], vd = d[i + 1] - d[0];
+      across[0] += uy * vd - ud * vy;
+      across[1] += ud * vx - ux * vd;
+      across[2] += ux * vy - uy * vx;
+    }
+    if (across[2] == 0)
+    {
+      return Coverage::None;
+    }
+    result.Key[0] = across[0] / across[2];
+    result.Key[1] = across[1] / across[2];
+    result.Key[2] = -d[0] - (result.Key[0] * x[0] + result.Key[1] * y[0]);
+  }
+  else
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      result.Key[a] = normal[a] / volume;
+    }
+  }
+  if (volume < 0)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      result.U[i] = -result.U[i];
+      result.V[i] = -result.V[i];
+      result.One[i] = -result.One[i];
+    }
+  }
+
+  // All rays of the packet outside of one edge, or inside of all.
+  bool covers = true;
+  bool misses = false;
+  for (int i = 0; i < 4; ++i)
+  {
+    const double lowU = result.U[i] * packet.LowU, highU = result.U[i] * packet.HighU;
+    const double lowV = result.V[i] * packet.LowV, highV = result.V[i] * packet.HighV;
+    const double most = result.One[i] + (lowU > highU ? lowU : highU) + (lowV > highV ? lowV : highV);
+    const double least =
+      result.One[i] + (lowU < highU ? lowU : highU) + (lowV < highV ? lowV : highV);
+    misses |= most < -result.Tolerance;
+    covers &= least >= 0;
+  }
+  return misses ? Coverage::None : covers ? Coverage::All : Coverage::Some;
+}
+
+/// The chunks of a packet that a polygon may hit, one bit each.
+TETRALUX_INLINE std::uint32_t FindChunks(const RayPacket& packet, const FramePolygon& polygon)
+{
+  static_assert(RayPacket::MaximumChunks == 32, "one bit a chunk");
+  const Float8 lowU = polygon.LowU, highU = polygon.HighU;
+  const Float8 lowV = polygon.LowV, highV = polygon.HighV;
+  const Float8 key = -RoundDown(-polygon.HighKey);
+  std::uint32_t chunks = 0;
+  for (int first = 0; first < RayPacket::MaximumChunks; first += LaneCount)
+  {
+    const Mask8 may = (LoadFloat8(packet.ChunkLowU + first) <= highU) &
+      (lowU <= LoadFloat8(packet.ChunkHighU + first)) &
+      (LoadFloat8(packet.ChunkLowV + first) <= highV) &
+      (lowV <= LoadFloat8(packet.ChunkHighV + first)) &
+      (LoadFloat8(packet.ChunkFar + first) < key);
+    chunks |= static_cast<std::uint32_t>(Bits(may)) << first;
+  }
+  return chunks;
+}
+
+/// Intersects a chunk's rays with a polygon. AnyHit: a ray is done with its first hit. Covered: the
+/// edges need no test.
+template <bool AnyHit, bool Covered>
+TETRALUX_INLINE void HitChunk(
+  const FramePolygon& polygon, std::int64_t id, RayPacket& packet, int chunk)
+{
+  const int first = chunk * LaneCount;
+  const double* us = packet.U + first;
+  const double* vs = packet.V + first;
+  const double* near = packet.Near + first;
+  double* far = packet.Far + first;
+  std::int64_t* hit = packet.Hit + first;
+  const double outside = -polygon.Tolerance;
+#pragma omp simd
+  for (int i = 0; i < LaneCount; ++i)
+  {
+    const double u = us[i];
+    const double v = vs[i];
+    double key = polygon.Key[0] * u + polygon.Key[1] * v + polygon.Key[2];
+    key = key < polygon.LowKey ? polygon.LowKey : key;
+    key = key > polygon.HighKey ? polygon.HighKey : key;
+    bool inside = (far[i] < key) & (key < near[i]);
+    if (!Covered)
+    {
+      const double e0 = polygon.U[0] * u + polygon.V[0] * v + polygon.One[0];
+      const double e1 = polygon.U[1] * u + polygon.V[1] * v + polygon.One[1];
+      const double e2 = polygon.U[2] * u + polygon.V[2] * v + polygon.One[2];
+      const double e3 = polygon.U[3] * u + polygon.V[3] * v + polygon.One[3];
+      const double e01 = e0 < e1 ? e0 : e1;
+      const double e23 = e2 < e3 ? e2 : e3;
+      inside &= (e01 < e23 ? e01 : e23) >= outside;
+    }
+    far[i] = inside ? (AnyHit ? InfiniteKey : key) : far[i];
+    hit[i] = inside ? id : hit[i];
+  }
+  UpdateChunkFar(packet, chunk);
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif

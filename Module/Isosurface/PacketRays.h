@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_PacketRays_h
+#define tetralux_PacketRays_h
+
+// Points along the rays of a frame, and the bounds of a packet. In a namespace of the instruction
+// set, as all that kernels call: no function may be shared between instruction sets.
+
+#include "Isosurface/RayFrame.h"
+#include "Isosurface/RayPacket.h"
+#include "Simd/Lanes.h"
+
+#include <limits>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+constexpr double InfiniteKey = std::numeric_limits<double>::infinity();
+
+TETRALUX_INLINE double GetDepth(const RayFrame& frame, double key)
+{
+  return frame.Parallel ? -key : 1 / key;
+}
+
+TETRALUX_INLINE double GetKey(const RayFrame& frame, double depth)
+{
+  return frame.Parallel ? -depth : 1 / depth;
+}
+
+/// X, Y and depth of a point.
+TETRALUX_INLINE void Transform(
+  const RayFrame& frame, const double (&point)[3], double (&result)[3])
+{
+  for (int r = 0; r < 3; ++r)
+  {
+    const double* row = frame.Rows[r];
+    result[r] = row[0] * point[0] + row[1] * point[1] + row[2] * point[2] + row[3];
+  }
+}
+
+/// The point of the ray (u, v) with a key.
+TETRALUX_INLINE void GetPoint(
+  const RayFrame& frame, double u, double v, double key, double (&point)[3])
+{
+  const double depth = GetDepth(frame, key);
+  const double scale = frame.Parallel ? 1 : depth;
+  for (int a = 0; a < 3; ++a)
+  {
+    point[a] = frame.Origin[a] + (u * frame.Axes[0][a] + v * frame.Axes[1][a]) * scale +
+      depth * frame.Axes[2][a];
+  }
+}
+
+/// Where a ray of a packet of primary rays has its pixel.
+///@{
+TETRALUX_INLINE int GetPacketColumn(int ray)
+{
+  constexpr int Columns = RayPacket::Edge / RayPacket::ChunkWidth;
+  return ray / LaneCount % Columns * RayPacket::ChunkWidth + ray % RayPacket::ChunkWidth;
+}
+TETRALUX_INLINE int GetPacketRow(int ray)
+{
+  constexpr int Columns = RayPacket::Edge / RayPacket::ChunkWidth;
+  return ray / LaneCount / Columns * RayPacket::ChunkHeight + ray % LaneCount / RayPacket::ChunkWidth;
+}
+///@}
+
+/// A key in single precision, rounded down; minus infinity below the range of numbers.
+TETRALUX_INLINE float RoundDown(double key)
+{
+  constexpr double Largest = std::numeric_limits<float>::max();
+  constexpr double Rounding = 1. / (1 << 23); // twice that of single precision
+  if (key > Largest)
+  {
+    return key == InfiniteKey ? std::numeric_limits<float>::infinity()
+                              : std::numeric_limits<float>::max();
+  }
+  const double lower =
+    key - Rounding * (key < 0 ? -key : key) - std::numeric_limits<float>::min();
+  return lower < -Largest ? -std::numeric_limits<float>::infinity() : static_cast<float>(lower);
+}
+
+/// The least Far of a chunk.
+TETRALUX_INLINE void UpdateChunkFar(RayPacket& packet, int chunk)
+{
+  const double* far = packet.Far + chunk * LaneCount;
+  double least = far[0];
+#pragma omp simd reduction(min : least)
+  for (int i = 1; i < LaneCount; ++i)
+  {
+    least = far[i] < least ? far[i] : least;
+  }
+  packet.ChunkFar[chunk] = RoundDown(least);
+}
+
+/// Fits the bounds of a packet to its rays. Returns whether any takes part. margin: what single
+/// precision rounds u and v by.
+TETRALUX_INLINE bool FitBounds(RayPacket& packet, float margin)
+{
+  packet.LowU = packet.LowV = InfiniteKey;
+  packet.HighU = packet.HighV = -InfiniteKey;
+  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
+  {
+    double lowU = InfiniteKey, lowV = InfiniteKey, highU = -InfiniteKey, highV = -InfiniteKey;
+    for (int i = chunk * LaneCount; i < (chunk + 1) * LaneCount; ++i)
+    {
+      const bool active = packet.Far[i] < InfiniteKey;
+      const double u = packet.U[i];
+      const double v = packet.V[i];
+      lowU = active && u < lowU ? u : lowU;
+      lowV = active && v < lowV ? v : lowV;
+      highU = active && u > highU ? u : highU;
+      highV = active && v > highV ? v : highV;
+    }
+    packet.ChunkLowU[chunk] = static_cast<float>(lowU) - margin;
+    packet.ChunkLowV[chunk] = static_cast<float>(lowV) - margin;
+    packet.ChunkHighU[chunk] = static_cast<float>(highU) + margin;
+    packet.ChunkHighV[chunk] = static_cast<float>(highV) + margin;
+    UpdateChunkFar(packet, chunk);
+    packet.LowU = lowU < packet.LowU ? lowU : packet.LowU;
+    packet.LowV = lowV < packet.LowV ? lowV : packet.LowV;
+    packet.HighU = highU > packet.HighU ? highU : packet.HighU;
+    packet.HighV = highV > packet.HighV ? highV : packet.HighV;
+  }
+  return packet.LowU <= packet.HighU;
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif
