@@ -9,10 +9,15 @@
 //                    where rays enter the mesh, measured by a picture that ends in front of it.
 //   Prepare/...      what is done once for a mesh, by stage; Wall and Cpu: nanoseconds a
 //                    tetrahedron.
+//   Tree/...         the min/max tree over the tetrahedra, by how it is divided and the cells of a
+//                    leaf at most: built anew, its boxes fitted to points that moved, and the
+//                    ranges of a time step; Wall and Cpu: nanoseconds a tetrahedron. Bytes: of
+//                    boxes, cell ids and ranges, a tetrahedron.
 //   Integral/...     SegmentIntegralBenchmark.cxx.
 
 #include "Base/Stopwatch.h"
 #include "Generate/GeneratedMeshes.h"
+#include "Hierarchy/MinMaxTree.h"
 #include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
 #include "Mesh/SpatialOrder.h"
@@ -259,6 +264,54 @@ void Prepare(benchmark::State& state, std::int64_t size, Stage stage)
     static_cast<double>(ball.Mesh.GetNumberOfCells()) * static_cast<double>(state.iterations()));
 }
 
+/// What is done with the min/max tree.
+enum class TreeStage
+{
+  Build,
+  Refit,
+  Ranges
+};
+
+void MakeTree(
+  benchmark::State& state, std::int64_t size, const MinMaxTreeOptions& options, TreeStage stage)
+{
+  const GeneratedMesh& ball = GetBall(size);
+  TetrahedralMesh mesh = ball.Mesh;
+  OrderSpatially(mesh);
+  std::vector<double> scalars;
+  for (const std::int64_t point : mesh.OriginalPoints)
+  {
+    scalars.push_back(ball.Scalars[point]);
+  }
+  const double center[3] = { 0, 0, 0 };
+  MinMaxTree tree = BuildMinMaxTree(mesh, center, 1, options);
+  MinMaxRanges ranges = MakeMinMaxRanges(tree, mesh, scalars, options.NumberOfThreads);
+
+  TimeSum time;
+  for (auto _ : state)
+  {
+    time.Start();
+    switch (stage)
+    {
+      case TreeStage::Build:
+        tree = BuildMinMaxTree(mesh, center, 1, options);
+        break;
+      case TreeStage::Refit:
+        RefitMinMaxTree(tree, mesh, center, 1, options.NumberOfThreads);
+        break;
+      case TreeStage::Ranges:
+        ranges = MakeMinMaxRanges(tree, mesh, scalars, options.NumberOfThreads);
+        break;
+    }
+    time.Stop();
+  }
+  const auto numberOfCells = static_cast<double>(mesh.GetNumberOfCells());
+  time.Report(state, numberOfCells * static_cast<double>(state.iterations()));
+  const std::size_t bytes = tree.Nodes.size() * sizeof(MinMaxTree::Node) +
+    tree.Cells.size() * sizeof(std::int32_t) + ranges.Nodes.size() * sizeof(MinMaxTree::Range);
+  state.counters["Bytes"] = static_cast<double>(bytes) / numberOfCells;
+}
+
 void Register(std::int64_t size)
 {
   const std::string number = std::to_string(size);
@@ -285,6 +338,26 @@ void Register(std::int64_t size)
   {
     add("Prepare/" + number + "/" + name,
       [size, stage = stage](benchmark::State& state) { Prepare(state, size, stage); });
+  }
+  const std::pair<const char*, TreeBuild> builds[] = {
+    { "spatial-median", TreeBuild::SpatialMedian }, { "surface-area", TreeBuild::SurfaceArea }
+  };
+  const std::pair<const char*, TreeStage> treeStages[] = { { "build", TreeStage::Build },
+    { "refit", TreeStage::Refit }, { "ranges", TreeStage::Ranges } };
+  for (const auto& [build, kind] : builds)
+  {
+    for (const int leafSize : { 4, 8, 12, 16 })
+    {
+      for (const auto& [name, stage] : treeStages)
+      {
+        MinMaxTreeOptions options;
+        options.Build = kind;
+        options.LeafSize = leafSize;
+        add("Tree/" + number + "/" + build + "/" + std::to_string(leafSize) + "/" + name,
+          [size, options, stage = stage](benchmark::State& state)
+          { MakeTree(state, size, options, stage); });
+      }
+    }
   }
 }
 
