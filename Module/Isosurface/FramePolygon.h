@@ -185,7 +185,8 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
   {
     const double lowU = result.U[i] * packet.LowU, highU = result.U[i] * packet.HighU;
     const double lowV = result.V[i] * packet.LowV, highV = result.V[i] * packet.HighV;
-    const double most = result.One[i] + (lowU > highU ? lowU : highU) + (lowV > highV ? lowV : highV);
+    const double most =
+      result.One[i] + (lowU > highU ? lowU : highU) + (lowV > highV ? lowV : highV);
     const double least =
       result.One[i] + (lowU < highU ? lowU : highU) + (lowV < highV ? lowV : highV);
     misses |= most < -result.Tolerance;
@@ -207,8 +208,7 @@ TETRALUX_INLINE std::uint32_t FindChunks(const RayPacket& packet, const FramePol
     const Mask8 may = (LoadFloat8(packet.ChunkLowU + first) <= highU) &
       (lowU <= LoadFloat8(packet.ChunkHighU + first)) &
       (LoadFloat8(packet.ChunkLowV + first) <= highV) &
-      (lowV <= LoadFloat8(packet.ChunkHighV + first)) &
-      (LoadFloat8(packet.ChunkFar + first) < key);
+      (lowV <= LoadFloat8(packet.ChunkHighV + first)) & (LoadFloat8(packet.ChunkFar + first) < key);
     chunks |= static_cast<std::uint32_t>(Bits(may)) << first;
   }
   return chunks;

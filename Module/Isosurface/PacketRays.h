@@ -31,8 +31,7 @@ TETRALUX_INLINE double GetKey(const RayFrame& frame, double depth)
 }
 
 /// X, Y and depth of a point.
-TETRALUX_INLINE void Transform(
-  const RayFrame& frame, const double (&point)[3], double (&result)[3])
+TETRALUX_INLINE void Transform(const RayFrame& frame, const double (&point)[3], double (&result)[3])
 {
   for (int r = 0; r < 3; ++r)
   {
@@ -64,7 +63,8 @@ TETRALUX_INLINE int GetPacketColumn(int ray)
 TETRALUX_INLINE int GetPacketRow(int ray)
 {
   constexpr int Columns = RayPacket::Edge / RayPacket::ChunkWidth;
-  return ray / LaneCount / Columns * RayPacket::ChunkHeight + ray % LaneCount / RayPacket::ChunkWidth;
+  return ray / LaneCount / Columns * RayPacket::ChunkHeight +
+    ray % LaneCount / RayPacket::ChunkWidth;
 }
 ///@}
 
@@ -78,9 +78,15 @@ TETRALUX_INLINE float RoundDown(double key)
     return key == InfiniteKey ? std::numeric_limits<float>::infinity()
                               : std::numeric_limits<float>::max();
   }
-  const double lower =
-    key - Rounding * (key < 0 ? -key : key) - std::numeric_limits<float>::min();
+  const double lower = key - Rounding * (key < 0 ? -key : key) - std::numeric_limits<float>::min();
   return lower < -Largest ? -std::numeric_limits<float>::infinity() : static_cast<float>(lower);
+}
+
+/// What single precision rounds u and v by, where their largest size is that.
+TETRALUX_INLINE float GetPacketMargin(double largest)
+{
+  constexpr double Rounding = 1. / (1 << 22); // of two floats
+  return static_cast<float>(Rounding * largest);
 }
 
 /// The least Far of a chunk.

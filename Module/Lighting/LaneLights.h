@@ -146,9 +146,9 @@ public:
   }
 
   /// The light at distance z. gradient: in the world, not beyond the range of squares. visible: for
-  /// each light the share that nothing blocks, 0..1; nullptr: all of it.
+  /// each light, stride after stride, the share that nothing blocks, 0..1; nullptr: all of it.
   TETRALUX_NOINLINE LaneFactors Find(const KernelLighting& lighting, const LaneVector& gradient,
-    Double8 z, const Float8* visible = nullptr) const
+    Double8 z, const float* visible = nullptr, int stride = 0) const
   {
     const Float8 zero = 0.f;
     const Float8 one = 1.f;
@@ -189,7 +189,7 @@ public:
       }
       if (visible)
       {
-        share = share * visible[i];
+        share = share * LoadFloat8(visible + i * stride);
       }
       const Float8 cosine = Dot(normal, toLight);
       const Mask8 faces = zero < cosine;

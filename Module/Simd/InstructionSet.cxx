@@ -16,6 +16,31 @@ InstructionSet GetInstructionSet()
   return InstructionSet::Generic;
 }
 
-const char* GetName(InstructionSet set) { return set == InstructionSet::Avx2 ? "AVX2" : "generic"; }
+InstructionSet GetWidestInstructionSet()
+{
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+  static const bool avx512 = __builtin_cpu_supports("avx512f") &&
+    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+    __builtin_cpu_supports("avx512vl");
+  if (avx512)
+  {
+    return InstructionSet::Avx512;
+  }
+#endif
+  return GetInstructionSet();
+}
+
+const char* GetName(InstructionSet set)
+{
+  switch (set)
+  {
+    case InstructionSet::Avx512:
+      return "AVX-512";
+    case InstructionSet::Avx2:
+      return "AVX2";
+    default:
+      return "generic";
+  }
+}
 
 } // namespace tetralux

@@ -11,13 +11,18 @@ namespace tetralux
 enum class InstructionSet
 {
   Generic, ///< any processor
-  Avx2     ///< x86-64 with AVX2 and FMA
+  Avx2,    ///< x86-64 with AVX2 and FMA
+  Avx512   ///< x86-64 with AVX-512 F, DQ, BW and VL beside them
 };
 
-/// The best one that there are kernels for and that this processor has. Asks the processor once.
+/// The best one that all kernels are compiled for and that this processor has. Asks the processor
+/// once.
 TETRALUXCORE_EXPORT InstructionSet GetInstructionSet();
 
-/// For statistics: "generic" or "AVX2".
+/// The same for kernels that are compiled for AVX-512, too.
+TETRALUXCORE_EXPORT InstructionSet GetWidestInstructionSet();
+
+/// For statistics: "generic", "AVX2" or "AVX-512".
 TETRALUXCORE_EXPORT const char* GetName(InstructionSet set);
 
 } // namespace tetralux

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ActiveTree_h
+#define tetralux_ActiveTree_h
+
+#include "Hierarchy/MinMaxTree.h"
+#include "Isosurface/Isopolygon.h"
+#include "TetraluxCoreModule.h"
+
+#include <vector>
+
+namespace tetralux
+{
+
+/// The part of a MinMaxTree that some values are in, with their isopolygons: made once, and traced
+/// until values, scalars or points change (Wald et al. 2007, section 4.4, full pre-computation, and
+/// figure 5). Nodes with one active child are left out, and boxes fit the polygons.
+struct ActiveTree
+{
+  /// Leaves hold Polygons[First ... First + Count).
+  std::vector<MinMaxTree::Node> Nodes;
+  std::vector<Isopolygon> Polygons;
+};
+
+/// threads is at least 1; the tree is the same for any number.
+TETRALUXCORE_EXPORT ActiveTree MakeActiveTree(
+  const MinMaxTree& tree, const MinMaxRanges& ranges, const IsopolygonSource& source, int threads);
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_FrustumTraversal_h
+#define tetralux_FrustumTraversal_h
+
+// A packet goes through a hierarchy (Wald et al. 2007, section 5.2). The rays of a packet are
+// points of a rectangle in u and v, so that the planes through its edges bound its frustum, and
+// interval arithmetic with a node's box decides whether the packet misses it: one product and one
+// maximum for each coordinate and plane, for all planes at once.
+
+#include "Isosurface/FramePolygon.h"
+#include "Isosurface/IsopolygonExtraction.h"
+#include "Isosurface/PolygonLimits.h"
+#include "Isosurface/TraceInput.h"
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+/// Planes that bound what a packet can hit, one a lane, in the mesh's frame.
+class PacketFrustum
+{
+public:
+  PacketFrustum(const RayFrame& frame, const RayPacket& packet, const TraceLimits& limits)
+    : Limits(limits)
+  {
+    const double(&rows)[3][4] = frame.Rows;
+    const double sides[4][2] = { { 1, packet.LowU }, { -1, packet.HighU }, { 1, packet.LowV },
+      { -1, packet.HighV } };
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      this->SetPlane(lane, 0, 0, 0, 1); // keeps all
+    }
+    for (int side = 0; side < 4; ++side)
+    {
+      const double* row = rows[side / 2];
+      const double sign = sides[side][0];
+      const double bound = sides[side][1];
+      double plane[4];
+      for (int a = 0; a < 4; ++a)
+      {
+        const double along = frame.Parallel ? (a == 3 ? 1. : 0.) : rows[2][a];
+        plane[a] = sign * (row[a] - bound * along);
+      }
+      this->SetPlane(side, plane[0], plane[1], plane[2], plane[3]);
+    }
+    // In this lane comes minus the least depth.
+    this->SetPlane(NearLane, -rows[2][0], -rows[2][1], -rows[2][2], -rows[2][3]);
+    if (!frame.Parallel)
+    {
+      this->SetPlane(5, rows[2][0], rows[2][1], rows[2][2], rows[2][3]);
+    }
+    // Any two of the limits: more of them cull polygons only.
+    for (int p = 0; p < limits.NumberOfPlanes && p < 2; ++p)
+    {
+      const double(&plane)[4] = limits.Planes[p];
+      this->SetPlane(6 + p, plane[0], plane[1], plane[2], plane[3]);
+    }
+  }
+
+  /// Whether the packet misses a node. nearness: minus the least depth of its box.
+  TETRALUX_INLINE bool Misses(const MinMaxTree::Node& node, float& nearness) const
+  {
+    Float8 most = LoadFloat8(this->One);
+    for (int a = 0; a < 3; ++a)
+    {
+      const Float8 factor = LoadFloat8(this->Factors[a]);
+      most = most + Max(factor * Float8(node.Lower[a]), factor * Float8(node.Upper[a]));
+    }
+    float values[LaneCount];
+    Store(values, most);
+    nearness = values[NearLane];
+    constexpr unsigned Others = AllLanes & ~(1u << NearLane);
+    return (Bits(most < Float8(0.f)) & Others) != 0 || nearness + this->Farthest < 0 ||
+      (this->Limits.Cropping && IsCroppedAway(this->Limits, node.Lower, node.Upper));
+  }
+
+  /// The least key that may still change the packet.
+  void SetFarthest(const RayFrame& frame, const RayPacket& packet)
+  {
+    Float8 least = LoadFloat8(packet.ChunkFar);
+    for (int first = LaneCount; first < RayPacket::MaximumChunks; first += LaneCount)
+    {
+      least = Min(LoadFloat8(packet.ChunkFar + first), least);
+    }
+    float keys[LaneCount];
+    Store(keys, least);
+    float key = keys[0];
+    for (int i = 1; i < LaneCount; ++i)
+    {
+      key = keys[i] < key ? keys[i] : key;
+    }
+    const double depth = frame.Parallel ? -static_cast<double>(key)
+      : key > 0                         ? 1 / static_cast<double>(key)
+                                        : InfiniteKey;
+    this->Farthest = -RoundDown(-depth);
+  }
+  float GetFarthest() const { return this->Farthest; }
+
+private:
+  static constexpr int NearLane = 4;
+
+  void SetPlane(int lane, double x, double y, double z, double one)
+  {
+    // Boxes are within -1..1, and single precision rounds four products and sums.
+    constexpr double Rounding = 8. / (1 << 24);
+    const double ax = x < 0 ? -x : x;
+    const double ay = y < 0 ? -y : y;
+    const double az = z < 0 ? -z : z;
+    const double a1 = one < 0 ? -one : one;
+    this->Factors[0][lane] = static_cast<float>(x);
+    this->Factors[1][lane] = static_cast<float>(y);
+    this->Factors[2][lane] = static_cast<float>(z);
+    this->One[lane] = static_cast<float>(one + Rounding * (ax + ay + az + a1));
+  }
+
+  alignas(32) float Factors[3][LaneCount];
+  alignas(32) float One[LaneCount];
+  float Farthest = std::numeric_limits<float>::infinity(); ///< depth
+  const TraceLimits& Limits;
+};
+
+/// A packet in a tree.
+template <bool AnyHit>
+class PacketTraversal
+{
+public:
+  PacketTraversal(const TraceTree& tree, const RayFrame& frame, const TraceLimits& limits,
+    RayPacket& packet, TraceCounts& counts)
+    : Tree(tree)
+    , Frame(frame)
+    , Limits(limits)
+    , Packet(packet)
+    , Counts(counts)
+    , Frustum(frame, packet, limits)
+  {
+    const double bounds[4] = { packet.LowU, packet.HighU, packet.LowV, packet.HighV };
+    for (const double bound : bounds)
+    {
+      const double size = bound < 0 ? -bound : bound;
+      this->Largest = size > this->Largest ? size : this->Largest;
+    }
+    this->Margin = GetPacketMargin(this->Largest);
+    this->Frustum.SetFarthest(frame, packet);
+  }
+
+  void Trace()
+  {
+    ++this->Counts.Packets;
+    StackEntry stack[MinMaxTree::MaximumDepth + 1];
+    int depth = 0;
+    std::int32_t id = 0;
+    bool tested = false;
+    float nearness = 0;
+    if (!this->Tree.Nodes || !this->IsActive(0))
+    {
+      return;
+    }
+    for (;;)
+    {
+      const MinMaxTree::Node& node = this->Tree.Nodes[id];
+      if (node.Count > 0)
+      {
+        if (tested || !this->Misses(node, nearness))
+        {
+          this->HitLeaf(node);
+        }
+      }
+      else
+      {
+        // Down to the next node with two active children without any test.
+        const std::int32_t first = id + 1;
+        const std::int32_t second = node.First;
+        const bool firstActive = this->IsActive(first);
+        const bool secondActive = this->IsActive(second);
+        if (firstActive != secondActive)
+        {
+          id = firstActive ? first : second;
+          tested = false;
+          continue;
+        }
+        if (firstActive)
+        {
+          float firstNearness, secondNearness;
+          const bool hitsFirst = !this->Misses(this->Tree.Nodes[first], firstNearness);
+          const bool hitsSecond = !this->Misses(this->Tree.Nodes[second], secondNearness);
+          if (hitsFirst && hitsSecond)
+          {
+            const bool firstIsNear = firstNearness >= secondNearness;
+            stack[depth++] = { firstIsNear ? second : first,
+              firstIsNear ? secondNearness : firstNearness };
+          }
+          if (hitsFirst || hitsSecond)
+          {
+            id = hitsFirst && (!hitsSecond || firstNearness >= secondNearness) ? first : second;
+            tested = true;
+            continue;
+          }
+        }
+      }
+      // What was hit since may hide what waits.
+      do
+      {
+        if (depth == 0)
+        {
+          return;
+        }
+        --depth;
+        id = stack[depth].Node;
+        tested = true;
+      } while (stack[depth].Nearness + this->Frustum.GetFarthest() < 0);
+    }
+  }
+
+private:
+  struct StackEntry
+  {
+    std::int32_t Node;
+    float Nearness;
+  };
+
+  TETRALUX_INLINE bool Misses(const MinMaxTree::Node& node, float& nearness)
+  {
+    ++this->Counts.NodeTests;
+    const bool misses = this->Frustum.Misses(node, nearness);
+    this->Counts.NodeMisses += misses;
+    return misses;
+  }
+
+  /// Whether a node's range holds any of the values.
+  TETRALUX_INLINE bool IsActive(std::int32_t id)
+  {
+    if (this->Tree.Polygons)
+    {
+      return true;
+    }
+    ++this->Counts.RangeTests;
+    const MinMaxTree::Range range = this->Tree.Ranges[id];
+    // The least value that is not below the range.
+    int low = 0;
+    int high = this->Tree.Source.NumberOfValues;
+    while (low < high)
+    {
+      const int middle = (low + high) / 2;
+      const bool below = this->Tree.ValueSteps[middle].Down < range.Least;
+      low = below ? middle + 1 : low;
+      high = below ? high : middle;
+    }
+    return low < this->Tree.Source.NumberOfValues && this->Tree.ValueSteps[low].Up <= range.Largest;
+  }
+
+  void HitLeaf(const MinMaxTree::Node& node)
+  {
+    const bool changed = this->Tree.Polygons ? this->HitPolygons(node) : this->HitCells(node);
+    if (changed)
+    {
+      this->Frustum.SetFarthest(this->Frame, this->Packet);
+    }
+  }
+
+  bool HitPolygons(const MinMaxTree::Node& node)
+  {
+    bool changed = false;
+    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+    {
+      changed |= this->HitPolygon(this->Tree.Polygons[i], i);
+    }
+    return changed;
+  }
+
+  bool HitCells(const MinMaxTree::Node& node)
+  {
+    bool changed = false;
+    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+    {
+      const std::int32_t cell = this->Tree.LeafCells[i];
+      ForEachIsopolygon(this->Tree.Source, cell,
+        [&](const Isopolygon& polygon)
+        {
+          ++this->Counts.Extractions;
+          changed |= this->HitPolygon(polygon, PackHit(cell, polygon.Surface));
+        });
+    }
+    return changed;
+  }
+
+  TETRALUX_INLINE bool HitPolygon(const Isopolygon& polygon, std::int64_t id)
+  {
+    ++this->Counts.Polygons;
+    FramePolygon placed;
+    const Coverage coverage =
+      Place(this->Frame, this->Packet, this->Largest, this->Margin, polygon, placed);
+    if (coverage == Coverage::None)
+    {
+      ++this->Counts.PolygonMisses;
+      return false;
+    }
+    const bool limited = this->Limits.NumberOfPlanes > 0 || this->Limits.Cropping;
+    const LimitedPart part = limited ? FindLimitedPart(this->Limits, polygon) : LimitedPart::All;
+    if (part == LimitedPart::None)
+    {
+      return false;
+    }
+    std::uint32_t chunks = FindChunks(this->Packet, placed);
+    if (chunks == 0)
+    {
+      return false;
+    }
+    this->Counts.PolygonCovers += coverage == Coverage::All;
+    while (chunks != 0)
+    {
+      const int chunk = __builtin_ctz(chunks);
+      chunks &= chunks - 1;
+      this->Counts.RayPolygonTests += LaneCount;
+      if (part == LimitedPart::Some)
+      {
+        HitChunkWithin<AnyHit>(this->Limits, this->Frame, placed, id, this->Packet, chunk);
+      }
+      else if (coverage == Coverage::All)
+      {
+        HitChunk<AnyHit, true>(placed, id, this->Packet, chunk);
+      }
+      else
+      {
+        HitChunk<AnyHit, false>(placed, id, this->Packet, chunk);
+      }
+    }
+    return true;
+  }
+
+  const TraceTree& Tree;
+  const RayFrame& Frame;
+  const TraceLimits& Limits;
+  RayPacket& Packet;
+  TraceCounts& Counts;
+  PacketFrustum Frustum;
+  double Largest = 1; ///< |u| and |v|
+  float Margin;
+};
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_IsosurfaceKernel_h
+#define tetralux_IsosurfaceKernel_h
+
+// What the kernels of the isosurface tracer read and write: plain pointers, filled by
+// IsosurfaceTracer. The kernels themselves (IsosurfaceKernel.inl) are compiled once for each
+// instruction set.
+
+#include "Isosurface/CellField.h"
+#include "Isosurface/TraceInput.h"
+#include "Lighting/KernelLighting.h"
+#include "View/RayGrid.h"
+
+#include <cstdint>
+
+namespace tetralux
+{
+
+/// Rays from a light to what is lit, and how they are blocked.
+struct ShadowSource
+{
+  int Light; ///< index
+  /// Of a distant light one frame, else one for each half of each axis of the mesh's frame.
+  ///@{
+  bool Positional;
+  RayFrame Frames[6];
+  ///@}
+  double Place[3]; ///< in the mesh's frame: position, or direction to the light
+};
+
+struct IsosurfaceInput
+{
+  TraceTree Tree;
+
+  // The rays of the picture.
+  RayFrame Frame;
+  const RayGrid* Grid;
+  TraceLimits Limits;            ///< with the near and the far plane
+  const float* MaximumDistances; ///< nullptr: none
+
+  // What surfaces look like.
+  const float* SurfaceColors;     ///< red, green, blue, opacity of each value
+  const KernelLighting* Lighting; ///< nullptr: no light
+  const CellField<3>* Gradients;  ///< of each polygon; nullptr: Lighting->Gradients
+  const ShadowSource* Shadows;    ///< of the lights that are blocked
+  int NumberOfShadows;
+  TraceLimits ShadowLimits; ///< what is cut away blocks no light
+  int MaximumLayers;        ///< surfaces that a ray meets at most
+  float MaximumOpacity;     ///< a ray ends where it is this opaque
+
+  float* Colors; ///< four a pixel, premultiplied
+  float* Depths; ///< one a pixel
+};
+
+struct IsosurfaceCounts
+{
+  TraceCounts Primary;
+  TraceCounts Shadow;
+  std::int64_t Hits = 0;     ///< surfaces that rays met
+  std::int64_t LostRays = 0; ///< ended at MaximumLayers, though not opaque
+  double LostOpacity = 0;    ///< largest share of light that such a ray lets through
+};
+
+/// Memory of a thread.
+struct IsosurfaceScratch
+{
+  RayPacket Rays;
+  RayPacket ShadowRays;
+  double StartFar[RayPacket::MaximumRays];
+  float Colors[4][RayPacket::MaximumRays];
+  float Depths[RayPacket::MaximumRays];
+
+  // The hits of a layer.
+  double Points[3][RayPacket::MaximumRays]; ///< in the mesh's frame
+  float Gradients[3][RayPacket::MaximumRays];
+  std::int32_t Surfaces[RayPacket::MaximumRays];
+  float Distances[RayPacket::MaximumRays]; ///< along the rays, in the world
+  /// MaximumRays for each light, 1 of lights that are not blocked; nullptr: no light is.
+  float* Visible;
+};
+
+/// Draws the pixels from (x0, y0) up to but without (x1, y1): a packet at most.
+using IsosurfaceKernel = void (*)(
+  const IsosurfaceInput&, int x0, int y0, int x1, int y1, IsosurfaceScratch&, IsosurfaceCounts&);
+
+IsosurfaceKernel GetIsosurfaceKernelGeneric();
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+IsosurfaceKernel GetIsosurfaceKernelAvx2();
+IsosurfaceKernel GetIsosurfaceKernelAvx512();
+#endif
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The kernel for AVX2 with FMA; this file is compiled for those and called where they exist.
+#include "Isosurface/IsosurfaceKernel.inl"
+
+namespace tetralux
+{
+
+IsosurfaceKernel GetIsosurfaceKernelAvx2() { return TETRALUX_ISA::DrawPacket; }
+
+} // namespace tetralux

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The kernel for AVX-512; this file is compiled for it and called where it exists.
+#include "Isosurface/IsosurfaceKernel.inl"
+
+namespace tetralux
+{
+
+IsosurfaceKernel GetIsosurfaceKernelAvx512() { return TETRALUX_ISA::DrawPacket; }
+
+} // namespace tetralux

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Isosurface/IsosurfaceTracer.h"
+
+#include "Base/ParallelTiles.h"
+#include "Base/Stopwatch.h"
+#include "Integral/ErrorBudget.h"
+#include "Isosurface/IsosurfaceKernel.h"
+#include "View/MeshToWorld.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include <omp.h>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Cells of a leaf. Measured on the blunt fin and a ring of 3 million cells.
+constexpr int LeafSize = 8;
+
+IsosurfaceKernel GetKernel(InstructionSet set)
+{
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+  switch (set)
+  {
+    case InstructionSet::Avx512:
+      return GetIsosurfaceKernelAvx512();
+    case InstructionSet::Avx2:
+      return GetIsosurfaceKernelAvx2();
+    default:
+      break;
+  }
+#else
+  static_cast<void>(set);
+#endif
+  return GetIsosurfaceKernelGeneric();
+}
+
+MeshFrame GetMeshFrame(const WalkMesh& mesh)
+{
+  MeshFrame frame;
+  std::copy_n(mesh.GetCenter(), 3, frame.Center);
+  frame.Radius = mesh.GetRadius();
+  return frame;
+}
+
+double Dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Half-spaces and cropping in the mesh's frame, with the memory of the planes.
+class MeshLimits
+{
+public:
+  MeshLimits(
+    const RayLimits& limits, const RayGrid& grid, const RayFrame& frame, const MeshFrame& mesh)
+  {
+    const double* steps[3] = { frame.Parallel ? grid.OriginStepX : grid.DirectionStepX,
+      frame.Parallel ? grid.OriginStepY : grid.DirectionStepY, grid.Direction };
+    for (const std::array<double, 4>& plane : limits.Planes)
+    {
+      std::array<double, 4> result = { 0, 0, 0, Dot(plane.data(), grid.Origin) + plane[3] };
+      for (int r = 0; r < 3; ++r)
+      {
+        const double along = Dot(plane.data(), steps[r]);
+        for (int a = 0; a < 4; ++a)
+        {
+          result[a] += along * frame.Rows[r][a];
+        }
+      }
+      // Whether it cuts the mesh, which is within a sphere of radius 1.
+      if (!(result[3] > std::hypot(result[0], result[1], result[2])))
+      {
+        this->Planes.push_back(result);
+      }
+    }
+    this->Result.Cropping = limits.Cropping;
+    this->Result.CroppingFlags = limits.CroppingFlags;
+    for (int i = 0; i < 6; ++i)
+    {
+      this->Result.CroppingPlanes[i] =
+        (limits.CroppingPlanes[i] - mesh.Center[i / 2]) / mesh.Radius;
+    }
+  }
+  MeshLimits(const MeshLimits&) = delete;
+  MeshLimits& operator=(const MeshLimits&) = delete;
+
+  TraceLimits Get() const
+  {
+    TraceLimits result = this->Result;
+    static_assert(sizeof(std::array<double, 4>) == sizeof(double[4]), "rows of four");
+    result.Planes = reinterpret_cast<const double(*)[4]>(this->Planes.data());
+    result.NumberOfPlanes = static_cast<int>(this->Planes.size());
+    return result;
+  }
+
+private:
+  std::vector<std::array<double, 4>> Planes;
+  TraceLimits Result;
+};
+
+ShadowSource MakeShadowSource(
+  const Light& light, int index, const RayGrid& grid, const MeshFrame& mesh)
+{
+  ShadowSource source{};
+  source.Light = index;
+  source.Positional = light.Positional;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double* row = grid.MeshFromWorld[a];
+    source.Place[a] = Dot(row, light.Position);
+    if (light.Positional)
+    {
+      source.Place[a] = (source.Place[a] + (row[3] - mesh.Center[a])) / mesh.Radius;
+    }
+  }
+  if (light.Positional)
+  {
+    for (int side = 0; side < 6; ++side)
+    {
+      source.Frames[side] = MakeAxisFrame(source.Place, side / 2, side % 2 == 1);
+    }
+    return source;
+  }
+  const double length = std::hypot(source.Place[0], source.Place[1], source.Place[2]);
+  double direction[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    source.Place[a] /= length;
+    direction[a] = -source.Place[a];
+  }
+  source.Frames[0] = MakeParallelFrame(direction);
+  return source;
+}
+
+/// What the kernel reads of lights, with its memory.
+struct Illumination
+{
+  KernelLighting Lighting{};
+  std::vector<KernelLight> Lights;
+  std::vector<ShadowSource> Shadows;
+};
+
+void FillIllumination(const VolumeScene& scene, const RayGrid& grid,
+  const IsosurfaceOptions& options, const MeshFrame& mesh, Illumination& result)
+{
+  const double unit = mesh.Radius * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+  FillKernelLighting(options.Lights, options.Surface, grid, unit, result.Lighting, result.Lights);
+  const std::vector<GradientRow>& gradients =
+    options.SmoothShading ? scene.Mesh.GetPointGradients() : scene.Mesh.GetCellGradients();
+  result.Lighting.Gradients = gradients.data();
+  result.Lighting.NumberOfGradients = static_cast<std::int32_t>(gradients.size());
+  result.Lighting.OfPoints = options.SmoothShading;
+  if (options.Shadows)
+  {
+    for (std::size_t l = 0; l < options.Lights.size(); ++l)
+    {
+      result.Shadows.push_back(
+        MakeShadowSource(options.Lights[l], static_cast<int>(l), grid, mesh));
+    }
+  }
+}
+
+std::vector<float> GetColors(const std::vector<Isosurface>& surfaces)
+{
+  std::vector<float> colors;
+  for (const Isosurface& surface : surfaces)
+  {
+    colors.insert(colors.end(),
+      { surface.Color[0], surface.Color[1], surface.Color[2],
+        std::clamp(surface.Opacity, 0.f, 1.f) });
+  }
+  return colors;
+}
+
+/// What a thread writes while it traces.
+struct ThreadMemory
+{
+  IsosurfaceScratch Scratch;
+  IsosurfaceCounts Counts;
+  std::vector<float> Visible;
+};
+
+} // namespace
+
+void IsosurfaceTracer::Prepare(VolumeScene& scene, const IsosurfaceOptions& options, int threads,
+  IsosurfaceStatistics& statistics)
+{
+  const WalkMesh& walk = *scene.Mesh.GetMesh();
+  const TetrahedralMesh& mesh = walk.GetMesh();
+  const auto bytesPerCell = [&mesh](std::size_t bytes)
+  { return static_cast<double>(bytes) / std::max<std::size_t>(1, mesh.GetNumberOfCells()); };
+  {
+    const Stopwatch stopwatch;
+    CacheKey key = CacheKey::Of(scene.Mesh.GetCellsVersion(), options.Build);
+    if (!this->TreeStamp.Has(key))
+    {
+      MinMaxTreeOptions build;
+      build.Build = options.Build;
+      build.LeafSize = LeafSize;
+      build.NumberOfThreads = threads;
+      this->Tree = BuildMinMaxTree(mesh, walk.GetCenter(), walk.GetRadius(), build);
+      this->TreeStamp.Set(std::move(key));
+      statistics.Rebuilt.emplace_back("tree");
+    }
+    else if (this->TreePoints != scene.Mesh.GetPointsVersion())
+    {
+      RefitMinMaxTree(this->Tree, mesh, walk.GetCenter(), walk.GetRadius(), threads);
+      statistics.Rebuilt.emplace_back("boxes");
+    }
+    this->TreePoints = scene.Mesh.GetPointsVersion();
+    statistics.TreeSeconds = stopwatch.GetSeconds();
+  }
+  {
+    const Stopwatch stopwatch;
+    const bool made = this->Ranges.Update(
+      CacheKey::Of(this->TreeStamp.GetVersion(), scene.Mesh.GetScalarsVersion()),
+      [&] { return MakeMinMaxRanges(this->Tree, mesh, scene.Mesh.GetScalars(), threads); });
+    if (made)
+    {
+      statistics.Rebuilt.emplace_back("ranges");
+    }
+    statistics.RangesSeconds = stopwatch.GetSeconds();
+  }
+  this->Values.clear();
+  CacheKey key = CacheKey::Of(this->Ranges.GetVersion(), this->TreePoints);
+  for (const Isosurface& surface : scene.Optics.GetIsosurfaces())
+  {
+    this->Values.push_back(surface.Value);
+    key.Add(surface.Value);
+  }
+  if (options.Polygons == Isopolygons::Precomputed)
+  {
+    const Stopwatch stopwatch;
+    const bool made = this->Active.Update(std::move(key),
+      [&]
+      {
+        const IsopolygonSource source{ GetMeshFrame(walk), mesh.Points.data(), mesh.Cells.data(),
+          scene.Mesh.GetScalars().data(), this->Values.data(),
+          static_cast<int>(this->Values.size()) };
+        return MakeActiveTree(this->Tree, this->Ranges.Get(), source, threads);
+      });
+    if (made)
+    {
+      statistics.Rebuilt.emplace_back("isopolygons");
+    }
+    statistics.PolygonsSeconds = stopwatch.GetSeconds();
+  }
+  statistics.Nodes = static_cast<std::int64_t>(this->Tree.Nodes.size());
+  statistics.TreeBytes = bytesPerCell(this->Tree.Nodes.size() * sizeof(MinMaxTree::Node) +
+    this->Tree.Cells.size() * sizeof(std::int32_t));
+  statistics.StepBytes = bytesPerCell(this->Ranges.Get().Nodes.size() * sizeof(MinMaxTree::Range) +
+    scene.Mesh.GetScalars().size() * sizeof(double));
+}
+
+IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& grid,
+  const RayLimits& limits, const IsosurfaceOptions& options, Span<float> colors, Span<float> depths)
+{
+  const std::size_t pixels = static_cast<std::size_t>(grid.Width) * grid.Height;
+  if (colors.size() != 4 * pixels || depths.size() != pixels)
+  {
+    throw std::invalid_argument("the image arrays do not have the size of the ray grid");
+  }
+  scene.CheckComplete();
+  IsosurfaceStatistics statistics;
+  const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
+  const bool lit = options.Shaded && !scene.Mesh.HasCellScalars();
+  SceneNeeds needs;
+  needs.PointGradients = lit && options.SmoothShading;
+  needs.CellGradients = lit && !options.SmoothShading;
+  scene.Prepare(needs);
+  this->Prepare(scene, options, threads, statistics);
+
+  const Stopwatch stopwatch;
+  const WalkMesh& walk = *scene.Mesh.GetMesh();
+  const TetrahedralMesh& mesh = walk.GetMesh();
+  const MeshFrame frame = GetMeshFrame(walk);
+  const bool precomputed = options.Polygons == Isopolygons::Precomputed;
+  const std::vector<MinMaxTree::Node>& nodes =
+    precomputed ? this->Active.Get().Nodes : this->Tree.Nodes;
+  std::vector<MinMaxRanges::Steps> steps;
+  for (const double value : this->Values)
+  {
+    steps.push_back(this->Ranges.Get().GetSteps(value));
+  }
+
+  IsosurfaceInput in{};
+  in.Frame = MakeRayFrame(grid, frame);
+  in.Grid = &grid;
+  in.Tree.Nodes = nodes.empty() ? nullptr : nodes.data();
+  in.Tree.Polygons = precomputed ? this->Active.Get().Polygons.data() : nullptr;
+  in.Tree.Ranges = this->Ranges.Get().Nodes.data();
+  in.Tree.LeafCells = this->Tree.Cells.data();
+  in.Tree.ValueSteps = steps.data();
+  in.Tree.Source = IsopolygonSource{ frame, mesh.Points.data(), mesh.Cells.data(),
+    scene.Mesh.GetScalars().data(), this->Values.data(), static_cast<int>(this->Values.size()) };
+  const MeshLimits meshLimits(limits, grid, in.Frame, frame);
+  in.Limits = meshLimits.Get();
+  in.ShadowLimits = in.Limits;
+  in.MaximumDistances = limits.MaximumDistances;
+  const std::vector<float> surfaceColors = GetColors(scene.Optics.GetIsosurfaces());
+  in.SurfaceColors = surfaceColors.data();
+  Illumination illumination;
+  if (lit)
+  {
+    FillIllumination(scene, grid, options, frame, illumination);
+    in.Lighting = &illumination.Lighting;
+    in.Shadows = illumination.Shadows.data();
+    in.NumberOfShadows = static_cast<int>(illumination.Shadows.size());
+  }
+  ErrorSpending spending;
+  spending.EndsEarly = true;
+  statistics.TerminationError = MakeErrorBudget(options.MaximumError, spending).Termination;
+  in.MaximumOpacity = static_cast<float>(1 - statistics.TerminationError);
+  in.MaximumLayers =
+    options.MaximumLayers > 0 ? options.MaximumLayers : std::numeric_limits<int>::max();
+  in.Colors = colors.data();
+  in.Depths = depths.data();
+
+  const InstructionSet set = options.Kernels.value_or(GetWidestInstructionSet());
+  const IsosurfaceKernel kernel = GetKernel(set);
+  std::vector<std::unique_ptr<ThreadMemory>> memory;
+  for (int t = 0; t < threads; ++t)
+  {
+    memory.push_back(std::make_unique<ThreadMemory>());
+    memory.back()->Visible.assign(
+      in.NumberOfShadows > 0 ? options.Lights.size() * RayPacket::MaximumRays : 0, 1.f);
+    memory.back()->Scratch.Visible =
+      in.NumberOfShadows > 0 ? memory.back()->Visible.data() : nullptr;
+  }
+  const TileGrid tiles{ grid.Width, grid.Height, RayPacket::Edge };
+  statistics.Aborted = !ForEachTile(tiles, threads, options.Progress,
+    [&](const Tile& tile, int thread)
+    {
+      kernel(
+        in, tile.X0, tile.Y0, tile.X1, tile.Y1, memory[thread]->Scratch, memory[thread]->Counts);
+    });
+  for (const std::unique_ptr<ThreadMemory>& thread : memory)
+  {
+    const IsosurfaceCounts& counts = thread->Counts;
+    statistics.Primary.Add(counts.Primary);
+    statistics.Shadow.Add(counts.Shadow);
+    statistics.Hits += counts.Hits;
+    statistics.LostRays += counts.LostRays;
+    // What a ray that ends at the last layer lets through.
+    statistics.TerminationError = std::max(statistics.TerminationError, counts.LostOpacity);
+  }
+  statistics.ActiveNodes = static_cast<std::int64_t>(this->Active.Get().Nodes.size());
+  statistics.Polygons = static_cast<std::int64_t>(this->Active.Get().Polygons.size());
+  statistics.NumberOfThreads = threads;
+  statistics.InstructionSet = GetName(set);
+  statistics.TraceSeconds = stopwatch.GetSeconds();
+  return statistics;
+}
+
+} // namespace tetralux
