@@ -3,7 +3,9 @@
 
 #include "Properties/PropertySetters.h"
 
+#include "vtkTetrahedraCPUMapper.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
@@ -41,6 +43,8 @@ Accessors MakeAccessors(NumberT (MapperT::*get)(), void (MapperT::*set)(NumberT)
 const std::map<std::string, Accessors>& GetAccessors()
 {
   using Base = vtkTetrahedraVolumeMapper;
+  using CPU = vtkTetrahedraCPUMapper;
+  using Isosurface = vtkTetrahedraIsosurfaceMapper;
   using RayCast = vtkTetrahedraRayCastMapper;
   using GPURayCast = vtkTetrahedraGPURayCastMapper;
   using Projection = vtkTetrahedraProjectionMapper;
@@ -74,12 +78,14 @@ const std::map<std::string, Accessors>& GetAccessors()
         [](Base* mapper, const std::vector<double>& values)
         { mapper->SetCroppingRegionPlanes(values.data()); } } },
     ACCESSORS(Base, CroppingRegionFlags),
-    ACCESSORS(RayCast, NumberOfThreads),
+    ACCESSORS(CPU, NumberOfThreads),
     ACCESSORS(RayCast, Precision),
-    ACCESSORS(RayCast, ImageSampleDistance),
-    ACCESSORS(RayCast, MinimumImageSampleDistance),
-    ACCESSORS(RayCast, MaximumImageSampleDistance),
-    ACCESSORS(RayCast, AutoAdjustSampleDistances),
+    ACCESSORS(CPU, ImageSampleDistance),
+    ACCESSORS(CPU, MinimumImageSampleDistance),
+    ACCESSORS(CPU, MaximumImageSampleDistance),
+    ACCESSORS(CPU, AutoAdjustSampleDistances),
+    ACCESSORS(Isosurface, Shadows),
+    ACCESSORS(Isosurface, MaximumNumberOfPeels),
     ACCESSORS(GPURayCast, StepsPerPass),
     ACCESSORS(GPURayCast, RayMaximumBytes),
     ACCESSORS(GPURayCast, CountFragments),

@@ -6,6 +6,7 @@
 #include "MapperPropertyAccess.h"
 #include "Setup/MapperProperties.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
@@ -37,6 +38,7 @@ const std::vector<Method>& GetMethods()
     MakeMethod<vtkTetrahedraRayCastMapper>("ray-cast"),
     MakeMethod<vtkTetrahedraGPURayCastMapper>("gpu-ray-cast"),
     MakeMethod<vtkTetrahedraProjectionMapper>("projection"),
+    MakeMethod<vtkTetrahedraIsosurfaceMapper>("isosurface"),
   };
   return methods;
 }

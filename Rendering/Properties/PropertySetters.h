@@ -23,6 +23,7 @@ inline unsigned FindMapperKind(vtkObjectBase* object)
   return object->IsA("vtkTetrahedraRayCastMapper") ? RayCastKind
     : object->IsA("vtkTetrahedraGPURayCastMapper") ? GPURayCastKind
     : object->IsA("vtkTetrahedraProjectionMapper") ? ProjectionKind
+    : object->IsA("vtkTetrahedraIsosurfaceMapper") ? IsosurfaceKind
                                                    : AllKinds;
 }
 

@@ -59,21 +59,21 @@ MapperProperty MakeEnumeration(const char* name, unsigned kinds, const char* gro
 
 MapperProperty MakeTableSize(const char* name, const char* meaning)
 {
-  return { name, PropertyType::Integer, AllKinds, Table, true,
+  return { name, PropertyType::Integer, VolumeKinds, Table, true,
     { { "automatic", 0, "the smallest that MaximumError allows" } }, SmallestTableSize,
     LargestTableSize, { 0 }, "", "texels", meaning };
 }
 
 MapperProperty MakeSampleDistance(const char* name, double value, const char* meaning)
 {
-  return { name, PropertyType::Real, RayCastKind, Rays, true, {}, 0.1, 100, { value }, "", "pixels",
-    meaning };
+  return { name, PropertyType::Real, RayCastKind | IsosurfaceKind, Rays, true, {}, 0.1, 100,
+    { value }, "", "pixels", meaning };
 }
 
 std::vector<MapperProperty> MakeProperties()
 {
   return {
-    MakeEnumeration("BlendMode", AllKinds, Model, false,
+    MakeEnumeration("BlendMode", VolumeKinds, Model, false,
       { { "composite", 0, "emission and absorption" },
         { "maximum-intensity", 1, "colour and opacity of the largest scalar along a ray" },
         { "additive", 4, "emission without absorption" },
@@ -82,27 +82,27 @@ std::vector<MapperProperty> MakeProperties()
       "What rays gather."),
     { "MaximumError", PropertyType::Real, AllKinds, Quality, false, {}, 0, 1, { 1e-4 }, "", "",
       "Largest absolute error of a premultiplied channel that is aimed at." },
-    MakeEnumeration("Integration", AllKinds, Quality, true,
+    MakeEnumeration("Integration", VolumeKinds, Quality, true,
       { { "automatic", 0, "a table if it is faster and right enough, else the closed form" },
         { "closed-form", 1, "the closed form" }, { "table", 2, "a table in any case" } },
       "How segments of composite blending are integrated."),
     MakeTableSize("TableScalarSize", "Texels of a table along each of its two scalars."),
     MakeTableSize("TableLengthSize", "Texels of a table along the length of a segment."),
-    MakeEnumeration("TableLengthScale", AllKinds, Table, true,
+    MakeEnumeration("TableLengthScale", VolumeKinds, Table, true,
       { { "automatic", 0, "what MaximumError allows at the smallest size" },
         { "linear", 1, "equal steps (Weiler et al. 2003, section 4)" },
         { "logarithmic", 2, "steps that double (Kraus et al. 2004, section 3)" } },
       "Spacing of a table's texels along the length."),
-    MakeEnumeration("TableScalarAxis", AllKinds, Table, true,
+    MakeEnumeration("TableScalarAxis", VolumeKinds, Table, true,
       { { "automatic", 0, "what MaximumError allows at the smallest size" },
         { "uniform", 1, "equal steps" }, { "nodes", 2, "on the nodes of the transfer function" } },
       "Spacing of a table's texels along the scalars."),
-    MakeEnumeration("TableFormat", AllKinds, Table, true,
+    MakeEnumeration("TableFormat", VolumeKinds, Table, true,
       { { "automatic", 0, "what MaximumError allows at the smallest size" },
         { "unorm8", 1, "8 bits a channel" }, { "unorm16", 2, "16 bits a channel" },
         { "half", 3, "16-bit floats" }, { "float", 4, "32-bit floats" } },
       "Format that a table's texels are rounded to."),
-    { "TableMaximumBytes", PropertyType::Size, AllKinds, Table, true, {}, SmallestTableBytes,
+    { "TableMaximumBytes", PropertyType::Size, VolumeKinds, Table, true, {}, SmallestTableBytes,
       LargestTableBytes, { DefaultTableBytes }, "", "bytes", "Largest size of a table." },
     MakeBoolean("SmoothShading", AllKinds, Quality, false, true,
       "Take the normals of lighting from gradients that are interpolated between points."),
@@ -141,7 +141,7 @@ std::vector<MapperProperty> MakeProperties()
       0, 0x7ffffff, { 0x2000 }, "", "",
       "The regions that are rendered: bit x + 3 y + 9 z is region x, y, z." },
 
-    { "NumberOfThreads", PropertyType::Integer, RayCastKind, Rays, true,
+    { "NumberOfThreads", PropertyType::Integer, RayCastKind | IsosurfaceKind, Rays, true,
       { { "automatic", 0, "as many as OpenMP offers" } }, 1, 1024, { 0 }, "", "threads",
       "Threads that cast rays." },
     MakeEnumeration("Precision", RayCastKind, Quality, true,
@@ -154,8 +154,14 @@ std::vector<MapperProperty> MakeProperties()
       "MinimumImageSampleDistance", 1, "Smallest distance of rays that the adjustment chooses."),
     MakeSampleDistance(
       "MaximumImageSampleDistance", 10, "Largest distance of rays that the adjustment chooses."),
-    MakeBoolean("AutoAdjustSampleDistances", RayCastKind, Rays, true, true,
+    MakeBoolean("AutoAdjustSampleDistances", RayCastKind | IsosurfaceKind, Rays, true, true,
       "Adjust the distance of rays to the time that the renderer allocates."),
+
+    MakeBoolean("Shadows", IsosurfaceKind, Quality, false, false,
+      "Surfaces block the light of lights, where Shade is on."),
+    { "MaximumNumberOfPeels", PropertyType::Integer, IsosurfaceKind, Rays, true,
+      { { "automatic", 0, "as many as MaximumError asks for" } }, 1, 1000, { 0 }, "", "surfaces",
+      "Surfaces that a ray meets at most." },
 
     { "StepsPerPass", PropertyType::Integer, GPURayCastKind, Rays, true, {}, 1, 65535, { 128 }, "",
       "cells", "Cells that a ray passes in one draw call at most." },

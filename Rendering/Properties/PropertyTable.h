@@ -20,7 +20,9 @@ enum MapperKind : unsigned
   RayCastKind = 1,    ///< vtkTetrahedraRayCastMapper
   GPURayCastKind = 2, ///< vtkTetrahedraGPURayCastMapper
   ProjectionKind = 4, ///< vtkTetrahedraProjectionMapper
-  AllKinds = 7        ///< vtkTetrahedraVolumeMapper, the base class
+  IsosurfaceKind = 8, ///< vtkTetrahedraIsosurfaceMapper
+  VolumeKinds = 7,    ///< those that integrate along rays
+  AllKinds = 15       ///< vtkTetrahedraVolumeMapper, the base class
 };
 
 enum class PropertyType

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_CPUPicture_h
+#define tetralux_CPUPicture_h
+
+#include "Base/Span.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
+
+namespace tetralux
+{
+
+/// A picture that a processor has to make.
+struct CPUPicture
+{
+  RayGrid Grid;
+  RayLimits Limits;          ///< opaque geometry included
+  double SampleDistance = 1; ///< pixels from ray to ray
+  Span<float> Colors;        ///< to be filled: four a ray, premultiplied
+  Span<float> Depths;        ///< to be filled: distance along the ray, -1 where there is nothing
+};
+
+} // namespace tetralux
+
+#endif

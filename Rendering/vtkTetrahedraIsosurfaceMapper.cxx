@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTetrahedraIsosurfaceMapper.h"
+
+#include "Frame/CPUPicture.h"
+#include "Frame/MapperFrame.h"
+#include "Isosurface/IsosurfaceTracer.h"
+#include "Properties/PropertyPrinter.h"
+#include "Properties/PropertySetters.h"
+
+#include "vtkObjectFactory.h"
+
+using tetralux::Json;
+using tetralux::MapperFrame;
+
+namespace
+{
+
+/// In the terms of table 4 of the paper.
+Json Describe(const tetralux::TraceCounts& counts)
+{
+  Json section;
+  section["packets"] = counts.Packets;
+  section["range_tests"] = counts.RangeTests;
+  section["node_tests"] = counts.NodeTests;
+  section["nodes_missed"] = counts.NodeMisses;
+  section["isopolygon_extractions"] = counts.Extractions;
+  section["isopolygons"] = counts.Polygons;
+  section["isopolygons_missed"] = counts.PolygonMisses;
+  section["isopolygons_covering"] = counts.PolygonCovers;
+  section["ray_isopolygon_tests"] = counts.RayPolygonTests;
+  return section;
+}
+
+void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::CPUPicture& picture,
+  MapperFrame& frame)
+{
+  Json section;
+  section["width"] = picture.Grid.Width;
+  section["height"] = picture.Grid.Height;
+  section["sample_distance"] = picture.SampleDistance;
+  section["hits"] = statistics.Hits;
+  section["rays_ended_at_last_layer"] = statistics.LostRays;
+  section["instruction_set"] = statistics.InstructionSet;
+  section["threads"] = statistics.NumberOfThreads;
+  frame.Sections.emplace_back("rays", section);
+
+  Json hierarchy;
+  hierarchy["rebuilt"] = statistics.Rebuilt;
+  hierarchy["nodes"] = statistics.Nodes;
+  hierarchy["active_nodes"] = statistics.ActiveNodes;
+  hierarchy["isopolygons"] = statistics.Polygons;
+  hierarchy["bytes_per_tetrahedron"] = statistics.TreeBytes;
+  hierarchy["bytes_per_tetrahedron_and_step"] = statistics.StepBytes;
+  frame.Sections.emplace_back("hierarchy", hierarchy);
+
+  Json traversal;
+  traversal["primary"] = Describe(statistics.Primary);
+  traversal["shadow"] = Describe(statistics.Shadow);
+  frame.Sections.emplace_back("traversal", traversal);
+
+  frame.Seconds.emplace_back("hierarchy", statistics.TreeSeconds);
+  frame.Seconds.emplace_back("ranges", statistics.RangesSeconds);
+  frame.Seconds.emplace_back("isopolygons", statistics.PolygonsSeconds);
+  frame.Seconds.emplace_back("trace", statistics.TraceSeconds);
+  frame.Errors = { { "early_termination", statistics.TerminationError } };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+class vtkTetrahedraIsosurfaceMapper::Internals
+{
+public:
+  tetralux::IsosurfaceTracer Tracer;
+};
+
+//------------------------------------------------------------------------------------------------
+vtkStandardNewMacro(vtkTetrahedraIsosurfaceMapper);
+
+//------------------------------------------------------------------------------------------------
+vtkTetrahedraIsosurfaceMapper::vtkTetrahedraIsosurfaceMapper()
+  : Private(std::make_unique<Internals>())
+{
+  this->BlendMode = ISOSURFACE_BLEND;
+}
+
+//------------------------------------------------------------------------------------------------
+vtkTetrahedraIsosurfaceMapper::~vtkTetrahedraIsosurfaceMapper() = default;
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraIsosurfaceMapper::SetBlendMode(int mode)
+{
+  if (mode != ISOSURFACE_BLEND)
+  {
+    vtkErrorMacro("BlendMode: " << mode << " is not isosurface (5), the only one of this mapper");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+bool vtkTetrahedraIsosurfaceMapper::MakePicture(
+  MapperFrame& frame, const tetralux::CPUPicture& picture)
+{
+  frame.Method = "isosurface";
+  tetralux::IsosurfaceOptions options;
+  options.MaximumError = frame.MaximumError;
+  options.Shaded = frame.Shaded;
+  options.SmoothShading = frame.Settings.SmoothShading;
+  options.Shadows = this->Shadows != 0;
+  options.Lights = frame.Lights;
+  options.Surface = frame.Surface;
+  options.MaximumLayers = this->MaximumNumberOfPeels;
+  options.NumberOfThreads = this->NumberOfThreads;
+  options.Progress = [&frame](double fraction) { return frame.ReportProgress(fraction); };
+  const tetralux::IsosurfaceStatistics statistics = this->Private->Tracer.Trace(
+    *frame.Scene, picture.Grid, picture.Limits, options, picture.Colors, picture.Depths);
+  frame.Integration = tetralux::Integrator::Isosurfaces;
+  frame.Aborted = statistics.Aborted;
+  Describe(statistics, picture, frame);
+  frame.ReportOmission(!options.Shadows, "shadows", "they are off");
+  return statistics.Hits > 0;
+}
+
+//------------------------------------------------------------------------------------------------
+tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, MaximumNumberOfPeels, int);
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraIsosurfaceMapper::PrintProperties(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintProperties(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
+  printer.Print("Shadows", this->Shadows);
+  printer.Print("MaximumNumberOfPeels", this->MaximumNumberOfPeels);
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTetrahedraIsosurfaceMapper
+ * @brief   isosurfaces of unstructured grids, traced on the processor
+ *
+ * Renders the surfaces of the property's IsoSurfaceValues, each with its colour and scalar opacity,
+ * by tracing packets of rays through a hierarchy over all values of the data (Wald, Friedrich,
+ * Knoll and Hansen, Interactive Isosurface Ray Tracing of Time-Varying Tetrahedral Volumes, 2007).
+ * A surface is planar in each tetrahedron, as vtkContourFilter extracts it, without holes. Values
+ * change at little cost, and so do time steps: new scalars refit ranges, moved points refit boxes.
+ *
+ * Accepts what vtkTetrahedraVolumeMapper accepts, with scalars at points; scalars at cells are an
+ * error. BlendMode is ISOSURFACE_BLEND, and no other. If the property's Shade is on, the lights of
+ * the renderer shine on surfaces from both sides; with Shadows surfaces block them. Transparent
+ * surfaces are composited in exact order. The picture does not depend on the number of threads.
+ *
+ * GetStatistics() says what was rebuilt for a frame, and counts what packets did ("traversal").
+ * Properties of pre-integration and Reentry are not used.
+ *
+ * @sa vtkTetrahedraVolumeMapper, vtkContour3DLinearGrid
+ */
+#ifndef vtkTetrahedraIsosurfaceMapper_h
+#define vtkTetrahedraIsosurfaceMapper_h
+
+#include "TetraluxRenderingModule.h" // For export macro
+#include "vtkTetrahedraCPUMapper.h"
+
+#include <memory> // For std::unique_ptr
+
+class TETRALUXRENDERING_EXPORT vtkTetrahedraIsosurfaceMapper : public vtkTetrahedraCPUMapper
+{
+public:
+  static vtkTetrahedraIsosurfaceMapper* New();
+  vtkTypeMacro(vtkTetrahedraIsosurfaceMapper, vtkTetrahedraCPUMapper);
+
+  /**
+   * Accept ISOSURFACE_BLEND, and refuse any other mode with an error.
+   */
+  void SetBlendMode(int mode) override;
+
+  ///@{
+  /**
+   * Set whether surfaces block the light of the renderer's lights, where the property's Shade is on
+   * (section 7 of the paper). Default off. What is clipped or cropped away blocks nothing; opaque
+   * geometry of other props blocks nothing either.
+   */
+  vtkSetMacro(Shadows, vtkTypeBool);
+  vtkGetMacro(Shadows, vtkTypeBool);
+  vtkBooleanMacro(Shadows, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Set how many surfaces a ray meets at most, 0 to 1000. Default 0: as many as MaximumError asks
+   * for. What a ray may miss by it is in the error estimate.
+   */
+  virtual void SetMaximumNumberOfPeels(int peels);
+  vtkGetMacro(MaximumNumberOfPeels, int);
+  ///@}
+
+protected:
+  vtkTetrahedraIsosurfaceMapper();
+  ~vtkTetrahedraIsosurfaceMapper() override;
+
+  bool MakePicture(tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
+  void PrintProperties(ostream& os, vtkIndent indent) override;
+
+  vtkTypeBool Shadows = 0;
+  int MaximumNumberOfPeels = 0;
+
+private:
+  vtkTetrahedraIsosurfaceMapper(const vtkTetrahedraIsosurfaceMapper&) = delete;
+  void operator=(const vtkTetrahedraIsosurfaceMapper&) = delete;
+
+  class Internals;
+  std::unique_ptr<Internals> Private;
+};
+
+#endif
