@@ -32,10 +32,8 @@ void SetUnits(MinMaxRanges& ranges, Span<const double> scalars, int numberOfThre
   double lower = Largest;
   double upper = -Largest;
   const auto size = static_cast<std::int64_t>(scalars.size());
-#pragma omp parallel for schedule(static) num_threads(numberOfThreads) reduction(min               \
-                                                                                 : lower)          \
-  reduction(max                                                                                    \
-            : upper)
+#pragma omp parallel num_threads(numberOfThreads)
+#pragma omp for schedule(static) reduction(min : lower) reduction(max : upper)
   for (std::int64_t p = 0; p < size; ++p)
   {
     if (std::isfinite(scalars[p]))
@@ -49,9 +47,10 @@ void SetUnits(MinMaxRanges& ranges, Span<const double> scalars, int numberOfThre
     return;
   }
   ranges.Offset = lower;
-  // A quotient that overflows, as where all scalars are equal, becomes the largest number.
   const double width = std::min(upper - lower, Largest);
-  ranges.Scale = std::min(MinMaxRanges::LargestStep / width, Largest);
+  // A quotient that would overflow, as where all scalars are equal, is the largest number.
+  constexpr double SmallestWidth = MinMaxRanges::LargestStep / Largest;
+  ranges.Scale = width > SmallestWidth ? MinMaxRanges::LargestStep / width : Largest;
 }
 
 } // namespace
@@ -93,6 +92,7 @@ MinMaxRanges MakeMinMaxRanges(const MinMaxTree& tree, const TetrahedralMesh& mes
         ranges.Nodes[nodeId] = Join(ranges.Nodes[nodeId + 1], ranges.Nodes[node.First]);
         return;
       }
+      PrefetchCells(tree, mesh, node);
       MinMaxTree::Range range = EmptyRange;
       for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
       {

@@ -48,19 +48,19 @@ struct MinMaxTree
 /// tree, and cost 4 bytes a node each (section 6 of the paper).
 struct MinMaxRanges
 {
-  /// The step of the largest finite scalar is this or one less; that of the least is 0.
+  /// Steps of finite scalars are in 0 ... LargestStep.
   static constexpr std::int32_t LargestStep = 65534;
 
-  /// The step of a scalar is (scalar - Offset) * Scale, rounded down. Both are finite. Where the
-  /// difference overflows it is the largest number.
+  /// The step of a scalar is (scalar - Offset) * Scale, rounded down. Both are finite. A difference
+  /// that overflows is cut to the largest number.
   double Offset = 0;
   double Scale = 1;
 
   std::vector<MinMaxTree::Range> Nodes; ///< one for each node of the tree
 
-  /// The step of any value; cut to -1 below the least scalar and to LargestStep + 1 above the
-  /// largest one. -1 for what is not a number. A larger value never has a smaller step: a value
-  /// between two scalars has a step between theirs.
+  /// The step of any value, cut to -1 ... LargestStep + 1; -1 for what is not a number. The larger
+  /// of two values never has the smaller step, so that a value between two scalars has a step
+  /// between theirs.
   TETRALUXCORE_EXPORT std::int32_t GetStep(double value) const;
 
   /// Whether a node may have cells that the surface of a value crosses. false only if each of its

@@ -50,6 +50,7 @@ void RefitMinMaxTree(MinMaxTree& tree, const TetrahedralMesh& mesh, const double
         }
         return;
       }
+      PrefetchCells(tree, mesh, node);
       // Differences and quotients are monotonic: only those of the extremes are needed.
       constexpr double Largest = std::numeric_limits<double>::max();
       double lower[3] = { Largest, Largest, Largest };
