@@ -14,10 +14,11 @@ namespace tetralux
 namespace
 {
 
-constexpr int LargestStep = std::numeric_limits<std::uint16_t>::max();
+/// Stands for the step of a scalar that is not finite: above all others.
+constexpr std::uint16_t NoStep = MinMaxRanges::LargestStep + 1;
 
 /// No scalar: neutral where ranges are joined.
-constexpr MinMaxTree::Range EmptyRange = { LargestStep, 0 };
+constexpr MinMaxTree::Range EmptyRange = { NoStep, 0 };
 
 MinMaxTree::Range Join(MinMaxTree::Range a, MinMaxTree::Range b)
 {
@@ -31,10 +32,8 @@ void SetUnits(MinMaxRanges& ranges, Span<const double> scalars, int numberOfThre
   double lower = Largest;
   double upper = -Largest;
   const auto size = static_cast<std::int64_t>(scalars.size());
-#pragma omp parallel for schedule(static) num_threads(numberOfThreads) reduction(min               \
-                                                                                 : lower)          \
-  reduction(max                                                                                    \
-            : upper)
+#pragma omp parallel num_threads(numberOfThreads)
+#pragma omp for schedule(static) reduction(min : lower) reduction(max : upper)
   for (std::int64_t p = 0; p < size; ++p)
   {
     if (std::isfinite(scalars[p]))
@@ -48,29 +47,23 @@ void SetUnits(MinMaxRanges& ranges, Span<const double> scalars, int numberOfThre
     return;
   }
   ranges.Offset = lower;
-  // A quotient that overflows, as where all scalars are equal, becomes the largest number.
   const double width = std::min(upper - lower, Largest);
-  ranges.Scale = std::min(LargestStep / width, Largest);
-  // The quotient is rounded; the largest scalar must not lie above the largest step.
-  while (width * ranges.Scale > LargestStep)
-  {
-    ranges.Scale = std::nextafter(ranges.Scale, 0.);
-  }
+  // A quotient that would overflow, as where all scalars are equal, is the largest number.
+  constexpr double SmallestWidth = MinMaxRanges::LargestStep / Largest;
+  ranges.Scale = width > SmallestWidth ? MinMaxRanges::LargestStep / width : Largest;
 }
 
 } // namespace
 
-MinMaxRanges::Steps MinMaxRanges::GetSteps(double value) const
+std::int32_t MinMaxRanges::GetStep(double value) const
 {
   if (std::isnan(value))
   {
-    return { -1, LargestStep + 1 };
+    return -1;
   }
   constexpr double Largest = std::numeric_limits<double>::max();
-  const double steps = std::clamp(value - this->Offset, -Largest, Largest) * this->Scale;
-  const double inside = std::clamp(steps, -1., LargestStep + 1.);
-  return { static_cast<std::int32_t>(std::floor(inside)),
-    static_cast<std::int32_t>(std::ceil(inside)) };
+  const double step = std::clamp(value - this->Offset, -Largest, Largest) * this->Scale;
+  return static_cast<std::int32_t>(std::floor(std::clamp(step, -1., LargestStep + 1.)));
 }
 
 MinMaxRanges MakeMinMaxRanges(const MinMaxTree& tree, const TetrahedralMesh& mesh,
@@ -79,18 +72,14 @@ MinMaxRanges MakeMinMaxRanges(const MinMaxTree& tree, const TetrahedralMesh& mes
   const int threads = CountThreads(numberOfThreads);
   MinMaxRanges ranges;
   SetUnits(ranges, scalars, threads);
-  // Rounded once for each point: a cell's corners are read in 4 bytes each then.
+  // Once for each point: a cell's corners are read in two bytes each then.
   const auto numberOfPoints = static_cast<std::int64_t>(scalars.size());
-  const auto points = NewArray<MinMaxTree::Range>(numberOfPoints);
+  const auto steps = NewArray<std::uint16_t>(numberOfPoints);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::int64_t p = 0; p < numberOfPoints; ++p)
   {
-    points[p] = EmptyRange;
-    if (std::isfinite(scalars[p]))
-    {
-      const MinMaxRanges::Steps steps = ranges.GetSteps(scalars[p]);
-      points[p] = { static_cast<std::uint16_t>(steps.Down), static_cast<std::uint16_t>(steps.Up) };
-    }
+    steps[p] =
+      std::isfinite(scalars[p]) ? static_cast<std::uint16_t>(ranges.GetStep(scalars[p])) : NoStep;
   }
 
   ranges.Nodes.resize(tree.Nodes.size());
@@ -103,19 +92,18 @@ MinMaxRanges MakeMinMaxRanges(const MinMaxTree& tree, const TetrahedralMesh& mes
         ranges.Nodes[nodeId] = Join(ranges.Nodes[nodeId + 1], ranges.Nodes[node.First]);
         return;
       }
+      PrefetchCells(tree, mesh, node);
       MinMaxTree::Range range = EmptyRange;
       for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
       {
         const std::int32_t* ids = &mesh.Cells[std::size_t{ 4 } * tree.Cells[i]];
-        MinMaxTree::Range cell = points[ids[0]];
-        bool isFinite = cell.Least <= cell.Largest;
-        for (int corner = 1; corner < 4; ++corner)
+        MinMaxTree::Range cell = EmptyRange;
+        for (int corner = 0; corner < 4; ++corner)
         {
-          const MinMaxTree::Range point = points[ids[corner]];
-          isFinite &= point.Least <= point.Largest;
-          cell = Join(cell, point);
+          const std::uint16_t step = steps[ids[corner]];
+          cell = Join(cell, { step, step });
         }
-        range = isFinite ? Join(range, cell) : range;
+        range = Join(range, cell.Largest == NoStep ? EmptyRange : cell);
       }
       ranges.Nodes[nodeId] = range;
     });

@@ -32,7 +32,7 @@ struct MinMaxTree
     std::int32_t Count;
   };
 
-  /// The least and the largest scalar of a node's cells, rounded outward to 16 bits. Least >
+  /// The least and the largest scalar of a node's cells, in the steps of MinMaxRanges. Least >
   /// Largest: no cell has finite scalars.
   struct Range
   {
@@ -48,29 +48,26 @@ struct MinMaxTree
 /// tree, and cost 4 bytes a node each (section 6 of the paper).
 struct MinMaxRanges
 {
-  /// A value in units of the ranges, rounded down and up: in 0 ... 65535, or -1 below the least and
-  /// 65536 above the largest finite scalar.
-  struct Steps
-  {
-    std::int32_t Down;
-    std::int32_t Up;
-  };
+  /// Steps of finite scalars are in 0 ... LargestStep.
+  static constexpr std::int32_t LargestStep = 65534;
 
-  /// Units of the ranges are (scalar - Offset) * Scale; both are finite. The difference is cut to
-  /// finite numbers where it overflows.
+  /// The step of a scalar is (scalar - Offset) * Scale, rounded down. Both are finite. A difference
+  /// that overflows is cut to the largest number.
   double Offset = 0;
   double Scale = 1;
 
   std::vector<MinMaxTree::Range> Nodes; ///< one for each node of the tree
 
-  /// A value that is not a number is in no range.
-  TETRALUXCORE_EXPORT Steps GetSteps(double value) const;
+  /// The step of any value, cut to -1 ... LargestStep + 1; -1 for what is not a number. The larger
+  /// of two values never has the smaller step, so that a value between two scalars has a step
+  /// between theirs.
+  TETRALUXCORE_EXPORT std::int32_t GetStep(double value) const;
 
-  /// Whether a node may hold cells that the surface of a value crosses: false only if all scalars
-  /// of its cells are below the value or all are above it.
-  static bool Holds(MinMaxTree::Range range, Steps value)
+  /// Whether a node may have cells that the surface of a value crosses. false only if each of its
+  /// cells has all scalars below the value or all above it, or one that is not finite.
+  static bool Holds(MinMaxTree::Range range, std::int32_t stepOfValue)
   {
-    return range.Least <= value.Down && value.Up <= range.Largest;
+    return range.Least <= stepOfValue && stepOfValue <= range.Largest;
   }
 };
 

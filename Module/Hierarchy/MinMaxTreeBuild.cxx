@@ -92,28 +92,42 @@ struct SplitBySurfaceArea
     }
   };
 
-  static int FindBin(const CellBox& cell, const MiddleBox& box, int axis)
+  /// Equal bins from the lower to the upper end of a box.
+  struct Axis
   {
-    const double x = double{ cell.GetMiddle(axis) } - box.Lower[axis];
-    const double edge = double{ box.Upper[axis] } - box.Lower[axis];
-    return std::min(NumberOfBins - 1, static_cast<int>(x / edge * NumberOfBins));
-  }
+    int Number;
+    double Lower;
+    double BinsPerLength;
+
+    Axis(const MiddleBox& box, int number)
+      : Number(number)
+      , Lower(box.Lower[number])
+      , BinsPerLength(NumberOfBins / (box.Upper[number] - this->Lower))
+    {
+    }
+    int FindBin(const CellBox& cell) const
+    {
+      const double x = cell.GetMiddle(this->Number) - this->Lower;
+      return std::min(NumberOfBins - 1, static_cast<int>(x * this->BinsPerLength));
+    }
+  };
 
   CellBox* operator()(CellBox* begin, CellBox* end, const MiddleBox& box) const
   {
     int bestAxis = -1;
     int bestBin = 0;
     double bestCost = std::numeric_limits<double>::max();
-    for (int axis = 0; axis < 3; ++axis)
+    for (int a = 0; a < 3; ++a)
     {
-      if (!(box.Lower[axis] < box.Upper[axis]))
+      if (!(box.Lower[a] < box.Upper[a]))
       {
         continue;
       }
+      const Axis axis(box, a);
       std::array<Bin, NumberOfBins> bins;
       for (const CellBox* cell = begin; cell < end; ++cell)
       {
-        bins[FindBin(*cell, box, axis)].Add(*cell, 1);
+        bins[axis.FindBin(*cell)].Add(*cell, 1);
       }
       std::array<double, NumberOfBins> right{};
       Bin sweep;
@@ -134,7 +148,7 @@ struct SplitBySurfaceArea
         if (cost < bestCost)
         {
           bestCost = cost;
-          bestAxis = axis;
+          bestAxis = a;
           bestBin = k;
         }
       }
@@ -143,8 +157,9 @@ struct SplitBySurfaceArea
     {
       return begin;
     }
+    const Axis axis(box, bestAxis);
     return PartitionItems(
-      begin, end, [&](const CellBox& cell) { return FindBin(cell, box, bestAxis) < bestBin; });
+      begin, end, [&axis, bestBin](const CellBox& cell) { return axis.FindBin(cell) < bestBin; });
   }
 };
 

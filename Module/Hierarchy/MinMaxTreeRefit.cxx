@@ -13,17 +13,22 @@ namespace tetralux
 namespace
 {
 
+/// How far single precision moves a number at most, as a share of it. A little more than half of
+/// its epsilon, for what double precision rounds here.
+constexpr double Rounding = 0x1p-24 * (1 + 0x1p-20);
+
+/// And where it is not a normal number.
+constexpr double SmallestRounding = std::numeric_limits<float>::denorm_min();
+
+/// Single precision at or below a number, at most two steps. Faster than to look for the next one.
 float RoundDown(double x)
 {
-  const auto rounded = static_cast<float>(x);
-  return rounded > x ? std::nextafter(rounded, std::numeric_limits<float>::lowest()) : rounded;
+  constexpr double Largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::min(x - (Rounding * std::abs(x) + SmallestRounding), Largest));
 }
 
-float RoundUp(double x)
-{
-  const auto rounded = static_cast<float>(x);
-  return rounded < x ? std::nextafter(rounded, std::numeric_limits<float>::max()) : rounded;
-}
+/// Single precision at or above a number.
+float RoundUp(double x) { return -RoundDown(-x); }
 
 } // namespace
 
@@ -45,6 +50,7 @@ void RefitMinMaxTree(MinMaxTree& tree, const TetrahedralMesh& mesh, const double
         }
         return;
       }
+      PrefetchCells(tree, mesh, node);
       // Differences and quotients are monotonic: only those of the extremes are needed.
       constexpr double Largest = std::numeric_limits<double>::max();
       double lower[3] = { Largest, Largest, Largest };

@@ -4,6 +4,8 @@
 
 #include "Hierarchy/MinMaxTree.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,20 @@ struct NodeSpan
   std::int32_t Begin;
   std::int32_t End;
 };
+
+/// Asks memory for the cells of a leaf that is visited some leaves after this one. Cells of leaves
+/// are scattered over the mesh, so the processor does not foresee where it will read.
+inline void PrefetchCells(
+  const MinMaxTree& tree, const TetrahedralMesh& mesh, const MinMaxTree::Node& leaf)
+{
+  // Cells: about as long as memory takes to answer. Twice and half as many are as fast.
+  constexpr std::int32_t Distance = 64;
+  for (std::int32_t i = std::max(0, leaf.First - Distance); i < leaf.First - Distance + leaf.Count;
+       ++i)
+  {
+    __builtin_prefetch(&mesh.Cells[std::size_t{ 4 } * tree.Cells[i]]);
+  }
+}
 
 /// Calls visit(node id) once for each node of a tree, children before their parents. Subtrees are
 /// visited in parallel, the few nodes above them by one thread (section 6.2 of the paper).

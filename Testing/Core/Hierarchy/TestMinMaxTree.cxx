@@ -180,8 +180,8 @@ bool Crosses(const TetrahedralMesh& mesh, Span<const double> scalars, std::int32
   return below > 0 && below < 4;
 }
 
-/// Checks that each node holds the values whose surfaces cross its cells, and that its range is no
-/// more than a step wider than the scalars of its cells.
+/// Checks that each node holds the values whose surfaces cross its cells, and that its range is
+/// that of the scalars of its cells.
 void CheckRanges(const TetrahedralMesh& mesh, Span<const double> scalars, const MinMaxTree& tree,
   const std::vector<double>& values)
 {
@@ -224,11 +224,11 @@ void CheckRanges(const TetrahedralMesh& mesh, Span<const double> scalars, const 
       EXPECT_GT(range.Least, range.Largest);
       continue;
     }
-    loose += range.Least == ranges.GetSteps(least).Down ? 0 : 1;
-    loose += range.Largest == ranges.GetSteps(largest).Up ? 0 : 1;
+    loose += range.Least == ranges.GetStep(least) ? 0 : 1;
+    loose += range.Largest == ranges.GetStep(largest) ? 0 : 1;
     for (std::size_t k = 0; k < values.size(); ++k)
     {
-      const bool holds = MinMaxRanges::Holds(range, ranges.GetSteps(values[k]));
+      const bool holds = MinMaxRanges::Holds(range, ranges.GetStep(values[k]));
       missed += isCrossed[k] && !holds ? 1 : 0;
     }
   }
@@ -389,7 +389,7 @@ TEST(MinMaxTree, HoldsSmallAndLargeAndDistantMeshes)
   {
     double Factor;
     double Offset;
-  } changes[] = { { 1e-30, 0 }, { 1e30, 0 }, { 1, 1e7 } };
+  } changes[] = { { 1e-30, 0 }, { 1e30, 0 }, { 1, 1e7 }, { 1e-42, 0 } };
   for (const auto& change : changes)
   {
     TetrahedralMesh mesh = unit;
@@ -451,6 +451,22 @@ TEST(MinMaxTree, FitsPointsThatMoved)
   }
 }
 
+TEST(MinMaxRanges, CountStepsFromTheLeastScalar)
+{
+  MinMaxRanges ranges;
+  ranges.Offset = 10;
+  ranges.Scale = 2;
+  EXPECT_EQ(ranges.GetStep(-Infinity), -1);
+  EXPECT_EQ(ranges.GetStep(-1e300), -1);
+  EXPECT_EQ(ranges.GetStep(std::nextafter(10, 0)), -1);
+  EXPECT_EQ(ranges.GetStep(10), 0);
+  EXPECT_EQ(ranges.GetStep(std::nextafter(10.5, 0)), 0);
+  EXPECT_EQ(ranges.GetStep(10.5), 1);
+  EXPECT_EQ(ranges.GetStep(1e300), MinMaxRanges::LargestStep + 1);
+  EXPECT_EQ(ranges.GetStep(Infinity), MinMaxRanges::LargestStep + 1);
+  EXPECT_EQ(ranges.GetStep(NaN), -1);
+}
+
 TEST(MinMaxRanges, HoldWhatSurfacesCross)
 {
   const std::pair<const char*, std::map<std::string, double>> meshes[] = {
@@ -476,9 +492,9 @@ TEST(MinMaxRanges, LeaveOutMostNodes)
   const MinMaxRanges ranges = MakeMinMaxRanges(tree, ball.Mesh, ball.Scalars, 0);
   const auto count = [&](double value)
   {
-    const MinMaxRanges::Steps steps = ranges.GetSteps(value);
+    const std::int32_t step = ranges.GetStep(value);
     return std::count_if(ranges.Nodes.begin(), ranges.Nodes.end(),
-      [&](MinMaxTree::Range range) { return MinMaxRanges::Holds(range, steps); });
+      [&](MinMaxTree::Range range) { return MinMaxRanges::Holds(range, step); });
   };
   const auto [least, largest] = std::minmax_element(ball.Scalars.begin(), ball.Scalars.end());
   const double nearLargest = 0.05 * *least + 0.95 * *largest;
@@ -513,6 +529,10 @@ TEST(MinMaxRanges, HoldSmallAndLargeAndDistantScalars)
       s = (2 * (s - lower) / width - 1) * change.Factor + change.Offset;
     }
     CheckRanges(generated.Mesh, scalars, tree, MakeValues(scalars));
+    const MinMaxRanges ranges = MakeMinMaxRanges(tree, generated.Mesh, scalars, 0);
+    // All steps are in use, but where that takes a scale beyond double precision.
+    EXPECT_EQ(ranges.Nodes[0].Least, 0);
+    EXPECT_TRUE(ranges.Nodes[0].Largest >= MinMaxRanges::LargestStep - 1 || change.Factor < 1e-300);
   }
 }
 
@@ -525,8 +545,8 @@ TEST(MinMaxRanges, HoldOneScalarAlone)
     const std::vector<double> scalars(mesh.GetNumberOfPoints(), scalar);
     CheckRanges(mesh, scalars, tree, MakeValues(scalars));
     const MinMaxRanges ranges = MakeMinMaxRanges(tree, mesh, scalars, 0);
-    EXPECT_FALSE(MinMaxRanges::Holds(ranges.Nodes[0], ranges.GetSteps(scalar + 1e25)));
-    EXPECT_FALSE(MinMaxRanges::Holds(ranges.Nodes[0], ranges.GetSteps(scalar - 1e25)));
+    EXPECT_FALSE(MinMaxRanges::Holds(ranges.Nodes[0], ranges.GetStep(scalar + 1e25)));
+    EXPECT_FALSE(MinMaxRanges::Holds(ranges.Nodes[0], ranges.GetStep(scalar - 1e25)));
   }
 }
 
@@ -553,7 +573,7 @@ TEST(MinMaxRanges, LeaveOutCellsWithScalarsThatAreNotFinite)
   for (const MinMaxTree::Range range : ranges.Nodes)
   {
     EXPECT_GT(range.Least, range.Largest);
-    EXPECT_FALSE(MinMaxRanges::Holds(range, ranges.GetSteps(0)));
+    EXPECT_FALSE(MinMaxRanges::Holds(range, ranges.GetStep(0)));
   }
 }
 
