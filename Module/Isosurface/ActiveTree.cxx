@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Isosurface/ActiveTree.h"
 
+#include "Isosurface/CellFieldValues.h"
 #include "Isosurface/IsopolygonExtraction.h"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ public:
   {
     for (int i = 0; i < source.NumberOfValues; ++i)
     {
-      this->Values.push_back(ranges.GetSteps(source.Values[i]));
+      this->Steps.push_back(ranges.GetStep(source.Values[i]));
     }
   }
 
@@ -88,9 +89,8 @@ private:
   bool IsActive(std::int32_t node) const
   {
     const MinMaxTree::Range range = this->Ranges.Nodes[node];
-    const auto value = std::lower_bound(this->Values.begin(), this->Values.end(), range.Least,
-      [](const MinMaxRanges::Steps& steps, std::int32_t least) { return steps.Down < least; });
-    return value != this->Values.end() && MinMaxRanges::Holds(range, *value);
+    const auto step = std::lower_bound(this->Steps.begin(), this->Steps.end(), range.Least);
+    return step != this->Steps.end() && MinMaxRanges::Holds(range, *step);
   }
 
   /// Nodes [begin, end) are a node and all below it.
@@ -278,7 +278,7 @@ private:
   const MinMaxTree& Tree;
   const MinMaxRanges& Ranges;
   const IsopolygonSource& Source;
-  std::vector<MinMaxRanges::Steps> Values;
+  std::vector<std::int32_t> Steps; ///< of the values, ascending
   std::vector<Task> Tasks;
   ActiveTree Result;
 };
@@ -289,6 +289,19 @@ ActiveTree MakeActiveTree(
   const MinMaxTree& tree, const MinMaxRanges& ranges, const IsopolygonSource& source, int threads)
 {
   return ActiveTreeBuilder(tree, ranges, source).Build(threads);
+}
+
+std::vector<CellField<3>> MakeGradientFields(
+  const ActiveTree& tree, const IsopolygonSource& source, const GradientRow* gradients, int threads)
+{
+  const auto count = static_cast<std::int64_t>(tree.Polygons.size());
+  std::vector<CellField<3>> fields(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    TETRALUX_ISA::MakeGradientField(source, gradients, tree.Polygons[i].Cell, fields[i]);
+  }
+  return fields;
 }
 
 } // namespace tetralux

@@ -3,7 +3,9 @@
 #define tetralux_ActiveTree_h
 
 #include "Hierarchy/MinMaxTree.h"
+#include "Isosurface/CellField.h"
 #include "Isosurface/Isopolygon.h"
+#include "Mesh/Gradients.h"
 #include "TetraluxCoreModule.h"
 
 #include <vector>
@@ -24,6 +26,10 @@ struct ActiveTree
 /// threads is at least 1; the tree is the same for any number.
 TETRALUXCORE_EXPORT ActiveTree MakeActiveTree(
   const MinMaxTree& tree, const MinMaxRanges& ranges, const IsopolygonSource& source, int threads);
+
+/// The gradients of each polygon's cell, interpolated between those of its points.
+TETRALUXCORE_EXPORT std::vector<CellField<3>> MakeGradientFields(const ActiveTree& tree,
+  const IsopolygonSource& source, const GradientRow* gradients, int threads);
 
 } // namespace tetralux
 

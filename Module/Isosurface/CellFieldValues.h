@@ -5,6 +5,8 @@
 // Makes and evaluates the fields of cells.
 
 #include "Isosurface/CellField.h"
+#include "Isosurface/Isopolygon.h"
+#include "Mesh/Gradients.h"
 #include "Simd/Lanes.h"
 
 namespace tetralux
@@ -60,6 +62,26 @@ TETRALUX_INLINE void MakeCellField(const double (&corners)[4][3],
       field.Slope[k][a] = volume != 0 ? slope / volume : 0;
     }
   }
+}
+
+/// The gradients of a cell, interpolated between its points.
+TETRALUX_NOINLINE void MakeGradientField(const IsopolygonSource& source,
+  const GradientRow* gradients, std::int32_t cell, CellField<3>& field)
+{
+  double corners[4][3], values[4][3];
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::int32_t id = source.Cells[4 * static_cast<std::int64_t>(cell) + i];
+    const double* point = source.Points + 3 * static_cast<std::int64_t>(id);
+    for (int a = 0; a < 3; ++a)
+    {
+      corners[i][a] = (point[a] - source.Frame.Center[a]) / source.Frame.Radius;
+    }
+    values[i][0] = gradients[id].X;
+    values[i][1] = gradients[id].Y;
+    values[i][2] = gradients[id].Z;
+  }
+  MakeCellField(corners, values, field);
 }
 
 template <int Components>

@@ -152,9 +152,9 @@ public:
     StackEntry stack[MinMaxTree::MaximumDepth + 1];
     int depth = 0;
     std::int32_t id = 0;
-    bool tested = false;
+    bool tested = true;
     float nearness = 0;
-    if (!this->Tree.Nodes || !this->IsActive(0))
+    if (!this->Tree.Nodes || !this->IsActive(0) || this->Misses(this->Tree.Nodes[0], nearness))
     {
       return;
     }
@@ -244,11 +244,11 @@ private:
     while (low < high)
     {
       const int middle = (low + high) / 2;
-      const bool below = this->Tree.ValueSteps[middle].Down < range.Least;
+      const bool below = this->Tree.ValueSteps[middle] < range.Least;
       low = below ? middle + 1 : low;
       high = below ? high : middle;
     }
-    return low < this->Tree.Source.NumberOfValues && this->Tree.ValueSteps[low].Up <= range.Largest;
+    return low < this->Tree.Source.NumberOfValues && this->Tree.ValueSteps[low] <= range.Largest;
   }
 
   void HitLeaf(const MinMaxTree::Node& node)

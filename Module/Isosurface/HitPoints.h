@@ -15,26 +15,6 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// A cell's gradients as a field, where they are interpolated between points.
-TETRALUX_NOINLINE void MakeGradientField(const IsopolygonSource& source,
-  const GradientRow* gradients, std::int32_t cell, CellField<3>& field)
-{
-  double corners[4][3], values[4][3];
-  for (int i = 0; i < 4; ++i)
-  {
-    const std::int32_t id = source.Cells[4 * static_cast<std::int64_t>(cell) + i];
-    const double* point = source.Points + 3 * static_cast<std::int64_t>(id);
-    for (int a = 0; a < 3; ++a)
-    {
-      corners[i][a] = (point[a] - source.Frame.Center[a]) / source.Frame.Radius;
-    }
-    values[i][0] = gradients[id].X;
-    values[i][1] = gradients[id].Y;
-    values[i][2] = gradients[id].Z;
-  }
-  MakeCellField(corners, values, field);
-}
-
 /// Fills the points and, where there is light, the gradients of a chunk's hits.
 TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch& scratch, int chunk)
 {

@@ -21,44 +21,70 @@ namespace
 /// a corner hits all polygons there. Thousand times the rounding of a key.
 constexpr double LayerDistance = 1e-12;
 
-/// Fills the rays of a packet.
-TETRALUX_INLINE void StartRays(
-  const IsosurfaceInput& in, int x0, int y0, int x1, int y1, IsosurfaceScratch& scratch)
+/// The key at which opaque geometry ends a pixel's ray.
+TETRALUX_INLINE double FindEnd(const IsosurfaceInput& in, int x, int y)
 {
-  RayPacket& packet = scratch.Rays;
-  const RayGrid& grid = *in.Grid;
-  for (int i = 0; i < RayPacket::MaximumRays; ++i)
+  if (!in.MaximumDistances)
   {
-    const int x = x0 + GetPacketColumn(i);
-    const int y = y0 + GetPacketRow(i);
-    packet.U[i] = x;
-    packet.V[i] = y;
-    packet.Hit[i] = -1;
-    packet.Near[i] = InfiniteKey;
-    double far = InfiniteKey;
-    if (x < x1 && y < y1)
-    {
-      far = in.Frame.Parallel ? -InfiniteKey : 0;
-      if (in.MaximumDistances)
-      {
-        double squared = 0;
-        for (int a = 0; a < 3; ++a)
-        {
-          const double d =
-            grid.Direction[a] + x * grid.DirectionStepX[a] + y * grid.DirectionStepY[a];
-          squared += d * d;
-        }
-        const double depth = in.MaximumDistances[static_cast<std::int64_t>(y) * grid.Width + x] /
-          __builtin_sqrt(squared);
-        far = in.Frame.Parallel ? -depth : depth > 0 ? 1 / depth : InfiniteKey;
-      }
-    }
-    packet.Far[i] = scratch.StartFar[i] = far;
+    return in.Frame.Parallel ? -InfiniteKey : 0;
   }
+  const RayGrid& grid = *in.Grid;
+  double squared = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double d = grid.Direction[a] + x * grid.DirectionStepX[a] + y * grid.DirectionStepY[a];
+    squared += d * d;
+  }
+  const double distance = in.MaximumDistances[static_cast<std::int64_t>(y) * grid.Width + x];
+  const double depth = distance / __builtin_sqrt(squared);
+  return in.Frame.Parallel ? -depth : depth > 0 ? 1 / depth : InfiniteKey;
 }
 
-/// Composites the hits of a layer below what is there.
-TETRALUX_INLINE void CompositeChunk(
+/// Fills the rays of a packet and its bounds. Returns whether any takes part.
+TETRALUX_INLINE bool StartRays(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
+  float margin, IsosurfaceScratch& scratch)
+{
+  RayPacket& packet = scratch.Rays;
+  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
+  {
+    const int x = x0 + GetChunkColumn(chunk);
+    const int y = y0 + GetChunkRow(chunk);
+    const int first = chunk * LaneCount;
+    for (int i = 0; i < LaneCount; ++i)
+    {
+      const int column = x + i % RayPacket::ChunkWidth;
+      const int row = y + i / RayPacket::ChunkWidth;
+      packet.U[first + i] = column;
+      packet.V[first + i] = row;
+      packet.Hit[first + i] = -1;
+      packet.Near[first + i] = InfiniteKey;
+      packet.Far[first + i] = in.Frame.Parallel ? -InfiniteKey : 0;
+    }
+    const bool whole = x + RayPacket::ChunkWidth <= x1 && y + RayPacket::ChunkHeight <= y1;
+    if (in.MaximumDistances || !whole)
+    {
+      for (int i = 0; i < LaneCount; ++i)
+      {
+        const int column = x + i % RayPacket::ChunkWidth;
+        const int row = y + i / RayPacket::ChunkWidth;
+        packet.Far[first + i] = column < x1 && row < y1 ? FindEnd(in, column, row) : InfiniteKey;
+      }
+    }
+    for (int i = first; i < first + LaneCount; ++i)
+    {
+      scratch.StartFar[i] = packet.Far[i];
+      scratch.Depths[i] = -1;
+      for (auto& channel : scratch.Colors)
+      {
+        channel[i] = 0;
+      }
+    }
+  }
+  return FitBounds(packet, margin);
+}
+
+/// Composites the hits of a layer below what is there. Returns their number.
+TETRALUX_INLINE int CompositeChunk(
   const IsosurfaceInput& in, IsosurfaceScratch& scratch, int chunk, bool first)
 {
   const RayPacket& rays = scratch.Rays;
@@ -67,10 +93,6 @@ TETRALUX_INLINE void CompositeChunk(
   for (int i = 0; i < LaneCount; ++i)
   {
     bits |= rays.Hit[begin + i] >= 0 ? 1u << i : 0u;
-  }
-  if (bits == 0)
-  {
-    return;
   }
   const Mask8 hits = MaskFromBits(bits);
   const Int8 surface = Select(hits, LoadInt8(scratch.Surfaces + begin), Int8(0));
@@ -105,6 +127,7 @@ TETRALUX_INLINE void CompositeChunk(
   const Float8 known = LoadFloat8(depth);
   const Mask8 sets = hits & (Float8(0.f) < opacity) & (first ? hits : known < Float8(0.f));
   Store(depth, Select(sets, LoadFloat8(scratch.Distances + begin), known));
+  return __builtin_popcount(bits);
 }
 
 /// Sends the rays on that are not opaque yet. Returns whether there are any.
@@ -139,73 +162,115 @@ TETRALUX_INLINE void CountLostRays(
   }
 }
 
-void DrawPacket(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
-  IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
+/// The chunks that have hits, one bit each.
+TETRALUX_INLINE std::uint32_t FindHitChunks(const RayPacket& packet)
+{
+  std::uint32_t chunks = 0;
+  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
+  {
+    // A hit is not negative, so its sign bit is clear.
+    std::int64_t all = -1;
+    for (int i = chunk * LaneCount; i < (chunk + 1) * LaneCount; ++i)
+    {
+      all &= packet.Hit[i];
+    }
+    chunks |= (all >= 0 ? 1u : 0u) << chunk;
+  }
+  return chunks;
+}
+
+/// Finds and composites the surfaces of a packet, one layer after the other. Returns whether there
+/// are any.
+bool DrawLayers(
+  const IsosurfaceInput& in, float margin, IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
   RayPacket& packet = scratch.Rays;
-  StartRays(in, x0, y0, x1, y1, scratch);
-  for (int i = 0; i < RayPacket::MaximumRays; ++i)
+  for (int layer = 0; layer < in.MaximumLayers; ++layer)
   {
-    for (auto& channel : scratch.Colors)
-    {
-      channel[i] = 0;
-    }
-    scratch.Depths[i] = -1;
-  }
-  const double largest = x1 > y1 ? x1 : y1;
-  bool any = true;
-  for (int layer = 0; any && layer < in.MaximumLayers; ++layer)
-  {
-    if (!FitBounds(packet, GetPacketMargin(largest)))
-    {
-      break;
-    }
     PacketTraversal<false>(in.Tree, in.Frame, in.Limits, packet, counts.Primary).Trace();
-    any = false;
-    std::int64_t hits = 0;
-    for (int i = 0; i < RayPacket::MaximumRays; ++i)
+    const std::uint32_t chunks = FindHitChunks(packet);
+    if (chunks == 0)
     {
-      hits += packet.Hit[i] >= 0;
+      return layer > 0;
     }
-    if (hits == 0)
+    for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
     {
-      break;
-    }
-    counts.Hits += hits;
-    for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
-    {
-      FindHitPoints(in, scratch, chunk);
+      FindHitPoints(in, scratch, __builtin_ctz(rest));
     }
     for (int l = 0; l < in.NumberOfShadows; ++l)
     {
       const ShadowSource& source = in.Shadows[l];
-      FindShadows(
-        in, source, scratch, counts, scratch.Visible + source.Light * RayPacket::MaximumRays);
+      FindShadows(in, source, chunks, scratch, counts,
+        scratch.Visible + source.Light * RayPacket::MaximumRays);
     }
-    for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
+    for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
     {
-      CompositeChunk(in, scratch, chunk, layer == 0);
+      counts.Hits += CompositeChunk(in, scratch, __builtin_ctz(rest), layer == 0);
     }
     if (layer + 1 == in.MaximumLayers)
     {
       CountLostRays(in, scratch, counts);
     }
-    any = StartNextLayer(in, scratch);
-  }
-  for (int i = 0; i < RayPacket::MaximumRays; ++i)
-  {
-    const int x = x0 + GetPacketColumn(i);
-    const int y = y0 + GetPacketRow(i);
-    if (x < x1 && y < y1)
+    if (!StartNextLayer(in, scratch) || !FitBounds(packet, margin))
     {
-      const std::int64_t pixel = static_cast<std::int64_t>(y) * in.Grid->Width + x;
-      for (int c = 0; c < 4; ++c)
-      {
-        in.Colors[4 * pixel + c] = scratch.Colors[c][i];
-      }
-      in.Depths[pixel] = scratch.Depths[i];
+      break;
     }
   }
+  return true;
+}
+
+/// Stores the packet's part of the picture; nothing where it is empty.
+TETRALUX_INLINE void StorePixels(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
+  bool isEmpty, const IsosurfaceScratch& scratch)
+{
+  const std::int64_t width = in.Grid->Width;
+  if (isEmpty)
+  {
+    for (int y = y0; y < y1; ++y)
+    {
+      float* colors = in.Colors + 4 * (y * width);
+      float* depths = in.Depths + y * width;
+      for (int i = 4 * x0; i < 4 * x1; ++i)
+      {
+        colors[i] = 0;
+      }
+      for (int x = x0; x < x1; ++x)
+      {
+        depths[x] = -1;
+      }
+    }
+    return;
+  }
+  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
+  {
+    const int x = x0 + GetChunkColumn(chunk);
+    for (int row = 0; row < RayPacket::ChunkHeight; ++row)
+    {
+      const int y = y0 + GetChunkRow(chunk) + row;
+      const int first = chunk * LaneCount + row * RayPacket::ChunkWidth;
+      const int count =
+        y < y1 ? (x1 - x < RayPacket::ChunkWidth ? x1 - x : RayPacket::ChunkWidth) : 0;
+      float* colors = in.Colors + 4 * (y * width + x);
+      float* depths = in.Depths + y * width + x;
+      for (int i = 0; i < count; ++i)
+      {
+        for (int c = 0; c < 4; ++c)
+        {
+          colors[4 * i + c] = scratch.Colors[c][first + i];
+        }
+        depths[i] = scratch.Depths[first + i];
+      }
+    }
+  }
+}
+
+void DrawPacket(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
+  IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
+{
+  const float margin = GetPacketMargin(x1 > y1 ? x1 : y1);
+  const bool any =
+    StartRays(in, x0, y0, x1, y1, margin, scratch) && DrawLayers(in, margin, scratch, counts);
+  StorePixels(in, x0, y0, x1, y1, !any, scratch);
 }
 
 } // namespace

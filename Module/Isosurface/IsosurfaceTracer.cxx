@@ -233,22 +233,37 @@ void IsosurfaceTracer::Prepare(VolumeScene& scene, const IsosurfaceOptions& opti
     this->Values.push_back(surface.Value);
     key.Add(surface.Value);
   }
+  const IsopolygonSource source{ GetMeshFrame(walk), mesh.Points.data(), mesh.Cells.data(),
+    scene.Mesh.GetScalars().data(), this->Values.data(), static_cast<int>(this->Values.size()) };
   if (options.Polygons == Isopolygons::Precomputed)
   {
     const Stopwatch stopwatch;
     const bool made = this->Active.Update(std::move(key),
-      [&]
-      {
-        const IsopolygonSource source{ GetMeshFrame(walk), mesh.Points.data(), mesh.Cells.data(),
-          scene.Mesh.GetScalars().data(), this->Values.data(),
-          static_cast<int>(this->Values.size()) };
-        return MakeActiveTree(this->Tree, this->Ranges.Get(), source, threads);
-      });
+      [&] { return MakeActiveTree(this->Tree, this->Ranges.Get(), source, threads); });
     if (made)
     {
       statistics.Rebuilt.emplace_back("isopolygons");
     }
     statistics.PolygonsSeconds = stopwatch.GetSeconds();
+  }
+  if (options.Polygons == Isopolygons::Precomputed && options.Shaded && options.SmoothShading)
+  {
+    const Stopwatch stopwatch;
+    const bool made = this->Gradients.Update(CacheKey::Of(this->Active.GetVersion()),
+      [&]
+      {
+        return MakeGradientFields(
+          this->Active.Get(), source, scene.Mesh.GetPointGradients().data(), threads);
+      });
+    if (made)
+    {
+      statistics.Rebuilt.emplace_back("gradients");
+    }
+    statistics.PolygonsSeconds += stopwatch.GetSeconds();
+  }
+  else
+  {
+    this->Gradients.Reset();
   }
   statistics.Nodes = static_cast<std::int64_t>(this->Tree.Nodes.size());
   statistics.TreeBytes = bytesPerCell(this->Tree.Nodes.size() * sizeof(MinMaxTree::Node) +
@@ -282,10 +297,10 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   const bool precomputed = options.Polygons == Isopolygons::Precomputed;
   const std::vector<MinMaxTree::Node>& nodes =
     precomputed ? this->Active.Get().Nodes : this->Tree.Nodes;
-  std::vector<MinMaxRanges::Steps> steps;
+  std::vector<std::int32_t> steps;
   for (const double value : this->Values)
   {
-    steps.push_back(this->Ranges.Get().GetSteps(value));
+    steps.push_back(this->Ranges.Get().GetStep(value));
   }
 
   IsosurfaceInput in{};
@@ -309,6 +324,7 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   {
     FillIllumination(scene, grid, options, frame, illumination);
     in.Lighting = &illumination.Lighting;
+    in.Gradients = this->Gradients.Get().empty() ? nullptr : this->Gradients.Get().data();
     in.Shadows = illumination.Shadows.data();
     in.NumberOfShadows = static_cast<int>(illumination.Shadows.size());
   }

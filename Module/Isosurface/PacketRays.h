@@ -53,18 +53,17 @@ TETRALUX_INLINE void GetPoint(
   }
 }
 
-/// Where a ray of a packet of primary rays has its pixel.
+/// Where the first ray of a chunk of primary rays has its pixel; the others follow row by row.
 ///@{
-TETRALUX_INLINE int GetPacketColumn(int ray)
+TETRALUX_INLINE int GetChunkColumn(int chunk)
 {
   constexpr int Columns = RayPacket::Edge / RayPacket::ChunkWidth;
-  return ray / LaneCount % Columns * RayPacket::ChunkWidth + ray % RayPacket::ChunkWidth;
+  return chunk % Columns * RayPacket::ChunkWidth;
 }
-TETRALUX_INLINE int GetPacketRow(int ray)
+TETRALUX_INLINE int GetChunkRow(int chunk)
 {
   constexpr int Columns = RayPacket::Edge / RayPacket::ChunkWidth;
-  return ray / LaneCount / Columns * RayPacket::ChunkHeight +
-    ray % LaneCount / RayPacket::ChunkWidth;
+  return chunk / Columns * RayPacket::ChunkHeight;
 }
 ///@}
 
@@ -102,34 +101,54 @@ TETRALUX_INLINE void UpdateChunkFar(RayPacket& packet, int chunk)
   packet.ChunkFar[chunk] = RoundDown(least);
 }
 
-/// Fits the bounds of a packet to its rays. Returns whether any takes part. margin: what single
-/// precision rounds u and v by.
-TETRALUX_INLINE bool FitBounds(RayPacket& packet, float margin)
+/// Stores the bounds of a chunk, and widens those of the packet.
+TETRALUX_INLINE void SetChunkBounds(
+  RayPacket& packet, int chunk, double lowU, double highU, double lowV, double highV, float margin)
+{
+  packet.ChunkLowU[chunk] = static_cast<float>(lowU) - margin;
+  packet.ChunkLowV[chunk] = static_cast<float>(lowV) - margin;
+  packet.ChunkHighU[chunk] = static_cast<float>(highU) + margin;
+  packet.ChunkHighV[chunk] = static_cast<float>(highV) + margin;
+  packet.LowU = lowU < packet.LowU ? lowU : packet.LowU;
+  packet.LowV = lowV < packet.LowV ? lowV : packet.LowV;
+  packet.HighU = highU > packet.HighU ? highU : packet.HighU;
+  packet.HighV = highV > packet.HighV ? highV : packet.HighV;
+}
+
+TETRALUX_INLINE void ClearBounds(RayPacket& packet)
 {
   packet.LowU = packet.LowV = InfiniteKey;
   packet.HighU = packet.HighV = -InfiniteKey;
+}
+
+/// Fits the bounds of a packet to the rays that take part. Returns whether any does. margin: what
+/// single precision rounds u and v by.
+TETRALUX_INLINE bool FitBounds(RayPacket& packet, float margin)
+{
+  ClearBounds(packet);
   for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
   {
+    const double* us = packet.U + chunk * LaneCount;
+    const double* vs = packet.V + chunk * LaneCount;
+    const double* far = packet.Far + chunk * LaneCount;
     double lowU = InfiniteKey, lowV = InfiniteKey, highU = -InfiniteKey, highV = -InfiniteKey;
-    for (int i = chunk * LaneCount; i < (chunk + 1) * LaneCount; ++i)
+    double least = InfiniteKey;
+#pragma omp simd reduction(min : lowU, lowV, least) reduction(max : highU, highV)
+    for (int i = 0; i < LaneCount; ++i)
     {
-      const bool active = packet.Far[i] < InfiniteKey;
-      const double u = packet.U[i];
-      const double v = packet.V[i];
-      lowU = active && u < lowU ? u : lowU;
-      lowV = active && v < lowV ? v : lowV;
-      highU = active && u > highU ? u : highU;
-      highV = active && v > highV ? v : highV;
+      const bool active = far[i] < InfiniteKey;
+      const double u0 = active ? us[i] : InfiniteKey;
+      const double v0 = active ? vs[i] : InfiniteKey;
+      const double u1 = active ? us[i] : -InfiniteKey;
+      const double v1 = active ? vs[i] : -InfiniteKey;
+      lowU = u0 < lowU ? u0 : lowU;
+      lowV = v0 < lowV ? v0 : lowV;
+      highU = u1 > highU ? u1 : highU;
+      highV = v1 > highV ? v1 : highV;
+      least = far[i] < least ? far[i] : least;
     }
-    packet.ChunkLowU[chunk] = static_cast<float>(lowU) - margin;
-    packet.ChunkLowV[chunk] = static_cast<float>(lowV) - margin;
-    packet.ChunkHighU[chunk] = static_cast<float>(highU) + margin;
-    packet.ChunkHighV[chunk] = static_cast<float>(highV) + margin;
-    UpdateChunkFar(packet, chunk);
-    packet.LowU = lowU < packet.LowU ? lowU : packet.LowU;
-    packet.LowV = lowV < packet.LowV ? lowV : packet.LowV;
-    packet.HighU = highU > packet.HighU ? highU : packet.HighU;
-    packet.HighV = highV > packet.HighV ? highV : packet.HighV;
+    SetChunkBounds(packet, chunk, lowU, highU, lowV, highV, margin);
+    packet.ChunkFar[chunk] = RoundDown(least);
   }
   return packet.LowU <= packet.HighU;
 }

@@ -61,9 +61,9 @@ TETRALUX_INLINE bool FacesLight(
   return !any || (view > 0 ? towards < 0 : towards > 0);
 }
 
-/// Fills visible, 1 or 0 a ray, for one light.
+/// Fills visible, 1 or 0 a ray, for one light. chunks: those with hits, one bit each.
 TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource& source,
-  IsosurfaceScratch& scratch, IsosurfaceCounts& counts, float* visible)
+  std::uint32_t chunks, IsosurfaceScratch& scratch, IsosurfaceCounts& counts, float* visible)
 {
   const RayPacket& rays = scratch.Rays;
   RayPacket& packet = scratch.ShadowRays;
@@ -73,7 +73,7 @@ TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource
   {
     visible[i] = 1.f;
     side[i] = -1;
-    if (rays.Hit[i] < 0)
+    if ((chunks >> (i / LaneCount) & 1) == 0 || rays.Hit[i] < 0)
     {
       continue;
     }

@@ -37,9 +37,9 @@ struct TraceTree
   const Isopolygon* Polygons;    ///< of the leaves; nullptr: they are made of cells
 
   // Where polygons are made of cells.
-  const MinMaxTree::Range* Ranges;       ///< one a node
-  const std::int32_t* LeafCells;         ///< MinMaxTree::Cells
-  const MinMaxRanges::Steps* ValueSteps; ///< one a value
+  const MinMaxTree::Range* Ranges; ///< one a node
+  const std::int32_t* LeafCells;   ///< MinMaxTree::Cells
+  const std::int32_t* ValueSteps;  ///< MinMaxRanges::GetStep of each value
   IsopolygonSource Source;
 };
 
