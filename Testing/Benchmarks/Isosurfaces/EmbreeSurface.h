@@ -36,8 +36,8 @@ public:
   /// Copies the triangles and builds the hierarchy anew. Points in single precision.
   void Build(vtkPolyData* triangles);
 
-  /// Traces a ray through each pixel, in coherent packets of 4 x 4 pixels. rgba: premultiplied, four
-  /// numbers a pixel, lit by normals of triangles.
+  /// Traces a ray through each pixel, in coherent packets of 4 x 4 pixels. rgba: premultiplied,
+  /// four numbers a pixel, lit by normals of triangles.
   void Trace(const EmbreeView& view, std::vector<float>& rgba) const;
 
 private:

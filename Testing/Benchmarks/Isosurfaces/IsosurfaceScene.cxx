@@ -9,6 +9,7 @@
 #include "Intake/TetrahedraIntake.h"
 #include "Setup/Arrays.h"
 
+#include "vtkCellArray.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkCompositeDataSetRange.h"
 #include "vtkDataArray.h"
@@ -146,6 +147,9 @@ IsosurfaceScene MakeIsosurfaceScene(
 
   IsosurfaceScene scene;
   scene.Grid = MakeGrid(first);
+  // What VTK's own readers make. With ids of 32 bits, threads that build VTK's scalar tree share
+  // the memory of a cell's points: cells are lost.
+  scene.Grid->GetCells()->ConvertTo64BitStorage();
   scene.Isovalues = { isovalue, isovalue + shift, isovalue - shift };
   scene.Steps = { MakeScalars(first.Scalars) };
   scene.Grid->GetPointData()->SetScalars(scene.Steps.front());

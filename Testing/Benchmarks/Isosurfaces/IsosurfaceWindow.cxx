@@ -83,7 +83,12 @@ void IsosurfaceWindow::SetShadows(bool shadows)
 {
   this->Light->SetConeAngle(shadows ? LightConeAngle : NoConeAngle);
   auto* renderer = vtkOpenGLRenderer::SafeDownCast(this->Renderer);
-  renderer->SetPass(nullptr);
+  if (vtkRenderPass* last = renderer->GetPass())
+  {
+    this->Window->MakeCurrent();
+    last->ReleaseGraphicsResources(this->Window);
+    renderer->SetPass(nullptr);
+  }
   if (shadows)
   {
     const int* size = this->Window->GetSize();
