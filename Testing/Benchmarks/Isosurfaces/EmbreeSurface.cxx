@@ -26,41 +26,62 @@ constexpr int TileEdge = 16; ///< pixels
 /// distance: some roundings of single precision, in which hits are.
 constexpr float HitMargin = 1e-5f;
 
+/// Rays of PacketEdge x PacketEdge pixels, row by row, and what they have gathered.
 struct alignas(64) Packet
 {
   RTCRayHit16 Rays;
-  int Valid[PacketSize]; ///< -1: yes
+  int Valid[PacketSize];   ///< -1: yes
+  float Shade[PacketSize]; ///< light, premultiplied with opacity
+  float Alpha[PacketSize]; ///< opacity
 };
 
-/// Shares of the light at the hits of a packet, 0..1.
-using Shades = std::array<float, PacketSize>;
-
-bool IsHit(const Packet& packet, int i)
+/// Rays in the precision that Embree has.
+struct FloatRays
 {
-  return packet.Valid[i] != 0 && packet.Rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-}
+  explicit FloatRays(const RayGrid& grid)
+    : Width(grid.Width)
+    , Height(grid.Height)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      this->Origin[a] = static_cast<float>(grid.Origin[a]);
+      this->OriginX[a] = static_cast<float>(grid.OriginStepX[a]);
+      this->OriginY[a] = static_cast<float>(grid.OriginStepY[a]);
+      this->Direction[a] = static_cast<float>(grid.Direction[a]);
+      this->DirectionX[a] = static_cast<float>(grid.DirectionStepX[a]);
+      this->DirectionY[a] = static_cast<float>(grid.DirectionStepY[a]);
+    }
+  }
 
-void FillPacket(const RayGrid& grid, int x0, int y0, Packet& packet)
+  int Width, Height;
+  float Origin[3], OriginX[3], OriginY[3];
+  float Direction[3], DirectionX[3], DirectionY[3];
+};
+
+void FillPacket(const FloatRays& rays, int x0, int y0, Packet& packet)
 {
   RTCRay16& ray = packet.Rays.ray;
+  float* const origins[3] = { ray.org_x, ray.org_y, ray.org_z };
+  float* const directions[3] = { ray.dir_x, ray.dir_y, ray.dir_z };
+  alignas(64) float x[PacketSize];
+  alignas(64) float y[PacketSize];
   for (int i = 0; i < PacketSize; ++i)
   {
-    const int x = x0 + i % PacketEdge;
-    const int y = y0 + i / PacketEdge;
-    const auto getOrigin = [&](int a) {
-      return static_cast<float>(grid.Origin[a] + x * grid.OriginStepX[a] + y * grid.OriginStepY[a]);
-    };
-    const auto getDirection = [&](int a)
+    x[i] = static_cast<float>(x0 + i % PacketEdge);
+    y[i] = static_cast<float>(y0 + i / PacketEdge);
+  }
+  for (int a = 0; a < 3; ++a)
+  {
+#pragma omp simd
+    for (int i = 0; i < PacketSize; ++i)
     {
-      return static_cast<float>(
-        grid.Direction[a] + x * grid.DirectionStepX[a] + y * grid.DirectionStepY[a]);
-    };
-    ray.org_x[i] = getOrigin(0);
-    ray.org_y[i] = getOrigin(1);
-    ray.org_z[i] = getOrigin(2);
-    ray.dir_x[i] = getDirection(0);
-    ray.dir_y[i] = getDirection(1);
-    ray.dir_z[i] = getDirection(2);
+      origins[a][i] = rays.Origin[a] + x[i] * rays.OriginX[a] + y[i] * rays.OriginY[a];
+      directions[a][i] = rays.Direction[a] + x[i] * rays.DirectionX[a] + y[i] * rays.DirectionY[a];
+    }
+  }
+#pragma omp simd
+  for (int i = 0; i < PacketSize; ++i)
+  {
     ray.tnear[i] = 0;
     ray.tfar[i] = std::numeric_limits<float>::infinity();
     ray.time[i] = 0;
@@ -69,17 +90,33 @@ void FillPacket(const RayGrid& grid, int x0, int y0, Packet& packet)
     ray.flags[i] = 0;
     packet.Rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.Rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    packet.Valid[i] = x < grid.Width && y < grid.Height ? -1 : 0;
+    packet.Valid[i] =
+      x0 + i % PacketEdge < rays.Width && y0 + i / PacketEdge < rays.Height ? -1 : 0;
+    packet.Shade[i] = 0;
+    packet.Alpha[i] = 0;
   }
 }
 
-/// Lets rays go on behind their hits; others end.
+/// Leaves only rays with a hit valid. Returns whether there are any.
+bool KeepHits(Packet& packet)
+{
+  int any = 0;
+#pragma omp simd reduction(| : any)
+  for (int i = 0; i < PacketSize; ++i)
+  {
+    packet.Valid[i] = packet.Rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? 0 : packet.Valid[i];
+    any |= packet.Valid[i];
+  }
+  return any != 0;
+}
+
+/// Lets rays go on behind their hits.
 void ContinueBehindHits(Packet& packet)
 {
   RTCRay16& ray = packet.Rays.ray;
+#pragma omp simd
   for (int i = 0; i < PacketSize; ++i)
   {
-    packet.Valid[i] = IsHit(packet, i) ? -1 : 0;
     ray.tnear[i] = ray.tfar[i] * (1 + HitMargin);
     ray.tfar[i] = std::numeric_limits<float>::infinity();
     packet.Rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
@@ -94,65 +131,69 @@ RTCIntersectContext MakeContext()
   return context;
 }
 
-/// Lambert's law, from both sides.
-Shades ShadeHits(RTCScene scene, const EmbreeView& view, const Packet& packet)
+/// Puts the hits of valid rays behind what they have gathered, by Lambert's law from both sides.
+void ShadeHits(RTCScene scene, const EmbreeView& view, float opacity, Packet& packet)
 {
   const RTCRay16& ray = packet.Rays.ray;
   const RTCHit16& hit = packet.Rays.hit;
-  Shades shades;
-  alignas(64) RTCRay16 shadow;
-  alignas(64) int valid[PacketSize];
+  const float light[3] = { static_cast<float>(view.Light[0]), static_cast<float>(view.Light[1]),
+    static_cast<float>(view.Light[2]) };
+  alignas(64) RTCRay16 toLight;
+  alignas(64) float shades[PacketSize];
+#pragma omp simd
   for (int i = 0; i < PacketSize; ++i)
   {
-    shadow.org_x[i] = ray.org_x[i] + ray.tfar[i] * ray.dir_x[i];
-    shadow.org_y[i] = ray.org_y[i] + ray.tfar[i] * ray.dir_y[i];
-    shadow.org_z[i] = ray.org_z[i] + ray.tfar[i] * ray.dir_z[i];
-    shadow.dir_x[i] = static_cast<float>(view.Light[0]) - shadow.org_x[i];
-    shadow.dir_y[i] = static_cast<float>(view.Light[1]) - shadow.org_y[i];
-    shadow.dir_z[i] = static_cast<float>(view.Light[2]) - shadow.org_z[i];
-    shadow.tnear[i] = HitMargin; // the light is some radii away
-    shadow.tfar[i] = 1;
-    shadow.time[i] = 0;
-    shadow.mask[i] = -1;
-    shadow.id[i] = 0;
-    shadow.flags[i] = 0;
-    valid[i] = IsHit(packet, i) ? -1 : 0;
-    const float product =
-      hit.Ng_x[i] * shadow.dir_x[i] + hit.Ng_y[i] * shadow.dir_y[i] + hit.Ng_z[i] * shadow.dir_z[i];
-    const float lengths =
-      (hit.Ng_x[i] * hit.Ng_x[i] + hit.Ng_y[i] * hit.Ng_y[i] + hit.Ng_z[i] * hit.Ng_z[i]) *
-      (shadow.dir_x[i] * shadow.dir_x[i] + shadow.dir_y[i] * shadow.dir_y[i] +
-        shadow.dir_z[i] * shadow.dir_z[i]);
-    shades[i] = std::abs(product) / std::sqrt(lengths);
+    toLight.org_x[i] = ray.org_x[i] + ray.tfar[i] * ray.dir_x[i];
+    toLight.org_y[i] = ray.org_y[i] + ray.tfar[i] * ray.dir_y[i];
+    toLight.org_z[i] = ray.org_z[i] + ray.tfar[i] * ray.dir_z[i];
+    toLight.dir_x[i] = light[0] - toLight.org_x[i];
+    toLight.dir_y[i] = light[1] - toLight.org_y[i];
+    toLight.dir_z[i] = light[2] - toLight.org_z[i];
+    toLight.tnear[i] = HitMargin; // the light is some radii away
+    toLight.tfar[i] = 1;
+    toLight.time[i] = 0;
+    toLight.mask[i] = -1;
+    toLight.id[i] = 0;
+    toLight.flags[i] = 0;
+    const float product = hit.Ng_x[i] * toLight.dir_x[i] + hit.Ng_y[i] * toLight.dir_y[i] +
+      hit.Ng_z[i] * toLight.dir_z[i];
+    const float normal =
+      hit.Ng_x[i] * hit.Ng_x[i] + hit.Ng_y[i] * hit.Ng_y[i] + hit.Ng_z[i] * hit.Ng_z[i];
+    const float distance = toLight.dir_x[i] * toLight.dir_x[i] +
+      toLight.dir_y[i] * toLight.dir_y[i] + toLight.dir_z[i] * toLight.dir_z[i];
+    shades[i] = std::abs(product) / std::sqrt(normal * distance);
   }
   if (view.Shadows)
   {
     RTCIntersectContext context = MakeContext();
-    rtcOccluded16(valid, scene, &context, &shadow);
+    rtcOccluded16(packet.Valid, scene, &context, &toLight);
+#pragma omp simd
     for (int i = 0; i < PacketSize; ++i)
     {
-      shades[i] = shadow.tfar[i] < 0 ? 0 : shades[i]; // how Embree marks what is occluded
+      shades[i] = toLight.tfar[i] < 0 ? 0 : shades[i]; // how Embree marks what is occluded
     }
   }
-  return shades;
-}
-
-/// Puts hits behind what their pixels have already.
-void AddLayer(const Packet& packet, const Shades& shades, float opacity, int width, int x0, int y0,
-  std::vector<float>& rgba)
-{
+#pragma omp simd
   for (int i = 0; i < PacketSize; ++i)
   {
-    if (IsHit(packet, i))
+    const float weight = packet.Valid[i] != 0 ? (1 - packet.Alpha[i]) * opacity : 0;
+    packet.Shade[i] += packet.Valid[i] != 0 ? weight * shades[i] : 0;
+    packet.Alpha[i] += weight;
+  }
+}
+
+void StorePacket(const FloatRays& rays, int x0, int y0, const Packet& packet, float* rgba)
+{
+  const int columns = std::min(PacketEdge, rays.Width - x0);
+  const int rows = std::min(PacketEdge, rays.Height - y0);
+  for (int row = 0; row < rows; ++row)
+  {
+    float* color = rgba + 4 * (static_cast<std::size_t>(y0 + row) * rays.Width + x0);
+    for (int column = 0; column < columns; ++column, color += 4)
     {
-      const std::size_t pixel =
-        static_cast<std::size_t>(y0 + i / PacketEdge) * width + x0 + i % PacketEdge;
-      float* color = &rgba[4 * pixel];
-      const float weight = (1 - color[3]) * opacity;
-      color[0] += weight * shades[i];
-      color[1] += weight * shades[i];
-      color[2] += weight * shades[i];
-      color[3] += weight;
+      const int i = row * PacketEdge + column;
+      color[0] = color[1] = color[2] = packet.Shade[i];
+      color[3] = packet.Alpha[i];
     }
   }
 }
@@ -217,26 +258,31 @@ void EmbreeSurface::Build(vtkPolyData* triangles)
 
 void EmbreeSurface::Trace(const EmbreeView& view, std::vector<float>& rgba) const
 {
-  const RayGrid& grid = view.Rays;
-  rgba.assign(4 * static_cast<std::size_t>(grid.Width) * grid.Height, 0);
+  const FloatRays rays(view.Rays);
+  rgba.resize(4 * static_cast<std::size_t>(rays.Width) * rays.Height);
   const float opacity = view.TwoLayers ? static_cast<float>(LayerOpacity) : 1;
   const auto tracePacket = [&](int x, int y)
   {
     RTCIntersectContext context = MakeContext();
     Packet packet;
-    FillPacket(grid, x, y, packet);
-    for (int layer = 0; layer < (view.TwoLayers ? 2 : 1); ++layer)
+    FillPacket(rays, x, y, packet);
+    rtcIntersect16(packet.Valid, this->Scene, &context, &packet.Rays);
+    if (KeepHits(packet))
     {
-      if (layer > 0)
+      ShadeHits(this->Scene, view, opacity, packet);
+      if (view.TwoLayers)
       {
         ContinueBehindHits(packet);
+        rtcIntersect16(packet.Valid, this->Scene, &context, &packet.Rays);
+        if (KeepHits(packet))
+        {
+          ShadeHits(this->Scene, view, opacity, packet);
+        }
       }
-      rtcIntersect16(packet.Valid, this->Scene, &context, &packet.Rays);
-      const Shades shades = ShadeHits(this->Scene, view, packet);
-      AddLayer(packet, shades, opacity, grid.Width, x, y, rgba);
     }
+    StorePacket(rays, x, y, packet, rgba.data());
   };
-  ForEachTile({ grid.Width, grid.Height, TileEdge }, this->Threads, {},
+  ForEachTile({ rays.Width, rays.Height, TileEdge }, this->Threads, {},
     [&](const Tile& tile, int)
     {
       for (int y = tile.Y0; y < tile.Y1; y += PacketEdge)
