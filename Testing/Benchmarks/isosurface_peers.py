@@ -53,6 +53,10 @@ RING_VALUE = 0.5
 RING_VIEW = ("--camera-position", "1.6,-2.1,4.6", "--camera-focal-point", "0,0,0")
 
 BLUNT_FIN_VALUE = 1
+BLUNT_FIN_VIEW = (
+    "--camera-position", "30,25,35", "--camera-focal-point", "3.3,4.2,2.9",
+    "--camera-view-angle", "20",
+)
 PANELS_IN_A_ROW = 3
 
 
@@ -67,7 +71,8 @@ def list_meshes(sizes):
     folder = os.environ.get("TETRALUX_DATA")
     if folder:
         files = ",".join(os.path.join(folder, f"bluntfin{part}.bin") for part in ("xyz", "q"))
-        meshes["blunt fin"] = [files, "--array", "Density", "--isovalue", str(BLUNT_FIN_VALUE)]
+        value = ("--array", "Density", "--isovalue", str(BLUNT_FIN_VALUE))
+        meshes["blunt fin"] = [files, *value, *BLUNT_FIN_VIEW]
     return meshes
 
 

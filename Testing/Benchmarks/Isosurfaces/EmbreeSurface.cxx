@@ -131,7 +131,8 @@ RTCIntersectContext MakeContext()
   return context;
 }
 
-/// Puts the hits of valid rays behind what they have gathered, by Lambert's law from both sides.
+/// Puts the hits of valid rays behind what they have gathered, by Lambert's law from both sides,
+/// black where the light is on the other side than the viewer.
 void ShadeHits(RTCScene scene, const EmbreeView& view, float opacity, Packet& packet)
 {
   const RTCRay16& ray = packet.Rays.ray;
@@ -140,6 +141,7 @@ void ShadeHits(RTCScene scene, const EmbreeView& view, float opacity, Packet& pa
     static_cast<float>(view.Light[2]) };
   alignas(64) RTCRay16 toLight;
   alignas(64) float shades[PacketSize];
+  alignas(64) int isLit[PacketSize]; // -1: yes
 #pragma omp simd
   for (int i = 0; i < PacketSize; ++i)
   {
@@ -161,12 +163,15 @@ void ShadeHits(RTCScene scene, const EmbreeView& view, float opacity, Packet& pa
       hit.Ng_x[i] * hit.Ng_x[i] + hit.Ng_y[i] * hit.Ng_y[i] + hit.Ng_z[i] * hit.Ng_z[i];
     const float distance = toLight.dir_x[i] * toLight.dir_x[i] +
       toLight.dir_y[i] * toLight.dir_y[i] + toLight.dir_z[i] * toLight.dir_z[i];
-    shades[i] = std::abs(product) / std::sqrt(normal * distance);
+    const float away =
+      hit.Ng_x[i] * ray.dir_x[i] + hit.Ng_y[i] * ray.dir_y[i] + hit.Ng_z[i] * ray.dir_z[i];
+    isLit[i] = product * away < 0 ? packet.Valid[i] : 0;
+    shades[i] = isLit[i] != 0 ? std::abs(product) / std::sqrt(normal * distance) : 0;
   }
   if (view.Shadows)
   {
     RTCIntersectContext context = MakeContext();
-    rtcOccluded16(packet.Valid, scene, &context, &toLight);
+    rtcOccluded16(isLit, scene, &context, &toLight);
 #pragma omp simd
     for (int i = 0; i < PacketSize; ++i)
     {
@@ -177,7 +182,7 @@ void ShadeHits(RTCScene scene, const EmbreeView& view, float opacity, Packet& pa
   for (int i = 0; i < PacketSize; ++i)
   {
     const float weight = packet.Valid[i] != 0 ? (1 - packet.Alpha[i]) * opacity : 0;
-    packet.Shade[i] += packet.Valid[i] != 0 ? weight * shades[i] : 0;
+    packet.Shade[i] += weight * shades[i];
     packet.Alpha[i] += weight;
   }
 }
