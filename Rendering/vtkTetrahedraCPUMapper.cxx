@@ -69,7 +69,7 @@ void vtkTetrahedraCPUMapper::Internals::DrawFrame(MapperFrame& frame)
   const int height = picture.Grid.Height;
   const tetralux::Stopwatch castStopwatch;
   MapperFrame::PrepareImage(frame.Image, width, height, picture.Colors, picture.Depths);
-  const bool shows = this->Self->MakePicture(frame, picture);
+  const tetralux::PixelRectangle covered = this->Self->MakePicture(frame, picture);
   const double seconds = castStopwatch.GetSeconds();
   frame.Seconds.emplace_back("cast", seconds);
   if (frame.Aborted)
@@ -78,11 +78,11 @@ void vtkTetrahedraCPUMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   this->SecondsPerRay = seconds / (static_cast<double>(width) * height);
 
-  if (shows)
+  if (covered.Width > 0)
   {
     const tetralux::Stopwatch stopwatch;
     this->Compositor.Composite(
-      frame.Window, rays.GetVisible(), picture.Colors.data(), width, height);
+      frame.Window, rays.GetVisible(), picture.Colors.data(), width, height, covered);
     frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
   }
 }

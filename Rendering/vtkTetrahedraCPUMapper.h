@@ -19,6 +19,7 @@
 namespace tetralux
 {
 struct CPUPicture;
+struct PixelRectangle;
 } // namespace tetralux
 
 class TETRALUXRENDERING_EXPORT vtkTetrahedraCPUMapper : public vtkTetrahedraVolumeMapper
@@ -81,9 +82,11 @@ protected:
 
   /**
    * Make the picture of a frame: colours, distances, statistics, and whether it was aborted.
-   * Returns whether anything is in the picture. What it throws becomes an error of one line.
+   * Returns the rays beyond which nothing is in the picture, empty where nothing is. What it throws
+   * becomes an error of one line.
    */
-  virtual bool MakePicture(tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) = 0;
+  virtual tetralux::PixelRectangle MakePicture(
+    tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) = 0;
 
   int NumberOfThreads = 0;
   float ImageSampleDistance = 1;

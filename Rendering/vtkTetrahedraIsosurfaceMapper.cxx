@@ -97,7 +97,7 @@ void vtkTetrahedraIsosurfaceMapper::SetBlendMode(int mode)
 }
 
 //------------------------------------------------------------------------------------------------
-bool vtkTetrahedraIsosurfaceMapper::MakePicture(
+tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
   MapperFrame& frame, const tetralux::CPUPicture& picture)
 {
   frame.Method = "isosurface";
@@ -117,7 +117,8 @@ bool vtkTetrahedraIsosurfaceMapper::MakePicture(
   frame.Aborted = statistics.Aborted;
   Describe(statistics, picture, frame);
   frame.ReportOmission(!options.Shadows, "shadows", "they are off");
-  return statistics.Hits > 0;
+  return { statistics.Covered.X0, statistics.Covered.Y0,
+    statistics.Covered.X1 - statistics.Covered.X0, statistics.Covered.Y1 - statistics.Covered.Y0 };
 }
 
 //------------------------------------------------------------------------------------------------

@@ -62,7 +62,8 @@ protected:
   vtkTetrahedraIsosurfaceMapper();
   ~vtkTetrahedraIsosurfaceMapper() override;
 
-  bool MakePicture(tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
+  tetralux::PixelRectangle MakePicture(
+    tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
 
   vtkTypeBool Shadows = 0;

@@ -59,7 +59,7 @@ vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper() = default;
 vtkTetrahedraRayCastMapper::~vtkTetrahedraRayCastMapper() = default;
 
 //------------------------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::MakePicture(
+tetralux::PixelRectangle vtkTetrahedraRayCastMapper::MakePicture(
   MapperFrame& frame, const tetralux::CPUPicture& picture)
 {
   frame.Method = "ray-cast";
@@ -84,7 +84,9 @@ bool vtkTetrahedraRayCastMapper::MakePicture(
   frame.Aborted = statistics.Aborted;
   Describe(statistics, picture, frame);
   this->WarnOfReentry(*frame.Scene->Mesh.GetMesh());
-  return statistics.Paths > 0;
+  return statistics.Paths > 0
+    ? tetralux::PixelRectangle{ 0, 0, picture.Grid.Width, picture.Grid.Height }
+    : tetralux::PixelRectangle();
 }
 
 //------------------------------------------------------------------------------------------------

@@ -48,7 +48,8 @@ protected:
   vtkTetrahedraRayCastMapper();
   ~vtkTetrahedraRayCastMapper() override;
 
-  bool MakePicture(tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
+  tetralux::PixelRectangle MakePicture(
+    tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
 
   int Precision = AUTOMATIC_PRECISION;

@@ -4,6 +4,8 @@
 
 // The tiles of a picture over the threads of OpenMP, with progress, abort and exceptions.
 
+#include "Base/Tile.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -15,12 +17,6 @@
 
 namespace tetralux
 {
-
-/// Pixels [X0, X1) x [Y0, Y1).
-struct Tile
-{
-  int X0, Y0, X1, Y1;
-};
 
 /// A picture cut into square tiles, row by row. Those at its right and upper end may be smaller.
 struct TileGrid

@@ -40,11 +40,26 @@ enum class Coverage
 /// rounded coordinates each, and three sums, with a factor of two to spare.
 constexpr double EdgeRounding = 16. / (1ll << 53);
 
+TETRALUX_INLINE double LeastOf(const double (&v)[4])
+{
+  const double a = v[0] < v[1] ? v[0] : v[1];
+  const double b = v[2] < v[3] ? v[2] : v[3];
+  return a < b ? a : b;
+}
+
+TETRALUX_INLINE double LargestOf(const double (&v)[4])
+{
+  const double a = v[0] > v[1] ? v[0] : v[1];
+  const double b = v[2] > v[3] ? v[2] : v[3];
+  return a > b ? a : b;
+}
+
 /// Prepares a polygon for a packet. largest: largest |u| and |v| of the packet, at least 1.
 TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, double largest,
   float margin, const Isopolygon& polygon, FramePolygon& result)
 {
   double x[4], y[4], d[4], w[4];
+#pragma omp simd simdlen(4)
   for (int i = 0; i < 4; ++i)
   {
     const double px = polygon.X[i], py = polygon.Y[i], pz = polygon.Z[i];
@@ -53,31 +68,27 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
     y[i] = m[1][0] * px + m[1][1] * py + m[1][2] * pz + m[1][3];
     d[i] = m[2][0] * px + m[2][1] * py + m[2][2] * pz + m[2][3];
   }
+  const double nearest = LeastOf(d);
+  const double farthest = LargestOf(d);
   bool allBefore = true;
   if (frame.Parallel)
   {
-    result.LowKey = InfiniteKey;
-    result.HighKey = -InfiniteKey;
-    for (int i = 0; i < 4; ++i)
+    for (double& one : w)
     {
-      w[i] = 1;
-      result.LowKey = -d[i] < result.LowKey ? -d[i] : result.LowKey;
-      result.HighKey = -d[i] > result.HighKey ? -d[i] : result.HighKey;
+      one = 1;
     }
+    result.LowKey = -farthest;
+    result.HighKey = -nearest;
   }
   else
   {
-    double nearest = InfiniteKey;
-    double farthest = -InfiniteKey;
-    for (int i = 0; i < 4; ++i)
-    {
-      w[i] = d[i];
-      nearest = d[i] < nearest ? d[i] : nearest;
-      farthest = d[i] > farthest ? d[i] : farthest;
-    }
     if (!(farthest > 0))
     {
       return Coverage::None;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      w[i] = d[i];
     }
     allBefore = nearest > 0;
     result.LowKey = 1 / farthest;
@@ -86,16 +97,15 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
 
   if (allBefore)
   {
-    double lowU = InfiniteKey, lowV = InfiniteKey, highU = -InfiniteKey, highV = -InfiniteKey;
+    double u[4], v[4];
+#pragma omp simd simdlen(4)
     for (int i = 0; i < 4; ++i)
     {
-      const double u = x[i] / w[i];
-      const double v = y[i] / w[i];
-      lowU = u < lowU ? u : lowU;
-      lowV = v < lowV ? v : lowV;
-      highU = u > highU ? u : highU;
-      highV = v > highV ? v : highV;
+      u[i] = x[i] / w[i];
+      v[i] = y[i] / w[i];
     }
+    const double lowU = LeastOf(u), highU = LargestOf(u);
+    const double lowV = LeastOf(v), highV = LargestOf(v);
     if (lowU > packet.HighU + margin || highU < packet.LowU - margin ||
       lowV > packet.HighV + margin || highV < packet.LowV - margin)
     {
@@ -112,25 +122,32 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
     result.HighU = result.HighV = std::numeric_limits<float>::infinity();
   }
 
-  double size = 0;
-  double normal[3] = { 0, 0, 0 };
+  // Edge i runs from corner i to the next one.
+  const double nextX[4] = { x[1], x[2], x[3], x[0] };
+  const double nextY[4] = { y[1], y[2], y[3], y[0] };
+  const double nextW[4] = { w[1], w[2], w[3], w[0] };
+  double sizes[4];
+#pragma omp simd simdlen(4)
   for (int i = 0; i < 4; ++i)
   {
-    const int j = (i + 1) & 3;
-    result.U[i] = y[i] * w[j] - y[j] * w[i];
-    result.V[i] = w[i] * x[j] - w[j] * x[i];
-    result.One[i] = x[i] * y[j] - x[j] * y[i];
-    normal[0] += result.U[i];
-    normal[1] += result.V[i];
-    normal[2] += result.One[i];
+    result.U[i] = y[i] * nextW[i] - nextY[i] * w[i];
+    result.V[i] = w[i] * nextX[i] - nextW[i] * x[i];
+    result.One[i] = x[i] * nextY[i] - nextX[i] * y[i];
     const double ax = x[i] < 0 ? -x[i] : x[i];
     const double ay = y[i] < 0 ? -y[i] : y[i];
     const double aw = (w[i] < 0 ? -w[i] : w[i]) * largest;
-    size = ax > size ? ax : size;
-    size = ay > size ? ay : size;
-    size = aw > size ? aw : size;
+    const double axy = ax > ay ? ax : ay;
+    sizes[i] = axy > aw ? axy : aw;
   }
+  const double size = LargestOf(sizes);
   result.Tolerance = EdgeRounding * size * size;
+  double normal[3] = { result.U[0], result.V[0], result.One[0] };
+  for (int i = 1; i < 4; ++i)
+  {
+    normal[0] += result.U[i];
+    normal[1] += result.V[i];
+    normal[2] += result.One[i];
+  }
   // Six times the volume between the polygon and the origin; of parallel rays twice its area.
   double volume = 0;
   for (int i = 0; i < 4; ++i)
@@ -179,20 +196,18 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
   }
 
   // All rays of the packet outside of one edge, or inside of all.
-  bool covers = true;
-  bool misses = false;
+  double most[4], least[4];
+#pragma omp simd simdlen(4)
   for (int i = 0; i < 4; ++i)
   {
-    const double lowU = result.U[i] * packet.LowU, highU = result.U[i] * packet.HighU;
-    const double lowV = result.V[i] * packet.LowV, highV = result.V[i] * packet.HighV;
-    const double most =
-      result.One[i] + (lowU > highU ? lowU : highU) + (lowV > highV ? lowV : highV);
-    const double least =
-      result.One[i] + (lowU < highU ? lowU : highU) + (lowV < highV ? lowV : highV);
-    misses |= most < -result.Tolerance;
-    covers &= least >= 0;
+    const double u0 = result.U[i] * packet.LowU, u1 = result.U[i] * packet.HighU;
+    const double v0 = result.V[i] * packet.LowV, v1 = result.V[i] * packet.HighV;
+    most[i] = result.One[i] + (u0 > u1 ? u0 : u1) + (v0 > v1 ? v0 : v1);
+    least[i] = result.One[i] + (u0 < u1 ? u0 : u1) + (v0 < v1 ? v0 : v1);
   }
-  return misses ? Coverage::None : covers ? Coverage::All : Coverage::Some;
+  return LeastOf(most) < -result.Tolerance ? Coverage::None
+    : LeastOf(least) >= 0                  ? Coverage::All
+                                           : Coverage::Some;
 }
 
 /// The chunks of a packet that a polygon may hit, one bit each.
@@ -227,7 +242,8 @@ TETRALUX_INLINE void HitChunk(
   double* far = packet.Far + first;
   std::int64_t* hit = packet.Hit + first;
   const double outside = -polygon.Tolerance;
-#pragma omp simd
+  std::int64_t any = 0;
+#pragma omp simd reduction(| : any)
   for (int i = 0; i < LaneCount; ++i)
   {
     const double u = us[i];
@@ -248,8 +264,12 @@ TETRALUX_INLINE void HitChunk(
     }
     far[i] = inside ? (AnyHit ? InfiniteKey : key) : far[i];
     hit[i] = inside ? id : hit[i];
+    any |= inside ? 1 : 0;
   }
-  UpdateChunkFar(packet, chunk);
+  if (any != 0)
+  {
+    UpdateChunkFar(packet, chunk);
+  }
 }
 
 } // namespace

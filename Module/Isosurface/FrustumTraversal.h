@@ -262,6 +262,12 @@ private:
 
   bool HitPolygons(const MinMaxTree::Node& node)
   {
+    // A polygon takes two cache lines.
+    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+    {
+      __builtin_prefetch(this->Tree.Polygons[i].X);
+      __builtin_prefetch(this->Tree.Polygons[i].Z);
+    }
     bool changed = false;
     for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
     {

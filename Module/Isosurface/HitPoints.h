@@ -38,15 +38,6 @@ TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch&
       scratch.Points[a][i] = frame.Origin[a] +
         (u * frame.Axes[0][a] + v * frame.Axes[1][a]) * scale + depth * frame.Axes[2][a];
     }
-    // Directions of rays in the world, of any length.
-    const RayGrid& grid = *in.Grid;
-    double squared = 0;
-    for (int a = 0; a < 3; ++a)
-    {
-      const double d = grid.Direction[a] + u * grid.DirectionStepX[a] + v * grid.DirectionStepY[a];
-      squared += d * d;
-    }
-    scratch.Distances[i] = static_cast<float>(depth * __builtin_sqrt(squared));
   }
   while (rest != 0)
   {

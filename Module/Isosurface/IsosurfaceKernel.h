@@ -74,7 +74,6 @@ struct IsosurfaceScratch
   double Points[3][RayPacket::MaximumRays]; ///< in the mesh's frame
   float Gradients[3][RayPacket::MaximumRays];
   std::int32_t Surfaces[RayPacket::MaximumRays];
-  float Distances[RayPacket::MaximumRays]; ///< along the rays, in the world
   /// MaximumRays for each light, 1 of lights that are not blocked; nullptr: no light is.
   float* Visible;
 };

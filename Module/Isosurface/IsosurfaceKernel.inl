@@ -45,6 +45,9 @@ TETRALUX_INLINE bool StartRays(const IsosurfaceInput& in, int x0, int y0, int x1
   float margin, IsosurfaceScratch& scratch)
 {
   RayPacket& packet = scratch.Rays;
+  const double end = in.Frame.Parallel ? -InfiniteKey : 0;
+  const bool whole = x0 + RayPacket::Edge <= x1 && y0 + RayPacket::Edge <= y1;
+  ClearBounds(packet);
   for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
   {
     const int x = x0 + GetChunkColumn(chunk);
@@ -52,35 +55,61 @@ TETRALUX_INLINE bool StartRays(const IsosurfaceInput& in, int x0, int y0, int x1
     const int first = chunk * LaneCount;
     for (int i = 0; i < LaneCount; ++i)
     {
-      const int column = x + i % RayPacket::ChunkWidth;
-      const int row = y + i / RayPacket::ChunkWidth;
-      packet.U[first + i] = column;
-      packet.V[first + i] = row;
+      packet.U[first + i] = x + static_cast<double>(i % RayPacket::ChunkWidth);
+      packet.V[first + i] = y + static_cast<double>(i / RayPacket::ChunkWidth);
       packet.Hit[first + i] = -1;
       packet.Near[first + i] = InfiniteKey;
-      packet.Far[first + i] = in.Frame.Parallel ? -InfiniteKey : 0;
+      packet.Far[first + i] = end;
+      scratch.StartFar[first + i] = end;
     }
-    const bool whole = x + RayPacket::ChunkWidth <= x1 && y + RayPacket::ChunkHeight <= y1;
-    if (in.MaximumDistances || !whole)
+    SetChunkBounds(
+      packet, chunk, x, x + RayPacket::ChunkWidth - 1, y, y + RayPacket::ChunkHeight - 1, margin);
+    packet.ChunkFar[chunk] = in.Frame.Parallel ? -std::numeric_limits<float>::infinity() : 0;
+  }
+  if (whole && !in.MaximumDistances)
+  {
+    return true;
+  }
+  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
+  {
+    for (int i = 0; i < LaneCount; ++i)
     {
-      for (int i = 0; i < LaneCount; ++i)
-      {
-        const int column = x + i % RayPacket::ChunkWidth;
-        const int row = y + i / RayPacket::ChunkWidth;
-        packet.Far[first + i] = column < x1 && row < y1 ? FindEnd(in, column, row) : InfiniteKey;
-      }
-    }
-    for (int i = first; i < first + LaneCount; ++i)
-    {
-      scratch.StartFar[i] = packet.Far[i];
-      scratch.Depths[i] = -1;
-      for (auto& channel : scratch.Colors)
-      {
-        channel[i] = 0;
-      }
+      const int x = x0 + GetChunkColumn(chunk) + i % RayPacket::ChunkWidth;
+      const int y = y0 + GetChunkRow(chunk) + i / RayPacket::ChunkWidth;
+      const int ray = chunk * LaneCount + i;
+      packet.Far[ray] = x < x1 && y < y1 ? FindEnd(in, x, y) : InfiniteKey;
+      scratch.StartFar[ray] = packet.Far[ray];
     }
   }
   return FitBounds(packet, margin);
+}
+
+/// Whether a packet of pixels misses all that there is, before its rays are filled.
+TETRALUX_INLINE bool MissesAll(const IsosurfaceInput& in, int x0, int y0, int x1, int y1)
+{
+  if (!in.Tree.Nodes)
+  {
+    return true;
+  }
+  RayPacket bounds;
+  bounds.LowU = x0;
+  bounds.HighU = x1 - 1;
+  bounds.LowV = y0;
+  bounds.HighV = y1 - 1;
+  float nearness;
+  return PacketFrustum(in.Frame, bounds, in.Limits).Misses(in.Tree.Nodes[0], nearness);
+}
+
+TETRALUX_INLINE void ClearPixels(IsosurfaceScratch& scratch)
+{
+  for (int i = 0; i < RayPacket::MaximumRays; ++i)
+  {
+    for (auto& channel : scratch.Colors)
+    {
+      channel[i] = 0;
+    }
+    scratch.Depths[i] = -1;
+  }
 }
 
 /// Composites the hits of a layer below what is there. Returns their number.
@@ -96,19 +125,21 @@ TETRALUX_INLINE int CompositeChunk(
   }
   const Mask8 hits = MaskFromBits(bits);
   const Int8 surface = Select(hits, LoadInt8(scratch.Surfaces + begin), Int8(0));
+  Double8 length;
+  const WorldRays world =
+    MakeWorldRays(*in.Grid, LoadDouble8(rays.U + begin), LoadDouble8(rays.V + begin), &length);
+  const Double8 key = LoadDouble8(rays.Far + begin);
+  const Double8 distance = length * (in.Frame.Parallel ? Double8(0.) - key : Double8(1.) / key);
   Float8 color[3], opacity;
   GatherRows(in.SurfaceColors, surface, color[0], color[1], color[2], opacity);
   if (in.Lighting)
   {
-    const WorldRays world =
-      MakeWorldRays(*in.Grid, LoadDouble8(rays.U + begin), LoadDouble8(rays.V + begin));
     const LaneLights lights(world, Double8(0.));
     LaneVector gradient = { { LoadFloat8(scratch.Gradients[0] + begin),
       LoadFloat8(scratch.Gradients[1] + begin), LoadFloat8(scratch.Gradients[2] + begin) } };
     gradient = LaneLights::ToWorld(*in.Lighting, gradient * LaneLights::GetScale(gradient));
-    const LaneFactors factors =
-      lights.Find(*in.Lighting, gradient, ToDouble(LoadFloat8(scratch.Distances + begin)),
-        scratch.Visible ? scratch.Visible + begin : nullptr, RayPacket::MaximumRays);
+    const LaneFactors factors = lights.Find(*in.Lighting, gradient, distance,
+      scratch.Visible ? scratch.Visible + begin : nullptr, RayPacket::MaximumRays);
     const LaneVector lit = factors.Apply({ { color[0], color[1], color[2] } });
     for (int c = 0; c < 3; ++c)
     {
@@ -126,7 +157,7 @@ TETRALUX_INLINE int CompositeChunk(
   float* depth = scratch.Depths + begin;
   const Float8 known = LoadFloat8(depth);
   const Mask8 sets = hits & (Float8(0.f) < opacity) & (first ? hits : known < Float8(0.f));
-  Store(depth, Select(sets, LoadFloat8(scratch.Distances + begin), known));
+  Store(depth, Select(sets, ToFloat(distance), known));
   return __builtin_popcount(bits);
 }
 
@@ -192,6 +223,10 @@ bool DrawLayers(
     if (chunks == 0)
     {
       return layer > 0;
+    }
+    if (layer == 0)
+    {
+      ClearPixels(scratch);
     }
     for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
     {

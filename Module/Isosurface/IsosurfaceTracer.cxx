@@ -183,7 +183,18 @@ struct ThreadMemory
   IsosurfaceScratch Scratch;
   IsosurfaceCounts Counts;
   std::vector<float> Visible;
+  Tile Covered{ 0, 0, 0, 0 };
 };
+
+/// An empty tile adds nothing.
+Tile Unite(const Tile& a, const Tile& b)
+{
+  if (a.X0 == a.X1 || b.X0 == b.X1)
+  {
+    return a.X0 == a.X1 ? b : a;
+  }
+  return { std::min(a.X0, b.X0), std::min(a.Y0, b.Y0), std::max(a.X1, b.X1), std::max(a.Y1, b.Y1) };
+}
 
 } // namespace
 
@@ -352,8 +363,13 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   statistics.Aborted = !ForEachTile(tiles, threads, options.Progress,
     [&](const Tile& tile, int thread)
     {
-      kernel(
-        in, tile.X0, tile.Y0, tile.X1, tile.Y1, memory[thread]->Scratch, memory[thread]->Counts);
+      ThreadMemory& own = *memory[thread];
+      const std::int64_t hits = own.Counts.Hits;
+      kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, own.Scratch, own.Counts);
+      if (own.Counts.Hits > hits)
+      {
+        own.Covered = Unite(own.Covered, tile);
+      }
     });
   for (const std::unique_ptr<ThreadMemory>& thread : memory)
   {
@@ -362,6 +378,7 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
     statistics.Shadow.Add(counts.Shadow);
     statistics.Hits += counts.Hits;
     statistics.LostRays += counts.LostRays;
+    statistics.Covered = Unite(statistics.Covered, thread->Covered);
     // What a ray that ends at the last layer lets through.
     statistics.TerminationError = std::max(statistics.TerminationError, counts.LostOpacity);
   }

@@ -4,6 +4,7 @@
 
 #include "Base/Cached.h"
 #include "Base/Span.h"
+#include "Base/Tile.h"
 #include "Hierarchy/MinMaxTree.h"
 #include "Isosurface/ActiveTree.h"
 #include "Isosurface/CellField.h"
@@ -71,7 +72,8 @@ struct IsosurfaceStatistics
   TraceCounts Primary;
   TraceCounts Shadow;
   std::int64_t Hits = 0;
-  std::int64_t LostRays = 0; ///< ended at MaximumLayers
+  Tile Covered{ 0, 0, 0, 0 }; ///< packets that hit anything, pixels; nothing else is in the picture
+  std::int64_t LostRays = 0;  ///< ended at MaximumLayers
   int NumberOfThreads = 0;
   std::string InstructionSet;
   bool Aborted = false;

@@ -92,13 +92,20 @@ TETRALUX_INLINE float GetPacketMargin(double largest)
 TETRALUX_INLINE void UpdateChunkFar(RayPacket& packet, int chunk)
 {
   const double* far = packet.Far + chunk * LaneCount;
-  double least = far[0];
-#pragma omp simd reduction(min : least)
-  for (int i = 1; i < LaneCount; ++i)
+  double least[LaneCount / 2];
+  for (int i = 0; i < LaneCount / 2; ++i)
   {
-    least = far[i] < least ? far[i] : least;
+    const double other = far[i + LaneCount / 2];
+    least[i] = far[i] < other ? far[i] : other;
   }
-  packet.ChunkFar[chunk] = RoundDown(least);
+  for (int half = LaneCount / 4; half > 0; half /= 2)
+  {
+    for (int i = 0; i < half; ++i)
+    {
+      least[i] = least[i] < least[i + half] ? least[i] : least[i + half];
+    }
+  }
+  packet.ChunkFar[chunk] = RoundDown(least[0]);
 }
 
 /// Stores the bounds of a chunk, and widens those of the packet.

@@ -20,8 +20,9 @@ struct WorldRays
   Double8 Origin[3], Direction[3]; ///< directions of length 1
 };
 
-/// The rays of the pixels (x, y).
-TETRALUX_INLINE WorldRays MakeWorldRays(const RayGrid& grid, Double8 x, Double8 y)
+/// The rays of the pixels (x, y). lengths: of the grid's directions.
+TETRALUX_INLINE WorldRays MakeWorldRays(
+  const RayGrid& grid, Double8 x, Double8 y, Double8* lengths = nullptr)
 {
   WorldRays rays;
   for (int a = 0; a < 3; ++a)
@@ -36,6 +37,10 @@ TETRALUX_INLINE WorldRays MakeWorldRays(const RayGrid& grid, Double8 x, Double8 
   for (Double8& component : rays.Direction)
   {
     component = component / length;
+  }
+  if (lengths)
+  {
+    *lengths = length;
   }
   return rays;
 }

@@ -3,6 +3,7 @@
 #define tetralux_CPUPicture_h
 
 #include "Base/Span.h"
+#include "Frame/CameraRays.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 

@@ -22,23 +22,33 @@ ImageCompositor::ImageCompositor() = default;
 ImageCompositor::~ImageCompositor() { this->ReleaseGraphicsResources(this->Window); }
 
 void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
-  const float* colors, int width, int height)
+  const float* colors, int width, int height, const PixelRectangle& covered)
 {
   this->SetWindow(window);
+  // Where a ray is a pixel, what is empty needs neither upload nor drawing.
+  const bool sameSize = width == rectangle.Width && height == rectangle.Height;
+  const PixelRectangle part = sameSize ? covered : PixelRectangle{ 0, 0, width, height };
   {
     const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
     this->Texture->SetContext(window);
     this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
     this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-    if (!this->Texture->Create2DFromRaw(
-          width, height, 4, VTK_FLOAT, const_cast<float*>(colors))) // only read
+    const float* first = colors + 4 * (static_cast<std::size_t>(part.Y) * width + part.X);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, width);
+    const bool made = this->Texture->Create2DFromRaw(
+      part.Width, part.Height, 4, VTK_FLOAT, const_cast<float*>(first)); // only read
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    if (!made)
     {
-      throw std::runtime_error("no texture of " + std::to_string(width) + " x " +
-        std::to_string(height) + " floating point pixels could be made");
+      throw std::runtime_error("no texture of " + std::to_string(part.Width) + " x " +
+        std::to_string(part.Height) + " floating point pixels could be made");
     }
     this->Texture->Deactivate();
   }
-  this->Composite(window, rectangle, this->Texture);
+  const PixelRectangle target = sameSize
+    ? PixelRectangle{ rectangle.X + part.X, rectangle.Y + part.Y, part.Width, part.Height }
+    : rectangle;
+  this->Composite(window, target, this->Texture);
 }
 
 void ImageCompositor::SetWindow(vtkOpenGLRenderWindow* window)
