@@ -84,6 +84,7 @@ const std::map<std::string, Accessors>& GetAccessors()
     ACCESSORS(CPU, MinimumImageSampleDistance),
     ACCESSORS(CPU, MaximumImageSampleDistance),
     ACCESSORS(CPU, AutoAdjustSampleDistances),
+    ACCESSORS(Isosurface, ColorArrayComponent),
     ACCESSORS(Isosurface, Shadows),
     ACCESSORS(Isosurface, MaximumNumberOfPeels),
     ACCESSORS(GPURayCast, StepsPerPass),

@@ -4,10 +4,13 @@
 #include "Frame/CPUPicture.h"
 #include "Frame/MapperFrame.h"
 #include "Isosurface/IsosurfaceTracer.h"
+#include "Preparation/MapperSettings.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
 
 #include "vtkObjectFactory.h"
+
+#include <algorithm>
 
 using tetralux::Json;
 using tetralux::MapperFrame;
@@ -85,7 +88,25 @@ vtkTetrahedraIsosurfaceMapper::vtkTetrahedraIsosurfaceMapper()
 }
 
 //------------------------------------------------------------------------------------------------
-vtkTetrahedraIsosurfaceMapper::~vtkTetrahedraIsosurfaceMapper() = default;
+vtkTetrahedraIsosurfaceMapper::~vtkTetrahedraIsosurfaceMapper()
+{
+  this->SetColorArrayName(nullptr);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraIsosurfaceMapper::AddSettings(tetralux::MapperSettings& settings)
+{
+  if (this->ColorArrayName)
+  {
+    tetralux::ScalarSelection colors;
+    colors.ScalarMode = VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
+    colors.ArrayAccessMode = VTK_GET_ARRAY_BY_NAME;
+    colors.ArrayName = this->ColorArrayName;
+    colors.VectorMode = this->ColorArrayComponent < 0 ? MAGNITUDE_MODE : COMPONENT_MODE;
+    colors.VectorComponent = std::max(0, this->ColorArrayComponent);
+    settings.Colors = colors;
+  }
+}
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraIsosurfaceMapper::SetBlendMode(int mode)
@@ -122,6 +143,7 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
 }
 
 //------------------------------------------------------------------------------------------------
+tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, ColorArrayComponent, int);
 tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, MaximumNumberOfPeels, int);
 
 //------------------------------------------------------------------------------------------------
@@ -129,6 +151,9 @@ void vtkTetrahedraIsosurfaceMapper::PrintProperties(ostream& os, vtkIndent inden
 {
   this->Superclass::PrintProperties(os, indent);
   tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
+  os << indent << "ColorArrayName: " << (this->ColorArrayName ? this->ColorArrayName : "(none)")
+     << "\n";
+  printer.Print("ColorArrayComponent", this->ColorArrayComponent);
   printer.Print("Shadows", this->Shadows);
   printer.Print("MaximumNumberOfPeels", this->MaximumNumberOfPeels);
 }

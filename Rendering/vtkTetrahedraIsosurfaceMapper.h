@@ -51,6 +51,26 @@ public:
 
   ///@{
   /**
+   * Set the name of an array of point data that surfaces are coloured by: at each point of a surface
+   * by the property's colour and scalar opacity at the array's value there, interpolated in the
+   * cell. Default nullptr: a surface has the colour and opacity of its value. Where the value is not
+   * a number, a surface is transparent.
+   */
+  vtkSetStringMacro(ColorArrayName);
+  vtkGetStringMacro(ColorArrayName);
+  ///@}
+
+  ///@{
+  /**
+   * Set the component of the array of ColorArrayName, from 0 up. Default -1: the magnitude of an
+   * array of several components.
+   */
+  virtual void SetColorArrayComponent(int component);
+  vtkGetMacro(ColorArrayComponent, int);
+  ///@}
+
+  ///@{
+  /**
    * Set how many surfaces a ray meets at most, 0 to 1000. Default 0: as many as MaximumError asks
    * for. What a ray may miss by it is in the error estimate.
    */
@@ -64,8 +84,11 @@ protected:
 
   tetralux::PixelRectangle MakePicture(
     tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
+  void AddSettings(tetralux::MapperSettings& settings) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
 
+  char* ColorArrayName = nullptr;
+  int ColorArrayComponent = -1;
   vtkTypeBool Shadows = 0;
   int MaximumNumberOfPeels = 0;
 

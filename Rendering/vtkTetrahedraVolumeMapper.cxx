@@ -217,6 +217,7 @@ tetralux::MapperSettings vtkTetrahedraVolumeMapper::Internals::MakeSettings() co
   frame.Cropping = self->Cropping != 0;
   self->GetCroppingRegionPlanes(frame.CroppingRegionPlanes);
   frame.CroppingRegionFlags = static_cast<std::uint32_t>(self->CroppingRegionFlags);
+  self->AddSettings(settings);
   return settings;
 }
 
@@ -545,6 +546,9 @@ void vtkTetrahedraVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->PrintProperties(os, indent);
   this->PrintResults(os, indent);
 }
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::AddSettings(tetralux::MapperSettings&) {}
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::PrintProperties(ostream& os, vtkIndent indent)

@@ -68,6 +68,7 @@ class vtkImageData;
 namespace tetralux
 {
 struct MapperFrame;
+struct MapperSettings;
 class WalkMesh;
 } // namespace tetralux
 
@@ -499,6 +500,11 @@ protected:
    * becomes an error of one line.
    */
   virtual void DrawFrame(tetralux::MapperFrame& frame) = 0;
+
+  /**
+   * Add to the settings of a frame what a subclass has beside the properties of this class.
+   */
+  virtual void AddSettings(tetralux::MapperSettings& settings);
 
   /**
    * Print properties, then what the last frame found: subclasses add theirs behind those of their

@@ -50,6 +50,7 @@ struct Variant
   BenchScene Scene;
   std::vector<std::string> Assignments;
   std::function<void(BenchView&)> Adapt;
+  std::string Method = "ray-cast"; ///< as --method takes it
 };
 
 struct Comparison
@@ -143,6 +144,26 @@ Comparison CompareShading(const BenchScene& ball)
       [](BenchView& view) { Shade(view, 1); } },
     { "shaded", WithVariation(ball, 1, 1), isosurface, [](BenchView& view) { Shade(view, 0.1); } }
   };
+}
+
+/// Traced isosurfaces: without light, by light that nothing blocks, and with shadows. The picture
+/// of the second is that of the third where nothing blocks the camera's light.
+Comparison CompareShadows(const BenchScene& ball)
+{
+  const auto shade = [](BenchView& view) { Shade(view, 0.1); };
+  return { "shadows of traced isosurfaces",
+    { "five isosurfaces, flat", WithVariation(ball, 1, 1), {}, MakeIsosurfaces, "isosurface" },
+    { "lit", WithVariation(ball, 1, 1), {}, shade, "isosurface" },
+    { "with shadows", WithVariation(ball, 1, 1), { "Shadows=on" }, shade, "isosurface" } };
+}
+
+/// Isosurfaces by rays that walk from cell to cell, and traced.
+Comparison CompareTracing(const BenchScene& ball)
+{
+  return { "isosurfaces traced",
+    { "five flat isosurfaces, ray-cast", WithVariation(ball, 1, 1), { "BlendMode=isosurface" },
+      MakeIsosurfaces },
+    {}, { "traced", WithVariation(ball, 1, 1), {}, MakeIsosurfaces, "isosurface" } };
 }
 
 /// Compares an optical model with the full one. mode: as BlendMode takes it.
@@ -260,6 +281,7 @@ std::unique_ptr<BenchView> MakeView(const Variant& variant, const SceneOptions& 
     return nullptr;
   }
   BenchSetting setting;
+  setting.Method = variant.Method;
   setting.Assignments = variant.Assignments;
   auto made = std::make_unique<BenchView>(
     MakeBenchWindow(view), variant.Scene, MakeBenchMapper(setting, view.NumberOfThreads), view);
@@ -328,7 +350,8 @@ std::vector<BenchFeature> MeasureFeatures(const SceneOptions& view, int frames, 
          ComparePrecision(ball), CompareModel(ball, "emission only", "additive"),
          CompareModel(ball, "absorption only", "absorption"),
          CompareModel(ball, "maximum intensity", "maximum-intensity"),
-         CompareModel(ball, "five flat isosurfaces", "isosurface") })
+         CompareModel(ball, "five flat isosurfaces", "isosurface"), CompareTracing(ball),
+         CompareShadows(ball) })
   {
     features.push_back(MeasureFeature(comparison, view, frames));
   }

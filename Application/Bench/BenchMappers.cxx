@@ -17,8 +17,9 @@ namespace
 vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeOurMapper(
   const BenchSetting& setting, int numberOfThreads)
 {
-  // Only ray-cast has threads to set.
-  const int threads = setting.Method == "ray-cast" ? numberOfThreads : 0;
+  // Only processors have threads to set.
+  const bool onProcessor = setting.Method == "ray-cast" || setting.Method == "isosurface";
+  const int threads = onProcessor ? numberOfThreads : 0;
   return MakeMapper(setting.Method, threads, setting.Assignments);
 }
 

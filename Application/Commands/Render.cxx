@@ -15,6 +15,7 @@
 #include "Setup/Methods.h"
 #include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraVolumeMapper.h"
 
 #include "vtkAbstractVolumeMapper.h"
@@ -71,6 +72,10 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
   {
     throw UsageError("BlendMode=isosurface needs --isovalues A,B,...");
   }
+  if (!options.ColorArray.empty() && !vtkTetrahedraIsosurfaceMapper::SafeDownCast(mapper))
+  {
+    throw UsageError("--color-array needs --isovalues A,B,... and --method isosurface or auto");
+  }
   if (!isosurfaces && !options.Isovalues.empty())
   {
     if (mapper->GetBlendMode() != vtkTetrahedraVolumeMapper::COMPOSITE_BLEND)
@@ -86,8 +91,8 @@ std::vector<MethodChoice> ListMethodsFor(const RenderOptions& options, vtkRender
 {
   // The window may fail to make an OpenGL context.
   const MessageCapture messages;
-  std::vector<MethodChoice> methods =
-    ListMethods(options.Method, window, options.Scene.NumberOfThreads, options.Settings);
+  std::vector<MethodChoice> methods = ListMethods(options.Method, window,
+    options.Scene.NumberOfThreads, options.Settings, !options.Isovalues.empty());
   if (!messages.GetError().empty())
   {
     throw WorkError(messages.GetError());
@@ -100,12 +105,14 @@ struct RenderInput
 {
   vtkSmartPointer<vtkDataObject> Data;
   ArrayChoice Scalars;
+  std::string ColorArray; ///< empty: coloured by the scalars
   ColorAndOpacity Functions;
 };
 
-RenderInput ReadInput(const SceneOptions& options)
+RenderInput ReadInput(const SceneOptions& options, const std::string& colorArray)
 {
   RenderInput input;
+  input.ColorArray = colorArray;
   if (!options.TransferFile.empty())
   {
     ReadTransferFunction(options.TransferFile, input.Functions);
@@ -116,7 +123,9 @@ RenderInput ReadInput(const SceneOptions& options)
   input.Scalars = ChooseArray(input.Data, options.Array, options.Component);
   if (options.TransferFile.empty())
   {
-    MakeDefaultTransferFunction(input.Scalars.Range.data(), input.Functions);
+    MakeDefaultTransferFunction(
+      (colorArray.empty() ? input.Scalars : ChooseArray(input.Data, colorArray, "")).Range.data(),
+      input.Functions);
   }
   return input;
 }
@@ -130,6 +139,10 @@ void SetInput(const RenderInput& input, vtkTetrahedraVolumeMapper* mapper)
   mapper->SetVectorMode(scalars.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE_MODE
                                           : vtkTetrahedraVolumeMapper::COMPONENT_MODE);
   mapper->SetVectorComponent(scalars.Component);
+  if (auto* tracer = vtkTetrahedraIsosurfaceMapper::SafeDownCast(mapper))
+  {
+    tracer->SetColorArrayName(input.ColorArray.empty() ? nullptr : input.ColorArray.c_str());
+  }
   mapper->SetInputData(input.Data.GetPointer());
 }
 
@@ -295,7 +308,7 @@ void RenderPicture(const RenderOptions& options)
   {
     statisticsOutput.emplace(options.StatisticsFile);
   }
-  const RenderInput input = ReadInput(options.Scene);
+  const RenderInput input = ReadInput(options.Scene, options.ColorArray);
   RankMethods(
     { EstimateTetrahedra(input.Data), options.Scene.Width, options.Scene.Height }, methods);
   vtkNew<vtkVolume> volume;

@@ -15,6 +15,7 @@ struct RenderOptions
 
   std::string Method = "auto";
   std::vector<double> Isovalues;                 ///< empty: a volume, not surfaces
+  std::string ColorArray;                        ///< empty: a surface has the colour of its value
   bool Shade = false;                            ///< lights the volume; surfaces are always lit
   SceneOptions::Vector Background = { 0, 0, 0 }; ///< red, green, blue, 0..1
   std::optional<double> MaximumError;            ///< of a colour channel, 0..1

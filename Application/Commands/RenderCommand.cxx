@@ -47,6 +47,11 @@ void AddPictureOptions(CLI::App* command, RenderOptions& options)
     [&options](const std::string& option, const std::string& text)
     { options.Isovalues = ParseNumbers(option, text); })
     ->type_name("A,B,...");
+  command
+    ->add_option("--color-array", options.ColorArray,
+      "Colour surfaces by this point array, with --method isosurface or auto; of several "
+      "components the magnitude, or --set ColorArrayComponent=N")
+    ->type_name("NAME");
   command->add_flag("--shade", options.Shade, "Let a light at the camera shine on the volume");
   AddOption(command, "--background", "Colour behind a .png, each from 0 to 1; default: 0,0,0",
     [&options](const std::string& option, const std::string& text)

@@ -175,11 +175,15 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
 }
 
 std::vector<MethodChoice> ListMethods(const std::string& method, vtkRenderWindow* window,
-  int numberOfThreads, const std::vector<std::string>& settings)
+  int numberOfThreads, const std::vector<std::string>& settings, bool isosurfaces)
 {
   if (method != "auto")
   {
     return { { method, "" } };
+  }
+  if (isosurfaces && FindLackingProperty("isosurface", settings).empty())
+  {
+    return { { "isosurface", "isosurfaces are traced" } };
   }
   if (numberOfThreads > 0)
   {

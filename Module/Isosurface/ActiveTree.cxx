@@ -291,6 +291,19 @@ ActiveTree MakeActiveTree(
   return ActiveTreeBuilder(tree, ranges, source).Build(threads);
 }
 
+std::vector<CellField<1>> MakeScalarFields(
+  const ActiveTree& tree, const IsopolygonSource& source, const double* scalars, int threads)
+{
+  const auto count = static_cast<std::int64_t>(tree.Polygons.size());
+  std::vector<CellField<1>> fields(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    TETRALUX_ISA::MakeScalarField(source, scalars, tree.Polygons[i].Cell, fields[i]);
+  }
+  return fields;
+}
+
 std::vector<CellField<3>> MakeGradientFields(
   const ActiveTree& tree, const IsopolygonSource& source, const GradientRow* gradients, int threads)
 {

@@ -27,6 +27,10 @@ struct ActiveTree
 TETRALUXCORE_EXPORT ActiveTree MakeActiveTree(
   const MinMaxTree& tree, const MinMaxRanges& ranges, const IsopolygonSource& source, int threads);
 
+/// The scalars of points in each polygon's cell.
+TETRALUXCORE_EXPORT std::vector<CellField<1>> MakeScalarFields(
+  const ActiveTree& tree, const IsopolygonSource& source, const double* scalars, int threads);
+
 /// The gradients of each polygon's cell, interpolated between those of its points.
 TETRALUXCORE_EXPORT std::vector<CellField<3>> MakeGradientFields(const ActiveTree& tree,
   const IsopolygonSource& source, const GradientRow* gradients, int threads);

@@ -64,11 +64,10 @@ TETRALUX_INLINE void MakeCellField(const double (&corners)[4][3],
   }
 }
 
-/// The gradients of a cell, interpolated between its points.
-TETRALUX_NOINLINE void MakeGradientField(const IsopolygonSource& source,
-  const GradientRow* gradients, std::int32_t cell, CellField<3>& field)
+/// The points of a cell in the mesh's frame.
+TETRALUX_INLINE void GetCorners(
+  const IsopolygonSource& source, std::int32_t cell, double (&corners)[4][3])
 {
-  double corners[4][3], values[4][3];
   for (int i = 0; i < 4; ++i)
   {
     const std::int32_t id = source.Cells[4 * static_cast<std::int64_t>(cell) + i];
@@ -77,9 +76,34 @@ TETRALUX_NOINLINE void MakeGradientField(const IsopolygonSource& source,
     {
       corners[i][a] = (point[a] - source.Frame.Center[a]) / source.Frame.Radius;
     }
-    values[i][0] = gradients[id].X;
-    values[i][1] = gradients[id].Y;
-    values[i][2] = gradients[id].Z;
+  }
+}
+
+/// The gradients of a cell, interpolated between its points.
+TETRALUX_NOINLINE void MakeGradientField(const IsopolygonSource& source,
+  const GradientRow* gradients, std::int32_t cell, CellField<3>& field)
+{
+  double corners[4][3], values[4][3];
+  GetCorners(source, cell, corners);
+  for (int i = 0; i < 4; ++i)
+  {
+    const GradientRow& row = gradients[source.Cells[4 * static_cast<std::int64_t>(cell) + i]];
+    values[i][0] = row.X;
+    values[i][1] = row.Y;
+    values[i][2] = row.Z;
+  }
+  MakeCellField(corners, values, field);
+}
+
+/// A scalar of a cell, interpolated between its points.
+TETRALUX_NOINLINE void MakeScalarField(
+  const IsopolygonSource& source, const double* scalars, std::int32_t cell, CellField<1>& field)
+{
+  double corners[4][3], values[4][1];
+  GetCorners(source, cell, corners);
+  for (int i = 0; i < 4; ++i)
+  {
+    values[i][0] = scalars[source.Cells[4 * static_cast<std::int64_t>(cell) + i]];
   }
   MakeCellField(corners, values, field);
 }

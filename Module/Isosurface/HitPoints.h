@@ -15,6 +15,56 @@ namespace TETRALUX_ISA
 namespace
 {
 
+/// Colour and opacity at a scalar; at a step the value from larger scalars. What is not a number is
+/// transparent.
+TETRALUX_INLINE void LookUpColor(
+  const IntervalTable::Interval* intervals, int count, float x, float (&color)[4])
+{
+  int first = 0;
+  while (count > 1)
+  {
+    const int half = count / 2;
+    const bool above = intervals[first + half].Lo <= x;
+    first += above ? half : 0;
+    count = above ? count - half : half;
+  }
+  const IntervalTable::Interval& t = intervals[first];
+  const float along = x - t.Reference;
+  const float opacity = t.Attenuation + t.AttenuationSlope * along;
+  const float bounded = opacity < 1.f ? opacity : 1.f;
+  color[3] = bounded > 0.f ? bounded : 0.f; // also of what is not a number
+  for (int c = 0; c < 3; ++c)
+  {
+    color[c] = x == x ? t.Color[c] + t.ColorSlope[c] * along : 0.f;
+  }
+}
+
+/// Fills the colours of the hits of one polygon in a chunk, by the scalars of points. same: its
+/// lanes.
+TETRALUX_NOINLINE void FindHitColors(const IsosurfaceInput& in, IsosurfaceScratch& scratch,
+  std::int64_t id, std::int32_t cell, int first, unsigned same)
+{
+  CellField<1> made;
+  const CellField<1>* field = in.ColorFields ? in.ColorFields + id : &made;
+  if (!in.ColorFields)
+  {
+    MakeScalarField(in.Tree.Source, in.ColorScalars, cell, made);
+  }
+  for (; same != 0; same &= same - 1)
+  {
+    const int ray = first + __builtin_ctz(same);
+    const double scalar = EvaluateField(
+      *field, 0, scratch.Points[0][ray], scratch.Points[1][ray], scratch.Points[2][ray]);
+    float color[4];
+    LookUpColor(in.Intervals, in.NumberOfIntervals,
+      static_cast<float>((scalar - in.FunctionOffset) / in.FunctionScale), color);
+    for (int c = 0; c < 4; ++c)
+    {
+      scratch.HitColors[c][ray] = color[c];
+    }
+  }
+}
+
 /// Fills the points and, where there is light, the gradients of a chunk's hits.
 TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch& scratch, int chunk)
 {
@@ -57,6 +107,10 @@ TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch&
     for (int i = 0; i < LaneCount; ++i)
     {
       scratch.Surfaces[first + i] = (same >> i & 1) != 0 ? surface : scratch.Surfaces[first + i];
+    }
+    if (in.ColorScalars)
+    {
+      FindHitColors(in, scratch, id, cell, first, same);
     }
     if (!in.Lighting)
     {

@@ -9,6 +9,7 @@
 #include "Isosurface/CellField.h"
 #include "Isosurface/TraceInput.h"
 #include "Lighting/KernelLighting.h"
+#include "Optics/IntervalTable.h"
 #include "View/RayGrid.h"
 
 #include <cstdint>
@@ -39,10 +40,16 @@ struct IsosurfaceInput
   const float* MaximumDistances; ///< nullptr: none
 
   // What surfaces look like.
-  const float* SurfaceColors;     ///< red, green, blue, opacity of each value
-  const KernelLighting* Lighting; ///< nullptr: no light
-  const CellField<3>* Gradients;  ///< of each polygon; nullptr: Lighting->Gradients
-  const ShadowSource* Shadows;    ///< of the lights that are blocked
+  const IntervalTable::Interval* Intervals; ///< of the function of ColorScalars
+  int NumberOfIntervals;
+  double FunctionOffset;           ///< IntervalTable::Offset
+  double FunctionScale;            ///< IntervalTable::Scale
+  const double* ColorScalars;      ///< of points; nullptr: SurfaceColors counts
+  const CellField<1>* ColorFields; ///< of each polygon; nullptr: made of ColorScalars
+  const float* SurfaceColors;      ///< red, green, blue, opacity of each value
+  const KernelLighting* Lighting;  ///< nullptr: no light
+  const CellField<3>* Gradients;   ///< of each polygon; nullptr: Lighting->Gradients
+  const ShadowSource* Shadows;     ///< of the lights that are blocked
   int NumberOfShadows;
   TraceLimits ShadowLimits; ///< what is cut away blocks no light
   int MaximumLayers;        ///< surfaces that a ray meets at most
@@ -73,6 +80,7 @@ struct IsosurfaceScratch
   // The hits of a layer.
   double Points[3][RayPacket::MaximumRays]; ///< in the mesh's frame
   float Gradients[3][RayPacket::MaximumRays];
+  float HitColors[4][RayPacket::MaximumRays]; ///< and opacities, if ColorScalars counts
   std::int32_t Surfaces[RayPacket::MaximumRays];
   /// MaximumRays for each light, 1 of lights that are not blocked; nullptr: no light is.
   float* Visible;

@@ -131,7 +131,18 @@ TETRALUX_INLINE int CompositeChunk(
   const Double8 key = LoadDouble8(rays.Far + begin);
   const Double8 distance = length * (in.Frame.Parallel ? Double8(0.) - key : Double8(1.) / key);
   Float8 color[3], opacity;
-  GatherRows(in.SurfaceColors, surface, color[0], color[1], color[2], opacity);
+  if (in.ColorScalars)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      color[c] = Keep(hits, LoadFloat8(scratch.HitColors[c] + begin));
+    }
+    opacity = Keep(hits, LoadFloat8(scratch.HitColors[3] + begin));
+  }
+  else
+  {
+    GatherRows(in.SurfaceColors, surface, color[0], color[1], color[2], opacity);
+  }
   if (in.Lighting)
   {
     const LaneLights lights(world, Double8(0.));

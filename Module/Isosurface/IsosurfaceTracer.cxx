@@ -276,6 +276,23 @@ void IsosurfaceTracer::Prepare(VolumeScene& scene, const IsosurfaceOptions& opti
   {
     this->Gradients.Reset();
   }
+  const std::vector<double>& colorScalars = scene.Mesh.GetColorScalars();
+  if (options.Polygons == Isopolygons::Precomputed && !colorScalars.empty())
+  {
+    const Stopwatch stopwatch;
+    const bool made = this->Colors.Update(
+      CacheKey::Of(this->Active.GetVersion(), scene.Mesh.GetColorScalarsVersion()),
+      [&] { return MakeScalarFields(this->Active.Get(), source, colorScalars.data(), threads); });
+    if (made)
+    {
+      statistics.Rebuilt.emplace_back("colours");
+    }
+    statistics.PolygonsSeconds += stopwatch.GetSeconds();
+  }
+  else
+  {
+    this->Colors.Reset();
+  }
   statistics.Nodes = static_cast<std::int64_t>(this->Tree.Nodes.size());
   statistics.TreeBytes = bytesPerCell(this->Tree.Nodes.size() * sizeof(MinMaxTree::Node) +
     this->Tree.Cells.size() * sizeof(std::int32_t));
@@ -330,6 +347,16 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   in.MaximumDistances = limits.MaximumDistances;
   const std::vector<float> surfaceColors = GetColors(scene.Optics.GetIsosurfaces());
   in.SurfaceColors = surfaceColors.data();
+  if (!scene.Mesh.GetColorScalars().empty())
+  {
+    const IntervalTable& function = scene.Optics.GetIntervalTable();
+    in.ColorScalars = scene.Mesh.GetColorScalars().data();
+    in.ColorFields = this->Colors.Get().empty() ? nullptr : this->Colors.Get().data();
+    in.Intervals = function.Intervals.data();
+    in.NumberOfIntervals = static_cast<int>(function.Intervals.size());
+    in.FunctionOffset = function.Offset;
+    in.FunctionScale = function.Scale;
+  }
   Illumination illumination;
   if (lit)
   {

@@ -106,7 +106,9 @@ private:
   Cached<MinMaxRanges> Ranges;
   std::vector<double> Values;
   Cached<ActiveTree> Active;
-  Cached<std::vector<CellField<3>>> Gradients; ///< one for each isopolygon
+  // One for each isopolygon.
+  Cached<std::vector<CellField<3>>> Gradients;
+  Cached<std::vector<CellField<1>>> Colors;
 };
 
 } // namespace tetralux

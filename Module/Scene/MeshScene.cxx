@@ -19,6 +19,8 @@ void MeshScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
   this->CellsVersion = MakeVersion();
   this->PointsVersion = MakeVersion();
   this->ScalarsVersion = 0;
+  this->ColorScalars.clear();
+  this->ColorScalarsVersion = 0;
 }
 
 bool MeshScene::SetPoints(const std::vector<double>& points)
@@ -80,6 +82,18 @@ void MeshScene::SetScalars(std::vector<double> scalars, bool ofCells)
   {
     this->CountBlankCells();
   }
+}
+
+void MeshScene::SetColorScalars(std::vector<double> scalars)
+{
+  const std::size_t points = this->Mesh ? this->Mesh->GetMesh().GetNumberOfPoints() : 0;
+  if (!scalars.empty() && scalars.size() != points)
+  {
+    throw std::invalid_argument(std::to_string(scalars.size()) +
+      " scalars to colour by were given for " + std::to_string(points) + " points");
+  }
+  this->ColorScalars = std::move(scalars);
+  this->ColorScalarsVersion = MakeVersion();
 }
 
 void MeshScene::CountBlankCells()

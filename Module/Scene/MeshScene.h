@@ -41,6 +41,11 @@ public:
   const std::vector<double>& GetScalars() const { return this->Scalars; }
   bool HasCellScalars() const { return this->ScalarsOfCells; }
 
+  /// Sets scalars at points that isosurfaces are coloured by, in place of their values; empty: they
+  /// are not. New cells remove them. Throws std::invalid_argument if their number is wrong.
+  void SetColorScalars(std::vector<double> scalars);
+  const std::vector<double>& GetColorScalars() const { return this->ColorScalars; }
+
   /// Whether there are as many scalars as the mesh needs.
   bool IsComplete() const;
 
@@ -50,12 +55,13 @@ public:
   /// Cells that touch a scalar which is not finite.
   std::int64_t GetNumberOfBlankCells() const { return this->NumberOfBlankCells; }
 
-  /// Versions of the cells, of the coordinates of their points, and of the scalars; 0: none. New
+  /// Versions of the cells, of the coordinates of their points, and of both scalars; 0: none. New
   /// cells are new points, too.
   ///@{
   std::uint64_t GetCellsVersion() const { return this->CellsVersion; }
   std::uint64_t GetPointsVersion() const { return this->PointsVersion; }
   std::uint64_t GetScalarsVersion() const { return this->ScalarsVersion; }
+  std::uint64_t GetColorScalarsVersion() const { return this->ColorScalarsVersion; }
   ///@}
 
   /// Brings the longest edge, or the gradients, up to date.
@@ -92,6 +98,8 @@ private:
   std::uint64_t CellsVersion = 0;
   std::uint64_t PointsVersion = 0;
   std::uint64_t ScalarsVersion = 0;
+  std::vector<double> ColorScalars;
+  std::uint64_t ColorScalarsVersion = 0;
   Cached<double> LongestEdge;
   Cached<std::vector<GradientRow>> PointGradients;
   Cached<std::vector<GradientRow>> CellGradients;

@@ -95,6 +95,7 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
     return false;
   }
   this->PrepareScalars(input.Data, blocks, settings.Scalars);
+  this->PrepareColors(input.Data, blocks, settings.Colors);
   this->PrepareFunction(settings, input);
   this->WarnOfShade(input.Property);
   this->Scene.Prepare({});
@@ -172,6 +173,7 @@ void ScenePreparation::SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeR
   this->Scene.Mesh.SetMesh(std::move(mesh));
   this->Intake = std::move(report);
   this->Scalars.Reset();
+  this->Colors.Reset();
   this->WarnOfMesh();
 }
 
@@ -295,6 +297,33 @@ void ScenePreparation::PrepareScalars(
   this->Scalars.Set(std::move(key));
   this->Last.ScalarsSeconds = stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("scalars");
+}
+
+void ScenePreparation::PrepareColors(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
+  const std::optional<ScalarSelection>& selection)
+{
+  CacheKey key = selection ? GetScalarsKey(blocks, *selection) : CacheKey();
+  const TetrahedralMesh& mesh = this->Scene.Mesh.GetMesh()->GetMesh();
+  if (this->Colors.Has(key) || (!selection && this->Scene.Mesh.GetColorScalars().empty()))
+  {
+    return;
+  }
+  const Stopwatch stopwatch;
+  this->Colors.Reset();
+  std::vector<double> values;
+  if (selection && mesh.GetNumberOfCells() > 0)
+  {
+    ExtractedScalars scalars = ExtractScalars(input, mesh, *selection);
+    if (!scalars.Error.empty())
+    {
+      throw std::invalid_argument("the array to colour by: " + scalars.Error);
+    }
+    values = std::move(scalars.Values);
+  }
+  this->Scene.Mesh.SetColorScalars(std::move(values));
+  this->Colors.Set(std::move(key));
+  this->Last.ScalarsSeconds += stopwatch.GetSeconds();
+  this->Last.Rebuilt.push_back("colours");
 }
 
 void ScenePreparation::PrepareFunction(const MapperSettings& settings, const SceneInput& input)

@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,8 @@ private:
   void SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeReport report);
   void PrepareScalars(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
     const ScalarSelection& selection);
+  void PrepareColors(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
+    const std::optional<ScalarSelection>& selection);
   void PrepareFunction(const MapperSettings& settings, const SceneInput& input);
   void PrepareTable(const MapperSettings& settings, const SceneInput& input);
   void WarnOfMesh();
@@ -101,6 +104,7 @@ private:
   CacheStamp Merging;
   PointMerger Merger;
   CacheStamp Scalars;
+  CacheStamp Colors;
   CacheStamp Function;
   bool FunctionIsExact = false; ///< so it does not depend on the error that is allowed
 

@@ -157,6 +157,9 @@ std::vector<MapperProperty> MakeProperties()
     MakeBoolean("AutoAdjustSampleDistances", RayCastKind | IsosurfaceKind, Rays, true, true,
       "Adjust the distance of rays to the time that the renderer allocates."),
 
+    { "ColorArrayComponent", PropertyType::Integer, IsosurfaceKind, Scalars, false,
+      { { "magnitude", -1, "the Euclidean norm" } }, 0, std::numeric_limits<int>::max(), { -1 }, "",
+      "", "Component of the array that surfaces are coloured by." },
     MakeBoolean("Shadows", IsosurfaceKind, Quality, false, false,
       "Surfaces block the light of lights, where Shade is on."),
     { "MaximumNumberOfPeels", PropertyType::Integer, IsosurfaceKind, Rays, true,
