@@ -8,6 +8,7 @@
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
 
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
@@ -42,6 +43,7 @@ void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::
   section["height"] = picture.Grid.Height;
   section["sample_distance"] = picture.SampleDistance;
   section["hits"] = statistics.Hits;
+  section["light_samples"] = statistics.Samples;
   section["rays_ended_at_last_layer"] = statistics.LostRays;
   section["instruction_set"] = statistics.InstructionSet;
   section["threads"] = statistics.NumberOfThreads;
@@ -127,6 +129,11 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
   options.Shaded = frame.Shaded;
   options.SmoothShading = frame.Settings.SmoothShading;
   options.Shadows = this->Shadows != 0;
+  options.ShadowSoftness = vtkMath::RadiansFromDegrees(this->ShadowSoftness);
+  options.AmbientOcclusion = this->AmbientOcclusion != 0;
+  options.OcclusionRadius = this->AmbientOcclusionRadius;
+  options.SamplesPerFrame = this->SamplesPerFrame;
+  options.MaximumSamples = this->MaximumSamples;
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
   options.MaximumLayers = this->MaximumNumberOfPeels;
@@ -137,6 +144,7 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
   frame.Integration = tetralux::Integrator::Isosurfaces;
   frame.Aborted = statistics.Aborted;
   Describe(statistics, picture, frame);
+  frame.ReportOmission(!options.AmbientOcclusion, "ambient occlusion", "it is off");
   frame.ReportOmission(!options.Shadows, "shadows", "they are off");
   return { statistics.Covered.X0, statistics.Covered.Y0,
     statistics.Covered.X1 - statistics.Covered.X0, statistics.Covered.Y1 - statistics.Covered.Y0 };
@@ -144,6 +152,10 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
 
 //------------------------------------------------------------------------------------------------
 tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, ColorArrayComponent, int);
+tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, ShadowSoftness, double);
+tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, AmbientOcclusionRadius, double);
+tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, SamplesPerFrame, int);
+tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, MaximumSamples, int);
 tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, MaximumNumberOfPeels, int);
 
 //------------------------------------------------------------------------------------------------
@@ -155,5 +167,10 @@ void vtkTetrahedraIsosurfaceMapper::PrintProperties(ostream& os, vtkIndent inden
      << "\n";
   printer.Print("ColorArrayComponent", this->ColorArrayComponent);
   printer.Print("Shadows", this->Shadows);
+  printer.Print("ShadowSoftness", this->ShadowSoftness);
+  printer.Print("AmbientOcclusion", this->AmbientOcclusion);
+  printer.Print("AmbientOcclusionRadius", this->AmbientOcclusionRadius);
+  printer.Print("SamplesPerFrame", this->SamplesPerFrame);
+  printer.Print("MaximumSamples", this->MaximumSamples);
   printer.Print("MaximumNumberOfPeels", this->MaximumNumberOfPeels);
 }

@@ -71,6 +71,53 @@ public:
 
   ///@{
   /**
+   * Set the angle in degrees that lights are seen under from the centre of the data, 0 to 90.
+   * Default 0: hard shadows.
+   */
+  virtual void SetShadowSoftness(double angle);
+  vtkGetMacro(ShadowSoftness, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set whether surfaces block the light that comes from all around a point, where the property's
+   * Shade is on: ambient and diffuse light are multiplied by the share that comes through. Default
+   * off.
+   */
+  vtkSetMacro(AmbientOcclusion, vtkTypeBool);
+  vtkGetMacro(AmbientOcclusion, vtkTypeBool);
+  vtkBooleanMacro(AmbientOcclusion, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Set how far from a point surfaces block light for AmbientOcclusion, in world units, 0 or more.
+   * Default 0: a tenth of the diameter of the data.
+   */
+  virtual void SetAmbientOcclusionRadius(double radius);
+  vtkGetMacro(AmbientOcclusionRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set the directions of AmbientOcclusion, and the points of a light with ShadowSoftness, that a
+   * frame takes, 1 to 1000. Default 4. The same picture comes out each time; frames in which
+   * nothing else changes take further samples, up to MaximumSamples, and show the mean of all.
+   */
+  virtual void SetSamplesPerFrame(int samples);
+  vtkGetMacro(SamplesPerFrame, int);
+  ///@}
+
+  ///@{
+  /**
+   * Set the samples after which a picture is not refined any more, 1 to 100000. Default 256.
+   */
+  virtual void SetMaximumSamples(int samples);
+  vtkGetMacro(MaximumSamples, int);
+  ///@}
+
+  ///@{
+  /**
    * Set how many surfaces a ray meets at most, 0 to 1000. Default 0: as many as MaximumError asks
    * for. What a ray may miss by it is in the error estimate.
    */
@@ -90,6 +137,11 @@ protected:
   char* ColorArrayName = nullptr;
   int ColorArrayComponent = -1;
   vtkTypeBool Shadows = 0;
+  double ShadowSoftness = 0;
+  vtkTypeBool AmbientOcclusion = 0;
+  double AmbientOcclusionRadius = 0;
+  int SamplesPerFrame = 4;
+  int MaximumSamples = 256;
   int MaximumNumberOfPeels = 0;
 
 private:

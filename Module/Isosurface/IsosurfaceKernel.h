@@ -17,16 +17,25 @@
 namespace tetralux
 {
 
-/// Rays from a light to what is lit, and how they are blocked.
+/// A point of a light, or a direction to it, from which shadow rays start.
 struct ShadowSource
 {
-  int Light; ///< index
+  int Light;   ///< index
+  bool First;  ///< of its light
+  float Share; ///< of its light
   /// Of a distant light one frame, else one for each half of each axis of the mesh's frame.
   ///@{
   bool Positional;
   RayFrame Frames[6];
   ///@}
   double Place[3]; ///< in the mesh's frame: position, or direction to the light
+};
+
+/// A direction from which ambient light comes.
+struct OcclusionSample
+{
+  RayFrame Frame;     ///< of rays that come from there; depths are lengths in the world
+  float Direction[3]; ///< to there, in the world, of length 1
 };
 
 struct IsosurfaceInput
@@ -51,6 +60,10 @@ struct IsosurfaceInput
   const CellField<3>* Gradients;   ///< of each polygon; nullptr: Lighting->Gradients
   const ShadowSource* Shadows;     ///< of the lights that are blocked
   int NumberOfShadows;
+  const OcclusionSample* Occlusion; ///< nullptr: nothing blocks ambient light
+  int NumberOfOcclusionSamples;
+  double OcclusionRadius;   ///< what is farther blocks no ambient light; in the world
+  double OcclusionOffset;   ///< what is nearer blocks none either; in the world
   TraceLimits ShadowLimits; ///< what is cut away blocks no light
   int MaximumLayers;        ///< surfaces that a ray meets at most
   float MaximumOpacity;     ///< a ray ends where it is this opaque
@@ -84,6 +97,7 @@ struct IsosurfaceScratch
   std::int32_t Surfaces[RayPacket::MaximumRays];
   /// MaximumRays for each light, 1 of lights that are not blocked; nullptr: no light is.
   float* Visible;
+  float Ambient[RayPacket::MaximumRays]; ///< share of ambient light, if anything blocks it
 };
 
 /// Draws the pixels from (x0, y0) up to but without (x1, y1): a packet at most.

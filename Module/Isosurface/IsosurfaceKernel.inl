@@ -7,6 +7,7 @@
 #include "Isosurface/FrustumTraversal.h"
 #include "Isosurface/HitPoints.h"
 #include "Isosurface/IsosurfaceKernel.h"
+#include "Isosurface/OcclusionRays.h"
 #include "Isosurface/ShadowRays.h"
 #include "Lighting/LaneLights.h"
 
@@ -149,8 +150,12 @@ TETRALUX_INLINE int CompositeChunk(
     LaneVector gradient = { { LoadFloat8(scratch.Gradients[0] + begin),
       LoadFloat8(scratch.Gradients[1] + begin), LoadFloat8(scratch.Gradients[2] + begin) } };
     gradient = LaneLights::ToWorld(*in.Lighting, gradient * LaneLights::GetScale(gradient));
-    const LaneFactors factors = lights.Find(*in.Lighting, gradient, distance,
+    LaneFactors factors = lights.Find(*in.Lighting, gradient, distance,
       scratch.Visible ? scratch.Visible + begin : nullptr, RayPacket::MaximumRays);
+    if (in.Occlusion)
+    {
+      factors.Scale = factors.Scale * LoadFloat8(scratch.Ambient + begin);
+    }
     const LaneVector lit = factors.Apply({ { color[0], color[1], color[2] } });
     for (int c = 0; c < 3; ++c)
     {
@@ -248,6 +253,10 @@ bool DrawLayers(
       const ShadowSource& source = in.Shadows[l];
       FindShadows(in, source, chunks, scratch, counts,
         scratch.Visible + source.Light * RayPacket::MaximumRays);
+    }
+    if (in.Occlusion)
+    {
+      FindOcclusion(in, chunks, scratch, counts);
     }
     for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
     {

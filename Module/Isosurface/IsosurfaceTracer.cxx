@@ -5,6 +5,7 @@
 #include "Base/Stopwatch.h"
 #include "Integral/ErrorBudget.h"
 #include "Isosurface/IsosurfaceKernel.h"
+#include "Isosurface/LightSamples.h"
 #include "View/MeshToWorld.h"
 
 #include <algorithm>
@@ -23,6 +24,13 @@ namespace
 
 /// Cells of a leaf. Measured on the blunt fin and a ring of 3 million cells.
 constexpr int LeafSize = 8;
+
+/// How far ambient light is blocked from, in radii of the mesh, unless that is chosen: a part of
+/// the mesh whose size shows in a picture.
+constexpr double AutomaticOcclusionRadius = 0.2;
+
+/// What is nearer blocks no ambient light, in radii of the mesh, as for shadows.
+constexpr double OcclusionOffset = 1e-6;
 
 IsosurfaceKernel GetKernel(InstructionSet set)
 {
@@ -103,50 +111,18 @@ private:
   TraceLimits Result;
 };
 
-ShadowSource MakeShadowSource(
-  const Light& light, int index, const RayGrid& grid, const MeshFrame& mesh)
-{
-  ShadowSource source{};
-  source.Light = index;
-  source.Positional = light.Positional;
-  for (int a = 0; a < 3; ++a)
-  {
-    const double* row = grid.MeshFromWorld[a];
-    source.Place[a] = Dot(row, light.Position);
-    if (light.Positional)
-    {
-      source.Place[a] = (source.Place[a] + (row[3] - mesh.Center[a])) / mesh.Radius;
-    }
-  }
-  if (light.Positional)
-  {
-    for (int side = 0; side < 6; ++side)
-    {
-      source.Frames[side] = MakeAxisFrame(source.Place, side / 2, side % 2 == 1);
-    }
-    return source;
-  }
-  const double length = std::hypot(source.Place[0], source.Place[1], source.Place[2]);
-  double direction[3];
-  for (int a = 0; a < 3; ++a)
-  {
-    source.Place[a] /= length;
-    direction[a] = -source.Place[a];
-  }
-  source.Frames[0] = MakeParallelFrame(direction);
-  return source;
-}
-
 /// What the kernel reads of lights, with its memory.
 struct Illumination
 {
   KernelLighting Lighting{};
   std::vector<KernelLight> Lights;
   std::vector<ShadowSource> Shadows;
+  std::vector<OcclusionSample> Occlusion;
 };
 
 void FillIllumination(const VolumeScene& scene, const RayGrid& grid,
-  const IsosurfaceOptions& options, const MeshFrame& mesh, Illumination& result)
+  const IsosurfaceOptions& options, const MeshFrame& mesh, const SampleRange& samples,
+  Illumination& result)
 {
   const double unit = mesh.Radius * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
   FillKernelLighting(options.Lights, options.Surface, grid, unit, result.Lighting, result.Lights);
@@ -157,12 +133,67 @@ void FillIllumination(const VolumeScene& scene, const RayGrid& grid,
   result.Lighting.OfPoints = options.SmoothShading;
   if (options.Shadows)
   {
-    for (std::size_t l = 0; l < options.Lights.size(); ++l)
-    {
-      result.Shadows.push_back(
-        MakeShadowSource(options.Lights[l], static_cast<int>(l), grid, mesh));
-    }
+    result.Shadows = MakeShadowSources(options.Lights, grid, mesh, options.ShadowSoftness, samples);
   }
+  if (options.AmbientOcclusion)
+  {
+    result.Occlusion = MakeOcclusionSamples(grid, mesh, samples);
+  }
+}
+
+/// All that a picture follows from, but for the samples of light.
+CacheKey MakePictureKey(const VolumeScene& scene, const RayGrid& grid, const RayLimits& limits,
+  const IsosurfaceOptions& options, std::uint64_t polygons, std::uint64_t ranges)
+{
+  CacheKey key = CacheKey::Of(polygons, ranges, scene.Mesh.GetPointsVersion(),
+    scene.Mesh.GetColorScalarsVersion(), scene.Optics.GetFunctionVersion(),
+    scene.Optics.GetSurfacesVersion(), grid.Width, grid.Height, limits.Cropping,
+    limits.CroppingFlags, options.MaximumError, options.SmoothShading, options.Shadows,
+    options.ShadowSoftness, options.AmbientOcclusion, options.OcclusionRadius,
+    options.SamplesPerFrame, options.MaximumLayers, options.Polygons);
+  const auto add = [&key](const auto& numbers)
+  {
+    for (const auto number : numbers)
+    {
+      key.Add(number);
+    }
+  };
+  add(grid.Origin);
+  add(grid.OriginStepX);
+  add(grid.OriginStepY);
+  add(grid.Direction);
+  add(grid.DirectionStepX);
+  add(grid.DirectionStepY);
+  for (const auto& row : grid.MeshFromWorld)
+  {
+    add(row);
+  }
+  for (const auto& plane : limits.Planes)
+  {
+    add(plane);
+  }
+  add(limits.CroppingPlanes);
+  const std::size_t pixels = static_cast<std::size_t>(grid.Width) * grid.Height;
+  for (std::size_t i = 0; limits.MaximumDistances && i < pixels; ++i)
+  {
+    key.Add(limits.MaximumDistances[i]);
+  }
+  const Material& surface = options.Surface;
+  add(std::array<float, 4>{
+    surface.Ambient, surface.Diffuse, surface.Specular, surface.SpecularPower });
+  for (const Light& light : options.Lights)
+  {
+    key.Add(light.Positional);
+    add(light.Position);
+    add(light.Ambient);
+    add(light.Diffuse);
+    add(light.Specular);
+    add(light.Attenuation);
+    add(light.Axis);
+    key.Add(light.ConeCosine);
+    key.Add(light.Exponent);
+  }
+  return key;
 }
 
 std::vector<float> GetColors(const std::vector<Isosurface>& surfaces)
@@ -357,14 +388,36 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
     in.FunctionOffset = function.Offset;
     in.FunctionScale = function.Scale;
   }
+  // Frames that only refine light.
+  const bool sampled =
+    lit && (options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0));
+  SampleRange samples;
+  samples.Count = options.SamplesPerFrame;
+  if (sampled)
+  {
+    this->Mean.Start(MakePictureKey(
+      scene, grid, limits, options, this->Active.GetVersion(), this->Ranges.GetVersion()));
+    const int frames = std::max(1, options.MaximumSamples / options.SamplesPerFrame);
+    samples.First = std::min(this->Mean.GetCount(), frames - 1) * options.SamplesPerFrame;
+  }
+  else
+  {
+    this->Mean.Reset();
+  }
   Illumination illumination;
   if (lit)
   {
-    FillIllumination(scene, grid, options, frame, illumination);
+    FillIllumination(scene, grid, options, frame, samples, illumination);
     in.Lighting = &illumination.Lighting;
     in.Gradients = this->Gradients.Get().empty() ? nullptr : this->Gradients.Get().data();
     in.Shadows = illumination.Shadows.data();
     in.NumberOfShadows = static_cast<int>(illumination.Shadows.size());
+    const double worldRadius = frame.Radius * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+    in.Occlusion = illumination.Occlusion.empty() ? nullptr : illumination.Occlusion.data();
+    in.NumberOfOcclusionSamples = static_cast<int>(illumination.Occlusion.size());
+    in.OcclusionRadius = options.OcclusionRadius > 0 ? options.OcclusionRadius
+                                                     : AutomaticOcclusionRadius * worldRadius;
+    in.OcclusionOffset = OcclusionOffset * worldRadius;
   }
   ErrorSpending spending;
   spending.EndsEarly = true;
@@ -398,6 +451,11 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
         own.Covered = Unite(own.Covered, tile);
       }
     });
+  if (sampled && !statistics.Aborted)
+  {
+    this->Mean.Add(colors, samples.First / options.SamplesPerFrame);
+    statistics.Samples = samples.First + samples.Count;
+  }
   for (const std::unique_ptr<ThreadMemory>& thread : memory)
   {
     const IsosurfaceCounts& counts = thread->Counts;

@@ -8,6 +8,7 @@
 #include "Hierarchy/MinMaxTree.h"
 #include "Isosurface/ActiveTree.h"
 #include "Isosurface/CellField.h"
+#include "Isosurface/PictureMean.h"
 #include "Isosurface/TraceInput.h"
 #include "Optics/OpticalModel.h"
 #include "Scene/VolumeScene.h"
@@ -43,6 +44,17 @@ struct IsosurfaceOptions
   std::vector<Light> Lights;
   Material Surface;
 
+  double ShadowSoftness = 0;     ///< angle that lights are seen under, radians; 0: hard shadows
+  bool AmbientOcclusion = false; ///< whether surfaces block light from all around, where lit
+  double OcclusionRadius = 0;    ///< from how far they do, world units; 0: a fifth of the radius
+
+  /// Light sources a frame of soft shadows, and directions of ambient light. Frames of which
+  /// nothing else differs take further ones, up to MaximumSamples, and the picture is their mean.
+  ///@{
+  int SamplesPerFrame = 4;
+  int MaximumSamples = 256;
+  ///@}
+
   int MaximumLayers = 0; ///< surfaces that a ray meets at most; 0: as many as MaximumError asks for
 
   TreeBuild Build = TreeBuild::SpatialMedian;
@@ -73,7 +85,8 @@ struct IsosurfaceStatistics
   TraceCounts Shadow;
   std::int64_t Hits = 0;
   Tile Covered{ 0, 0, 0, 0 }; ///< packets that hit anything, pixels; nothing else is in the picture
-  std::int64_t LostRays = 0;  ///< ended at MaximumLayers
+  int Samples = 0; ///< of soft shadows and ambient light, of all frames that the picture is of
+  std::int64_t LostRays = 0; ///< ended at MaximumLayers
   int NumberOfThreads = 0;
   std::string InstructionSet;
   bool Aborted = false;
@@ -109,6 +122,8 @@ private:
   // One for each isopolygon.
   Cached<std::vector<CellField<3>>> Gradients;
   Cached<std::vector<CellField<1>>> Colors;
+
+  PictureMean Mean;
 };
 
 } // namespace tetralux

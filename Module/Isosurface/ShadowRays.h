@@ -23,20 +23,24 @@ constexpr double ShadowOffset = 1e-6;
 /// about the radius of the mesh's frame.
 constexpr double ShadowLargest = 2;
 
-/// Traces scratch.ShadowRays, and stores 0 as visible of the rays that were blocked.
+/// Traces scratch.ShadowRays: rays that are blocked hit something.
 TETRALUX_INLINE void TraceShadows(const IsosurfaceInput& in, const RayFrame& frame,
-  IsosurfaceScratch& scratch, IsosurfaceCounts& counts, float* visible)
+  IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
   RayPacket& packet = scratch.ShadowRays;
-  if (!FitBounds(packet, GetPacketMargin(ShadowLargest)))
+  if (FitBounds(packet, GetPacketMargin(ShadowLargest)))
   {
-    return;
+    PacketTraversal<true>(in.Tree, frame, in.ShadowLimits, packet, counts.Shadow).Trace();
   }
-  PacketTraversal<true>(in.Tree, frame, in.ShadowLimits, packet, counts.Shadow).Trace();
-  for (int i = 0; i < RayPacket::MaximumRays; ++i)
-  {
-    visible[i] = packet.Hit[i] >= 0 ? 0.f : visible[i];
-  }
+}
+
+/// A shadow ray that takes no part.
+TETRALUX_INLINE void ClearShadowRay(RayPacket& packet, int ray)
+{
+  packet.Hit[ray] = -1;
+  packet.Near[ray] = InfiniteKey;
+  packet.Far[ray] = InfiniteKey;
+  packet.U[ray] = packet.V[ray] = 0;
 }
 
 /// Whether a light shines on a hit from the viewer's side: else its shadow changes nothing.
@@ -61,7 +65,7 @@ TETRALUX_INLINE bool FacesLight(
   return !any || (view > 0 ? towards < 0 : towards > 0);
 }
 
-/// Fills visible, 1 or 0 a ray, for one light. chunks: those with hits, one bit each.
+/// Takes from visible, 1 a ray at first, what does not come through from one source. chunks: those with hits, one bit each.
 TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource& source,
   std::uint32_t chunks, IsosurfaceScratch& scratch, IsosurfaceCounts& counts, float* visible)
 {
@@ -71,7 +75,7 @@ TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource
   unsigned sides = 0;
   for (int i = 0; i < RayPacket::MaximumRays; ++i)
   {
-    visible[i] = 1.f;
+    visible[i] = source.First ? 1.f : visible[i];
     side[i] = -1;
     if ((chunks >> (i / LaneCount) & 1) == 0 || rays.Hit[i] < 0)
     {
@@ -111,10 +115,7 @@ TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource
     const RayFrame& frame = source.Frames[s];
     for (int i = 0; i < RayPacket::MaximumRays; ++i)
     {
-      packet.Hit[i] = -1;
-      packet.Near[i] = InfiniteKey;
-      packet.Far[i] = InfiniteKey;
-      packet.U[i] = packet.V[i] = 0;
+      ClearShadowRay(packet, i);
       if (side[i] != s)
       {
         continue;
@@ -127,7 +128,12 @@ TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource
       packet.V[i] = frame.Parallel ? placed[1] : placed[1] / placed[2];
       packet.Far[i] = frame.Parallel ? -nearer : nearer > 0 ? 1 / nearer : InfiniteKey;
     }
-    TraceShadows(in, frame, scratch, counts, visible);
+    TraceShadows(in, frame, scratch, counts);
+    for (int i = 0; i < RayPacket::MaximumRays; ++i)
+    {
+      const float left = visible[i] - source.Share;
+      visible[i] = packet.Hit[i] >= 0 ? (left > 0.f ? left : 0.f) : visible[i];
+    }
   }
 }
 
