@@ -55,6 +55,7 @@ void vtkTetrahedraCPUMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   picture.Grid = frame.MakeGrid(rays);
   picture.Limits = frame.MakeLimits(rays);
+  picture.Depth = rays.GetDepthMap();
   std::vector<float> opaqueDistances;
   if (frame.HasOpaqueGeometry())
   {
@@ -81,6 +82,11 @@ void vtkTetrahedraCPUMapper::Internals::DrawFrame(MapperFrame& frame)
   if (covered.Width > 0)
   {
     const tetralux::Stopwatch stopwatch;
+    if (!frame.WindowDepths.empty())
+    {
+      this->Compositor.WriteDepth(
+        frame.Window, rays.GetVisible(), frame.WindowDepths.data(), width, height, covered);
+    }
     this->Compositor.Composite(
       frame.Window, rays.GetVisible(), picture.Colors.data(), width, height, covered);
     frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());

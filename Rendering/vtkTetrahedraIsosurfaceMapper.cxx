@@ -12,6 +12,7 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <vector>
 
 using tetralux::Json;
 using tetralux::MapperFrame;
@@ -70,6 +71,15 @@ void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::
   frame.Errors = { { "early_termination", statistics.TerminationError } };
 }
 
+/// Whether any surface may be opaque.
+bool HasOpaqueSurfaces(const tetralux::VolumeScene& scene)
+{
+  const std::vector<tetralux::Isosurface>& surfaces = scene.Optics.GetIsosurfaces();
+  return !scene.Mesh.GetColorScalars().empty() ||
+    std::any_of(surfaces.begin(), surfaces.end(),
+      [](const tetralux::Isosurface& surface) { return surface.Opacity >= 1; });
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -77,6 +87,7 @@ class vtkTetrahedraIsosurfaceMapper::Internals
 {
 public:
   tetralux::IsosurfaceTracer Tracer;
+  std::vector<float> WindowDepths;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -139,6 +150,13 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
   options.MaximumLayers = this->MaximumNumberOfPeels;
   options.NumberOfThreads = this->NumberOfThreads;
   options.Progress = [&frame](double fraction) { return frame.ReportProgress(fraction); };
+  if (frame.Settings.IntermixIntersectingGeometry && HasOpaqueSurfaces(*frame.Scene))
+  {
+    this->Private->WindowDepths.resize(picture.Depths.size());
+    options.Depth = picture.Depth;
+    options.WindowDepths = this->Private->WindowDepths;
+    frame.WindowDepths = this->Private->WindowDepths;
+  }
   const tetralux::IsosurfaceStatistics statistics = this->Private->Tracer.Trace(
     *frame.Scene, picture.Grid, picture.Limits, options, picture.Colors, picture.Depths);
   frame.Integration = tetralux::Integrator::Isosurfaces;

@@ -68,8 +68,16 @@ struct IsosurfaceInput
   int MaximumLayers;        ///< surfaces that a ray meets at most
   float MaximumOpacity;     ///< a ray ends where it is this opaque
 
-  float* Colors; ///< four a pixel, premultiplied
-  float* Depths; ///< one a pixel
+  float* Colors;       ///< four a pixel, premultiplied
+  float* Depths;       ///< one a pixel
+  float* WindowDepths; ///< one a pixel; nullptr: not wanted
+
+  /// What a depth buffer holds of a point of a ray, and what that is divided by: factors of u, v,
+  /// the key and 1.
+  ///@{
+  double DepthFactors[4];
+  double DivisorFactors[4];
+  ///@}
 };
 
 struct IsosurfaceCounts
@@ -89,6 +97,7 @@ struct IsosurfaceScratch
   double StartFar[RayPacket::MaximumRays];
   float Colors[4][RayPacket::MaximumRays];
   float Depths[RayPacket::MaximumRays];
+  float WindowDepths[RayPacket::MaximumRays];
 
   // The hits of a layer.
   double Points[3][RayPacket::MaximumRays]; ///< in the mesh's frame

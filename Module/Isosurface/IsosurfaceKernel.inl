@@ -110,7 +110,20 @@ TETRALUX_INLINE void ClearPixels(IsosurfaceScratch& scratch)
       channel[i] = 0;
     }
     scratch.Depths[i] = -1;
+    scratch.WindowDepths[i] = 1;
   }
+}
+
+/// What the depth buffer holds of hits.
+TETRALUX_INLINE Float8 FindWindowDepth(
+  const IsosurfaceInput& in, const RayPacket& rays, int begin, Double8 key)
+{
+  const Double8 u = LoadDouble8(rays.U + begin);
+  const Double8 v = LoadDouble8(rays.V + begin);
+  const auto combine = [&](const double(&f)[4])
+  { return Fma(Double8(f[0]), u, Fma(Double8(f[1]), v, Fma(Double8(f[2]), key, Double8(f[3])))); };
+  const Double8 half = 0.5;
+  return ToFloat(half + half * combine(in.DepthFactors) / combine(in.DivisorFactors));
 }
 
 /// Composites the hits of a layer below what is there. Returns their number.
@@ -174,6 +187,12 @@ TETRALUX_INLINE int CompositeChunk(
   const Float8 known = LoadFloat8(depth);
   const Mask8 sets = hits & (Float8(0.f) < opacity) & (first ? hits : known < Float8(0.f));
   Store(depth, Select(sets, ToFloat(distance), known));
+  if (in.WindowDepths)
+  {
+    float* window = scratch.WindowDepths + begin;
+    const Mask8 opaque = hits & (Float8(1.f) <= opacity);
+    Store(window, Select(opaque, FindWindowDepth(in, rays, begin, key), LoadFloat8(window)));
+  }
   return __builtin_popcount(bits);
 }
 
@@ -293,6 +312,10 @@ TETRALUX_INLINE void StorePixels(const IsosurfaceInput& in, int x0, int y0, int 
       {
         depths[x] = -1;
       }
+      for (int x = x0; in.WindowDepths && x < x1; ++x)
+      {
+        in.WindowDepths[y * width + x] = 1;
+      }
     }
     return;
   }
@@ -314,6 +337,10 @@ TETRALUX_INLINE void StorePixels(const IsosurfaceInput& in, int x0, int y0, int 
           colors[4 * i + c] = scratch.Colors[c][first + i];
         }
         depths[i] = scratch.Depths[first + i];
+      }
+      for (int i = 0; in.WindowDepths && i < count; ++i)
+      {
+        in.WindowDepths[y * width + x + i] = scratch.WindowDepths[first + i];
       }
     }
   }

@@ -196,6 +196,17 @@ CacheKey MakePictureKey(const VolumeScene& scene, const RayGrid& grid, const Ray
   return key;
 }
 
+/// row: of a DepthMap.
+void FillDepthFactors(
+  const RayGrid& grid, const RayFrame& frame, const double (&row)[4], double (&factors)[4])
+{
+  factors[0] = Dot(row, frame.Parallel ? grid.OriginStepX : grid.DirectionStepX);
+  factors[1] = Dot(row, frame.Parallel ? grid.OriginStepY : grid.DirectionStepY);
+  const double along = Dot(row, grid.Direction);
+  factors[2] = frame.Parallel ? -along : row[3];
+  factors[3] = frame.Parallel ? row[3] : along;
+}
+
 std::vector<float> GetColors(const std::vector<Isosurface>& surfaces)
 {
   std::vector<float> colors;
@@ -427,6 +438,12 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
     options.MaximumLayers > 0 ? options.MaximumLayers : std::numeric_limits<int>::max();
   in.Colors = colors.data();
   in.Depths = depths.data();
+  if (!options.WindowDepths.empty())
+  {
+    in.WindowDepths = options.WindowDepths.data();
+    FillDepthFactors(grid, in.Frame, options.Depth.Depth, in.DepthFactors);
+    FillDepthFactors(grid, in.Frame, options.Depth.Divisor, in.DivisorFactors);
+  }
 
   const InstructionSet set = options.Kernels.value_or(GetWidestInstructionSet());
   const IsosurfaceKernel kernel = GetKernel(set);

@@ -14,6 +14,7 @@
 #include "Scene/VolumeScene.h"
 #include "Simd/InstructionSet.h"
 #include "TetraluxCoreModule.h"
+#include "View/DepthMap.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
@@ -54,6 +55,12 @@ struct IsosurfaceOptions
   int SamplesPerFrame = 4;
   int MaximumSamples = 256;
   ///@}
+
+  /// What the window's depth buffer holds of points, for WindowDepths.
+  DepthMap Depth{};
+  /// To be filled, one a ray, unless empty: what the depth buffer is to hold of the nearest opaque
+  /// surface, 1 where there is none.
+  Span<float> WindowDepths;
 
   int MaximumLayers = 0; ///< surfaces that a ray meets at most; 0: as many as MaximumError asks for
 

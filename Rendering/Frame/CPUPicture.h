@@ -4,6 +4,7 @@
 
 #include "Base/Span.h"
 #include "Frame/CameraRays.h"
+#include "View/DepthMap.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
@@ -17,6 +18,7 @@ struct CPUPicture
   RayLimits Limits;          ///< opaque geometry included
   double SampleDistance = 1; ///< pixels from ray to ray
   Span<float> Colors;        ///< to be filled: four a ray, premultiplied
+  DepthMap Depth;            ///< of the window
   Span<float> Depths;        ///< to be filled: distance along the ray, -1 where there is nothing
 };
 

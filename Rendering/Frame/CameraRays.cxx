@@ -216,6 +216,20 @@ void CameraRays::AddClippingRange(RayLimits& limits) const
   }
 }
 
+DepthMap CameraRays::GetDepthMap() const
+{
+  DepthMap map;
+  std::copy_n(this->DeviceFromWorld + 8, 4, map.Depth);
+  std::copy_n(this->DeviceFromWorld + 12, 4, map.Divisor);
+  for (int c = 0; c < 3; ++c)
+  {
+    const double offset = this->Grid.Origin[c] - this->Position[c];
+    map.Depth[3] += map.Depth[c] * offset;
+    map.Divisor[3] += map.Divisor[c] * offset;
+  }
+  return map;
+}
+
 double CameraRays::GetDistance(int i, int j, double depth) const
 {
   double x, y;

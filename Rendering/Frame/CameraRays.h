@@ -3,6 +3,7 @@
 #define tetralux_CameraRays_h
 
 #include "TetraluxRenderingModule.h"
+#include "View/DepthMap.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
@@ -47,6 +48,9 @@ public:
 
   /// Adds the near and the far plane.
   void AddClippingRange(RayLimits& limits) const;
+
+  /// What the depth buffer holds of points in the world.
+  DepthMap GetDepthMap() const;
 
   /// Distance in world units from the start of ray (i, j) to where the depth buffer (0..1) has this
   /// value.

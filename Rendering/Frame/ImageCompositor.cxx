@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/ImageCompositor.h"
 
+#include "CompositeDepthFS.h"
 #include "CompositeImageFS.h"
 
 #include "vtkOpenGLQuadHelper.h"
@@ -25,30 +26,66 @@ void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectan
   const float* colors, int width, int height, const PixelRectangle& covered)
 {
   this->SetWindow(window);
+  const PixelRectangle target =
+    this->Upload(rectangle, colors, 4, width, height, covered, this->Texture);
+  this->Composite(window, target, this->Texture);
+}
+
+void ImageCompositor::WriteDepth(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
+  const float* depths, int width, int height, const PixelRectangle& covered)
+{
+  this->SetWindow(window);
+  const PixelRectangle target =
+    this->Upload(rectangle, depths, 1, width, height, covered, this->DepthTexture);
+  vtkOpenGLState* state = window->GetState();
+  const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  const vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
+  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  const vtkOpenGLState::ScopedglDepthMask depthMask(state);
+  const vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
+  const vtkOpenGLState::ScopedglColorMask colorMask(state);
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglActiveTexture unit(state);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDepthMask(GL_TRUE);
+  // The picture has ended at what the buffer holds.
+  state->vtkglDepthFunc(GL_ALWAYS);
+  state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  state->vtkglViewport(target.X, target.Y, target.Width, target.Height);
+  this->DepthTexture->SetMinificationFilter(vtkTextureObject::Nearest);
+  this->DepthTexture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  this->Draw(this->DepthQuad, CompositeDepthFS, this->DepthTexture);
+}
+
+/// Makes the texture of what is covered of a picture. Returns where it belongs in the window.
+PixelRectangle ImageCompositor::Upload(const PixelRectangle& rectangle, const float* values,
+  int components, int width, int height, const PixelRectangle& covered, vtkTextureObject* texture)
+{
   // Where a ray is a pixel, what is empty needs neither upload nor drawing.
   const bool sameSize = width == rectangle.Width && height == rectangle.Height;
   const PixelRectangle part = sameSize ? covered : PixelRectangle{ 0, 0, width, height };
+  const vtkOpenGLState::ScopedglActiveTexture unit(this->Window->GetState());
+  texture->SetContext(this->Window);
+  texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  const float* first = values + components * (static_cast<std::size_t>(part.Y) * width + part.X);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, width);
+  const bool made = texture->Create2DFromRaw(
+    part.Width, part.Height, components, VTK_FLOAT, const_cast<float*>(first)); // only read
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  if (!made)
   {
-    const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
-    this->Texture->SetContext(window);
-    this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
-    this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-    const float* first = colors + 4 * (static_cast<std::size_t>(part.Y) * width + part.X);
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, width);
-    const bool made = this->Texture->Create2DFromRaw(
-      part.Width, part.Height, 4, VTK_FLOAT, const_cast<float*>(first)); // only read
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    if (!made)
-    {
-      throw std::runtime_error("no texture of " + std::to_string(part.Width) + " x " +
-        std::to_string(part.Height) + " floating point pixels could be made");
-    }
-    this->Texture->Deactivate();
+    throw std::runtime_error("no texture of " + std::to_string(part.Width) + " x " +
+      std::to_string(part.Height) + " floating point pixels could be made");
   }
-  const PixelRectangle target = sameSize
+  texture->Deactivate();
+  return sameSize
     ? PixelRectangle{ rectangle.X + part.X, rectangle.Y + part.Y, part.Width, part.Height }
     : rectangle;
-  this->Composite(window, target, this->Texture);
 }
 
 void ImageCompositor::SetWindow(vtkOpenGLRenderWindow* window)
@@ -56,7 +93,9 @@ void ImageCompositor::SetWindow(vtkOpenGLRenderWindow* window)
   if (this->Window != window)
   {
     this->ReleaseGraphicsResources(this->Window);
-    this->Quad.reset(); // also where the last window is no more
+    // Also where the last window is no more.
+    this->Quad.reset();
+    this->DepthQuad.reset();
     this->Window = window;
   }
 }
@@ -88,18 +127,26 @@ void ImageCompositor::Composite(
   picture->SetMinificationFilter(filter);
   picture->SetMagnificationFilter(filter);
 
-  if (!this->Quad)
+  this->Draw(this->Quad, CompositeImageFS, picture);
+}
+
+/// Draws a texture by a shader, whose program quad keeps.
+void ImageCompositor::Draw(
+  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader, vtkTextureObject* picture)
+{
+  vtkOpenGLRenderWindow* window = this->Window;
+  if (!quad)
   {
-    this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, CompositeImageFS, "");
+    quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, shader, "");
   }
-  if (!this->Quad->Program || !window->GetShaderCache()->ReadyShaderProgram(this->Quad->Program))
+  if (!quad->Program || !window->GetShaderCache()->ReadyShaderProgram(quad->Program))
   {
-    this->Quad.reset();
+    quad.reset();
     throw std::runtime_error("the shader program that composites the picture did not compile");
   }
   picture->Activate();
-  this->Quad->Program->SetUniformi("image", picture->GetTextureUnit());
-  this->Quad->Render();
+  quad->Program->SetUniformi("image", picture->GetTextureUnit());
+  quad->Render();
   picture->Deactivate();
 }
 
@@ -110,7 +157,9 @@ void ImageCompositor::ReleaseGraphicsResources(vtkWindow* window)
     return;
   }
   this->Texture->ReleaseGraphicsResources(window);
+  this->DepthTexture->ReleaseGraphicsResources(window);
   this->Quad.reset();
+  this->DepthQuad.reset();
   this->Window = nullptr;
 }
 

@@ -41,15 +41,26 @@ public:
     vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle, vtkTextureObject* picture);
   ///@}
 
+  /// Writes depths of a picture into the depth buffer, width x height of them, lower row first;
+  /// what is 1 or more is left out. The nearest one where the sizes differ. Throws as Composite.
+  void WriteDepth(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
+    const float* depths, int width, int height, const PixelRectangle& covered);
+
   /// window: the one that goes away.
   void ReleaseGraphicsResources(vtkWindow* window);
 
 private:
   void SetWindow(vtkOpenGLRenderWindow* window);
+  PixelRectangle Upload(const PixelRectangle& rectangle, const float* values, int components,
+    int width, int height, const PixelRectangle& covered, vtkTextureObject* texture);
+  void Draw(
+    std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader, vtkTextureObject* picture);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkNew<vtkTextureObject> Texture;
+  vtkNew<vtkTextureObject> DepthTexture;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
+  std::unique_ptr<vtkOpenGLQuadHelper> DepthQuad;
 };
 
 } // namespace tetralux

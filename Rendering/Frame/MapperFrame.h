@@ -77,6 +77,10 @@ struct MapperFrame
 
   bool Opaque = false; ///< opaque geometry was drawn before and is honoured
 
+  /// What the depth buffer is to hold of what is opaque, one a ray, 1 where nothing is; empty: it
+  /// stays as it is. Of memory that the mapper keeps.
+  Span<const float> WindowDepths;
+
   /// Fills Image, if the picture is not read from the graphics card in each frame: called when
   /// somebody asks for the picture.
   std::function<void(vtkImageData*)> ReadPicture;

@@ -141,7 +141,7 @@ TEST_F(FloatTargetTest, CompositesAsAPictureFromMemoryDoes)
   {
     colors.insert(colors.end(), color.begin(), color.end());
   }
-  compositor.Composite(this->Window, rectangle, colors.data(), 10, 6);
+  compositor.Composite(this->Window, rectangle, colors.data(), 10, 6, { 0, 0, 10, 6 });
   EXPECT_EQ(FindDifferences(before, TakeOpenGLSnapshot(this->Window)), "");
   EXPECT_EQ(drawn, this->ReadWindow());
   const std::size_t inside = 4 * (4 * 24 + 5);
