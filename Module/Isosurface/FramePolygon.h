@@ -27,6 +27,7 @@ struct FramePolygon
   double LowKey, HighKey;    ///< of the corners
   double Tolerance;          ///< largest rounding error of an edge function
   float LowU, HighU, LowV, HighV;
+  double BoxLowU, BoxHighU, BoxLowV, BoxHighV; ///< the same, but for BoxRounding
 };
 
 enum class Coverage
@@ -39,6 +40,10 @@ enum class Coverage
 /// What an edge function is rounded by, in squares of the largest coordinate: four products of two
 /// rounded coordinates each, and three sums, with a factor of two to spare.
 constexpr double EdgeRounding = 16. / (1ll << 53);
+
+/// What a division rounds u and v of a corner by, as a share of the largest |u| and |v|, with a
+/// factor of four to spare.
+constexpr double BoxRounding = 4. / (1ll << 53);
 
 /// Prepares a polygon for a packet. largest: largest |u| and |v| of the packet, at least 1.
 TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, double largest,
@@ -105,11 +110,17 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
     result.HighU = static_cast<float>(highU) + margin;
     result.LowV = static_cast<float>(lowV) - margin;
     result.HighV = static_cast<float>(highV) + margin;
+    result.BoxLowU = lowU - BoxRounding * largest;
+    result.BoxHighU = highU + BoxRounding * largest;
+    result.BoxLowV = lowV - BoxRounding * largest;
+    result.BoxHighV = highV + BoxRounding * largest;
   }
   else
   {
     result.LowU = result.LowV = -std::numeric_limits<float>::infinity();
     result.HighU = result.HighV = std::numeric_limits<float>::infinity();
+    result.BoxLowU = result.BoxLowV = -InfiniteKey;
+    result.BoxHighU = result.BoxHighV = InfiniteKey;
   }
 
   double size = 0;
@@ -245,6 +256,9 @@ TETRALUX_INLINE void HitChunk(
       const double e01 = e0 < e1 ? e0 : e1;
       const double e23 = e2 < e3 ? e2 : e3;
       inside &= (e01 < e23 ? e01 : e23) >= outside;
+      // All edges of a polygon that is smaller than the tolerance pass it.
+      inside &= (polygon.BoxLowU <= u) & (u <= polygon.BoxHighU);
+      inside &= (polygon.BoxLowV <= v) & (v <= polygon.BoxHighV);
     }
     far[i] = inside ? (AnyHit ? InfiniteKey : key) : far[i];
     hit[i] = inside ? id : hit[i];
