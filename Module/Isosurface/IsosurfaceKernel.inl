@@ -19,7 +19,8 @@ namespace
 {
 
 /// Hits whose keys differ by less than this, as a share of them, are one: a ray through an edge or
-/// a corner hits all polygons there. Thousand times the rounding of a key.
+/// a corner hits all polygons there. Thousand times the rounding of a key. Keys of parallel rays
+/// are rounded as the mesh's radius is, too: they may be 0.
 constexpr double LayerDistance = 1e-12;
 
 /// The key at which opaque geometry ends a pixel's ray.
@@ -127,8 +128,7 @@ TETRALUX_INLINE Float8 FindWindowDepth(
 }
 
 /// Composites the hits of a layer below what is there. Returns their number.
-TETRALUX_INLINE int CompositeChunk(
-  const IsosurfaceInput& in, IsosurfaceScratch& scratch, int chunk, bool first)
+TETRALUX_INLINE int CompositeChunk(const IsosurfaceInput& in, IsosurfaceScratch& scratch, int chunk)
 {
   const RayPacket& rays = scratch.Rays;
   const int begin = chunk * LaneCount;
@@ -185,7 +185,8 @@ TETRALUX_INLINE int CompositeChunk(
   Store(scratch.Colors[3] + begin, before + share);
   float* depth = scratch.Depths + begin;
   const Float8 known = LoadFloat8(depth);
-  const Mask8 sets = hits & (Float8(0.f) < opacity) & (first ? hits : known < Float8(0.f));
+  // Depths of parallel rays may be negative: opacity tells whether there was a surface before.
+  const Mask8 sets = hits & (Float8(0.f) < opacity) & (before <= Float8(0.f));
   Store(depth, Select(sets, ToFloat(distance), known));
   if (in.WindowDepths)
   {
@@ -200,12 +201,16 @@ TETRALUX_INLINE int CompositeChunk(
 TETRALUX_INLINE bool StartNextLayer(const IsosurfaceInput& in, IsosurfaceScratch& scratch)
 {
   RayPacket& packet = scratch.Rays;
+  const double(&row)[4] = in.Frame.Rows[2];
+  const double radius =
+    in.Frame.Parallel ? __builtin_sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]) : 0;
   bool any = false;
   for (int i = 0; i < RayPacket::MaximumRays; ++i)
   {
     const bool goesOn = packet.Hit[i] >= 0 && scratch.Colors[3][i] < in.MaximumOpacity;
     const double key = packet.Far[i];
-    packet.Near[i] = goesOn ? key - LayerDistance * (key < 0 ? -key : key) : packet.Near[i];
+    packet.Near[i] =
+      goesOn ? key - LayerDistance * ((key < 0 ? -key : key) + radius) : packet.Near[i];
     packet.Far[i] = goesOn ? scratch.StartFar[i] : InfiniteKey;
     packet.Hit[i] = -1;
     any |= goesOn;
@@ -279,7 +284,7 @@ bool DrawLayers(
     }
     for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
     {
-      counts.Hits += CompositeChunk(in, scratch, __builtin_ctz(rest), layer == 0);
+      counts.Hits += CompositeChunk(in, scratch, __builtin_ctz(rest));
     }
     if (layer + 1 == in.MaximumLayers)
     {

@@ -79,6 +79,8 @@ Ways MakeWays(vtkUnstructuredGrid* grid, const SceneOptions& options)
     std::make_unique<EmbreeWay>(grid, view, RTC_BUILD_QUALITY_MEDIUM, ScalarTree::Off, threads));
   ways.push_back(
     std::make_unique<EmbreeWay>(grid, view, RTC_BUILD_QUALITY_LOW, ScalarTree::On, threads));
+  ways.push_back(MakeTracerWay(grid, options));
+  ways.push_back(MakeTracerAloneWay(grid, options));
   ways.push_back(MakeRasteriserWay(grid, options));
   ways.push_back(MakeRayCasterWay(grid, options));
   ways.push_back(MakeEmptyWay(grid, options));

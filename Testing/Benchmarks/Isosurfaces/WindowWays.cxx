@@ -4,6 +4,7 @@
 #include "Isosurfaces/IsosurfaceWindow.h"
 #include "Isosurfaces/SurfaceExtraction.h"
 #include "Setup/SceneOptions.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include "vtkActor.h"
@@ -16,6 +17,8 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+
+#include <nlohmann/json.hpp>
 
 #include <array>
 
@@ -105,10 +108,12 @@ private:
 };
 
 //----------------------------------------------------------------------------
-class RayCasterWay : public WindowWay
+/// A volume with one lit surface, drawn by a mapper of this project.
+template <class MapperT>
+class VolumeWay : public WindowWay
 {
 public:
-  RayCasterWay(vtkUnstructuredGrid* grid, const SceneOptions& options)
+  VolumeWay(vtkUnstructuredGrid* grid, const SceneOptions& options)
     : WindowWay(grid, options)
   {
     this->Mapper->SetNumberOfThreads(options.NumberOfThreads);
@@ -127,9 +132,6 @@ public:
     this->Window.GetRenderer()->AddVolume(this->Volume);
   }
 
-  std::string GetName() const override { return "ray caster"; }
-  bool Takes(IsosurfaceCase which) const override { return which != IsosurfaceCase::Shadows; }
-
   void SetCase(IsosurfaceCase which) override
   {
     this->Opacity->RemoveAllPoints();
@@ -143,12 +145,62 @@ public:
 
   IsosurfaceTimes DrawFrame() override { return { 0, 0, this->Window.DrawFrame() }; }
 
+protected:
+  vtkNew<MapperT> Mapper;
+
 private:
-  vtkNew<vtkTetrahedraRayCastMapper> Mapper;
   vtkNew<vtkColorTransferFunction> Color;
   vtkNew<vtkPiecewiseFunction> Opacity;
   vtkNew<vtkVolumeProperty> Property;
   vtkNew<vtkVolume> Volume;
+};
+
+class RayCasterWay : public VolumeWay<vtkTetrahedraRayCastMapper>
+{
+public:
+  using VolumeWay::VolumeWay;
+
+  std::string GetName() const override { return "ray caster"; }
+  bool Takes(IsosurfaceCase which) const override { return which != IsosurfaceCase::Shadows; }
+};
+
+/// Its normals are those of cells, as those of the triangles of the other ways.
+class TracerWay : public VolumeWay<vtkTetrahedraIsosurfaceMapper>
+{
+public:
+  TracerWay(vtkUnstructuredGrid* grid, const SceneOptions& options)
+    : VolumeWay(grid, options)
+  {
+    this->Mapper->SmoothShadingOff();
+  }
+
+  std::string GetName() const override { return "isosurface mapper"; }
+  bool Takes(IsosurfaceCase) const override { return true; }
+
+  void SetCase(IsosurfaceCase which) override
+  {
+    VolumeWay::SetCase(which);
+    this->Mapper->SetShadows(which == IsosurfaceCase::Shadows);
+    this->Mapper->SetMaximumNumberOfPeels(which == IsosurfaceCase::TwoLayers ? 2 : 0);
+  }
+};
+
+/// The same without the window: what it takes to have the picture in memory.
+class TracerAloneWay : public TracerWay
+{
+public:
+  using TracerWay::TracerWay;
+
+  std::string GetName() const override { return "isosurface mapper alone"; }
+
+  IsosurfaceTimes DrawFrame() override
+  {
+    TracerWay::DrawFrame();
+    const auto seconds = nlohmann::json::parse(this->Mapper->GetStatistics()).at("seconds");
+    const auto get = [&seconds](const char* name)
+    { return seconds.at(name).template get<double>(); };
+    return { get("isopolygons"), get("hierarchy") + get("ranges"), get("trace") };
+  }
 };
 
 } // namespace
@@ -169,6 +221,17 @@ std::unique_ptr<IsosurfaceWay> MakeRayCasterWay(
   vtkUnstructuredGrid* grid, const SceneOptions& options)
 {
   return std::make_unique<RayCasterWay>(grid, options);
+}
+
+std::unique_ptr<IsosurfaceWay> MakeTracerWay(vtkUnstructuredGrid* grid, const SceneOptions& options)
+{
+  return std::make_unique<TracerWay>(grid, options);
+}
+
+std::unique_ptr<IsosurfaceWay> MakeTracerAloneWay(
+  vtkUnstructuredGrid* grid, const SceneOptions& options)
+{
+  return std::make_unique<TracerAloneWay>(grid, options);
 }
 
 } // namespace tetralux

@@ -26,6 +26,14 @@ std::unique_ptr<IsosurfaceWay> MakeRasteriserWay(
 std::unique_ptr<IsosurfaceWay> MakeRayCasterWay(
   vtkUnstructuredGrid* grid, const SceneOptions& options);
 
+/// vtkTetrahedraIsosurfaceMapper, in a window and as far as its picture.
+///@{
+std::unique_ptr<IsosurfaceWay> MakeTracerWay(
+  vtkUnstructuredGrid* grid, const SceneOptions& options);
+std::unique_ptr<IsosurfaceWay> MakeTracerAloneWay(
+  vtkUnstructuredGrid* grid, const SceneOptions& options);
+///@}
+
 } // namespace tetralux
 
 #endif
