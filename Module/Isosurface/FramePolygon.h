@@ -58,8 +58,9 @@ TETRALUX_INLINE double LargestOf(const double (&v)[4])
 /// factor of four to spare.
 constexpr double BoxRounding = 4. / (1ll << 53);
 
-/// Prepares a polygon for a packet. largest: largest |u| and |v| of the packet, at least 1.
-TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, double largest,
+/// Prepares a polygon for the rays within the bounds of a packet. Returns whether any may hit it.
+/// largest: largest |u| and |v| of the packet, at least 1.
+TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, double largest,
   float margin, const Isopolygon& polygon, FramePolygon& result)
 {
   double x[4], y[4], d[4], w[4];
@@ -88,7 +89,7 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
   {
     if (!(farthest > 0))
     {
-      return Coverage::None;
+      return false;
     }
     for (int i = 0; i < 4; ++i)
     {
@@ -113,7 +114,7 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
     if (lowU > packet.HighU + margin || highU < packet.LowU - margin ||
       lowV > packet.HighV + margin || highV < packet.LowV - margin)
     {
-      return Coverage::None;
+      return false;
     }
     result.LowU = static_cast<float>(lowU) - margin;
     result.HighU = static_cast<float>(highU) + margin;
@@ -166,7 +167,7 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
   }
   if (volume == 0)
   {
-    return Coverage::None; // seen from its edge
+    return false; // seen from its edge
   }
   if (frame.Parallel)
   {
@@ -182,7 +183,7 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
     }
     if (across[2] == 0)
     {
-      return Coverage::None;
+      return false;
     }
     result.Key[0] = across[0] / across[2];
     result.Key[1] = across[1] / across[2];
@@ -205,7 +206,13 @@ TETRALUX_INLINE Coverage Place(const RayFrame& frame, const RayPacket& packet, d
     }
   }
 
-  // All rays of the packet outside of one edge, or inside of all.
+  return true;
+}
+
+/// Which rays within the bounds of a packet a polygon covers, their limits left aside: none where
+/// all are outside of one edge, all where they are inside of each.
+TETRALUX_INLINE Coverage Cover(const FramePolygon& result, const RayPacket& packet)
+{
   double most[4], least[4];
 #pragma omp simd simdlen(4)
   for (int i = 0; i < 4; ++i)
@@ -252,8 +259,7 @@ TETRALUX_INLINE void HitChunk(
   double* far = packet.Far + first;
   std::int64_t* hit = packet.Hit + first;
   const double outside = -polygon.Tolerance;
-  std::int64_t any = 0;
-#pragma omp simd reduction(| : any)
+#pragma omp simd
   for (int i = 0; i < LaneCount; ++i)
   {
     const double u = us[i];
@@ -277,12 +283,8 @@ TETRALUX_INLINE void HitChunk(
     }
     far[i] = inside ? (AnyHit ? InfiniteKey : key) : far[i];
     hit[i] = inside ? id : hit[i];
-    any |= inside ? 1 : 0;
   }
-  if (any != 0)
-  {
-    UpdateChunkFar(packet, chunk);
-  }
+  UpdateChunkFar(packet, chunk);
 }
 
 } // namespace

@@ -122,31 +122,22 @@ private:
   const TraceLimits& Limits;
 };
 
-/// A packet in a tree.
-template <bool AnyHit>
-class PacketTraversal
+/// The way of a packet through a tree.
+class TreeWalk
 {
 public:
-  PacketTraversal(const TraceTree& tree, const RayFrame& frame, const TraceLimits& limits,
-    RayPacket& packet, TraceCounts& counts)
-    : Tree(tree)
-    , Frame(frame)
-    , Limits(limits)
-    , Packet(packet)
+  TreeWalk(const TraceTree& tree, const RayFrame& frame, const TraceLimits& limits,
+    const RayPacket& packet, TraceCounts& counts)
+    : Frustum(frame, packet, limits)
+    , Tree(tree)
     , Counts(counts)
-    , Frustum(frame, packet, limits)
   {
-    const double bounds[4] = { packet.LowU, packet.HighU, packet.LowV, packet.HighV };
-    for (const double bound : bounds)
-    {
-      const double size = bound < 0 ? -bound : bound;
-      this->Largest = size > this->Largest ? size : this->Largest;
-    }
-    this->Margin = GetPacketMargin(this->Largest);
-    this->Frustum.SetFarthest(frame, packet);
   }
 
-  void Trace()
+  /// Calls visit(node) with each leaf that the packet may hit anything in, nearer ones before those
+  /// farther. visit may move Frustum's farthest depth.
+  template <class Visit>
+  TETRALUX_INLINE void Walk(const Visit& visit)
   {
     ++this->Counts.Packets;
     StackEntry stack[MinMaxTree::MaximumDepth + 1];
@@ -165,7 +156,7 @@ public:
       {
         if (tested || !this->Misses(node, nearness))
         {
-          this->HitLeaf(node);
+          visit(node);
         }
       }
       else
@@ -214,6 +205,8 @@ public:
     }
   }
 
+  PacketFrustum Frustum;
+
 private:
   struct StackEntry
   {
@@ -251,23 +244,60 @@ private:
     return low < this->Tree.Source.NumberOfValues && this->Tree.ValueSteps[low] <= range.Largest;
   }
 
-  void HitLeaf(const MinMaxTree::Node& node)
+  const TraceTree& Tree;
+  TraceCounts& Counts;
+};
+
+/// The largest |u| and |v| within the bounds of a packet, at least 1.
+TETRALUX_INLINE double GetLargest(const RayPacket& packet)
+{
+  const double bounds[4] = { packet.LowU, packet.HighU, packet.LowV, packet.HighV };
+  double largest = 1;
+  for (const double bound : bounds)
+  {
+    const double size = bound < 0 ? -bound : bound;
+    largest = size > largest ? size : largest;
+  }
+  return largest;
+}
+
+/// A packet that is traced through a tree.
+template <bool AnyHit>
+class PacketTraversal
+{
+public:
+  PacketTraversal(const TraceTree& tree, const RayFrame& frame, const TraceLimits& limits,
+    RayPacket& packet, TraceCounts& counts)
+    : Tree(tree)
+    , Frame(frame)
+    , Limits(limits)
+    , Packet(packet)
+    , Counts(counts)
+    , Walk(tree, frame, limits, packet, counts)
+    , Largest(GetLargest(packet))
+    , Margin(GetPacketMargin(this->Largest))
+  {
+    this->Walk.Frustum.SetFarthest(frame, packet);
+  }
+
+  void Trace()
+  {
+    this->Walk.Walk([this](const MinMaxTree::Node& node) { this->HitLeaf(node); });
+  }
+
+private:
+  TETRALUX_INLINE void HitLeaf(const MinMaxTree::Node& node)
   {
     const bool changed = this->Tree.Polygons ? this->HitPolygons(node) : this->HitCells(node);
     if (changed)
     {
-      this->Frustum.SetFarthest(this->Frame, this->Packet);
+      this->Walk.Frustum.SetFarthest(this->Frame, this->Packet);
     }
   }
 
-  bool HitPolygons(const MinMaxTree::Node& node)
+  TETRALUX_INLINE bool HitPolygons(const MinMaxTree::Node& node)
   {
-    // A polygon takes two cache lines.
-    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
-    {
-      __builtin_prefetch(this->Tree.Polygons[i].X);
-      __builtin_prefetch(this->Tree.Polygons[i].Z);
-    }
+    PrefetchPolygons(this->Tree, node);
     bool changed = false;
     for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
     {
@@ -276,7 +306,7 @@ private:
     return changed;
   }
 
-  bool HitCells(const MinMaxTree::Node& node)
+  TETRALUX_INLINE bool HitCells(const MinMaxTree::Node& node)
   {
     bool changed = false;
     for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
@@ -295,45 +325,15 @@ private:
   TETRALUX_INLINE bool HitPolygon(const Isopolygon& polygon, std::int64_t id)
   {
     ++this->Counts.Polygons;
-    FramePolygon placed;
-    const Coverage coverage =
-      Place(this->Frame, this->Packet, this->Largest, this->Margin, polygon, placed);
-    if (coverage == Coverage::None)
+    PlacedPolygon placed;
+    placed.Id = id;
+    if (!Place(this->Frame, this->Packet, this->Largest, this->Margin, polygon, placed.Polygon))
     {
       ++this->Counts.PolygonMisses;
       return false;
     }
-    const bool limited = this->Limits.NumberOfPlanes > 0 || this->Limits.Cropping;
-    const LimitedPart part = limited ? FindLimitedPart(this->Limits, polygon) : LimitedPart::All;
-    if (part == LimitedPart::None)
-    {
-      return false;
-    }
-    std::uint32_t chunks = FindChunks(this->Packet, placed);
-    if (chunks == 0)
-    {
-      return false;
-    }
-    this->Counts.PolygonCovers += coverage == Coverage::All;
-    while (chunks != 0)
-    {
-      const int chunk = __builtin_ctz(chunks);
-      chunks &= chunks - 1;
-      this->Counts.RayPolygonTests += LaneCount;
-      if (part == LimitedPart::Some)
-      {
-        HitChunkWithin<AnyHit>(this->Limits, this->Frame, placed, id, this->Packet, chunk);
-      }
-      else if (coverage == Coverage::All)
-      {
-        HitChunk<AnyHit, true>(placed, id, this->Packet, chunk);
-      }
-      else
-      {
-        HitChunk<AnyHit, false>(placed, id, this->Packet, chunk);
-      }
-    }
-    return true;
+    placed.Part = FindLimitedPart(this->Limits, polygon);
+    return HitPlaced<AnyHit>(this->Limits, this->Frame, placed, this->Packet, this->Counts);
   }
 
   const TraceTree& Tree;
@@ -341,8 +341,8 @@ private:
   const TraceLimits& Limits;
   RayPacket& Packet;
   TraceCounts& Counts;
-  PacketFrustum Frustum;
-  double Largest = 1; ///< |u| and |v|
+  TreeWalk Walk;
+  double Largest; ///< |u| and |v|
   float Margin;
 };
 

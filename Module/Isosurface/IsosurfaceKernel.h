@@ -65,6 +65,7 @@ struct IsosurfaceInput
   double OcclusionRadius;   ///< what is farther blocks no ambient light; in the world
   double OcclusionOffset;   ///< what is nearer blocks none either; in the world
   TraceLimits ShadowLimits; ///< what is cut away blocks no light
+  bool Blocks;              ///< whether polygons are gathered for blocks, see PolygonBlock.h
   int MaximumLayers;        ///< surfaces that a ray meets at most
   float MaximumOpacity;     ///< a ray ends where it is this opaque
 
@@ -89,9 +90,32 @@ struct IsosurfaceCounts
   double LostOpacity = 0;    ///< largest share of light that such a ray lets through
 };
 
+/// Packets along the edge of a block.
+constexpr int BlockPackets = 4;
+constexpr int BlockEdge = BlockPackets * RayPacket::Edge;
+
+/// Polygons of a block, owned by one thread and grown on demand: their bounds in u and v, and what
+/// else the kernel keeps of each.
+struct BlockMemory
+{
+  void* Polygons = nullptr;
+  float* LowU = nullptr;
+  float* HighU = nullptr;
+  float* LowV = nullptr;
+  float* HighV = nullptr;
+  int Count = 0;
+  int Capacity = 0;
+  /// Makes room for that many, and keeps what there is.
+  void (*Grow)(BlockMemory&, int count) = nullptr;
+};
+
+/// Bytes of what a kernel keeps of a polygon, at most.
+constexpr int PlacedPolygonBytes = 256;
+
 /// Memory of a thread.
 struct IsosurfaceScratch
 {
+  BlockMemory* Block;
   RayPacket Rays;
   RayPacket ShadowRays;
   double StartFar[RayPacket::MaximumRays];
@@ -109,7 +133,7 @@ struct IsosurfaceScratch
   float Ambient[RayPacket::MaximumRays]; ///< share of ambient light, if anything blocks it
 };
 
-/// Draws the pixels from (x0, y0) up to but without (x1, y1): a packet at most.
+/// Draws the pixels from (x0, y0) up to but without (x1, y1): a block at most.
 using IsosurfaceKernel = void (*)(
   const IsosurfaceInput&, int x0, int y0, int x1, int y1, IsosurfaceScratch&, IsosurfaceCounts&);
 

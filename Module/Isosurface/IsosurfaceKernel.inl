@@ -8,6 +8,7 @@
 #include "Isosurface/HitPoints.h"
 #include "Isosurface/IsosurfaceKernel.h"
 #include "Isosurface/OcclusionRays.h"
+#include "Isosurface/PolygonBlock.h"
 #include "Isosurface/ShadowRays.h"
 #include "Lighting/LaneLights.h"
 
@@ -86,7 +87,16 @@ TETRALUX_INLINE bool StartRays(const IsosurfaceInput& in, int x0, int y0, int x1
   return FitBounds(packet, margin);
 }
 
-/// Whether a packet of pixels misses all that there is, before its rays are filled.
+/// Bounds of the rays of pixels, and nothing else of a packet.
+TETRALUX_INLINE void SetPixelBounds(RayPacket& bounds, int x0, int y0, int x1, int y1)
+{
+  bounds.LowU = x0;
+  bounds.HighU = x1 - 1;
+  bounds.LowV = y0;
+  bounds.HighV = y1 - 1;
+}
+
+/// Whether pixels miss all that there is, before their rays are filled.
 TETRALUX_INLINE bool MissesAll(const IsosurfaceInput& in, int x0, int y0, int x1, int y1)
 {
   if (!in.Tree.Nodes)
@@ -94,10 +104,7 @@ TETRALUX_INLINE bool MissesAll(const IsosurfaceInput& in, int x0, int y0, int x1
     return true;
   }
   RayPacket bounds;
-  bounds.LowU = x0;
-  bounds.HighU = x1 - 1;
-  bounds.LowV = y0;
-  bounds.HighV = y1 - 1;
+  SetPixelBounds(bounds, x0, y0, x1, y1);
   float nearness;
   return PacketFrustum(in.Frame, bounds, in.Limits).Misses(in.Tree.Nodes[0], nearness);
 }
@@ -258,7 +265,14 @@ bool DrawLayers(
   RayPacket& packet = scratch.Rays;
   for (int layer = 0; layer < in.MaximumLayers; ++layer)
   {
-    PacketTraversal<false>(in.Tree, in.Frame, in.Limits, packet, counts.Primary).Trace();
+    if (in.Blocks)
+    {
+      HitBlock<false>(in.Limits, in.Frame, *scratch.Block, packet, counts.Primary);
+    }
+    else
+    {
+      PacketTraversal<false>(in.Tree, in.Frame, in.Limits, packet, counts.Primary).Trace();
+    }
     const std::uint32_t chunks = FindHitChunks(packet);
     if (chunks == 0)
     {
@@ -355,9 +369,31 @@ void DrawPacket(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
   IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
   const float margin = GetPacketMargin(x1 > y1 ? x1 : y1);
-  const bool any =
-    StartRays(in, x0, y0, x1, y1, margin, scratch) && DrawLayers(in, margin, scratch, counts);
+  const bool isEmpty = in.Blocks ? scratch.Block->Count == 0 : MissesAll(in, x0, y0, x1, y1);
+  const bool any = !isEmpty && StartRays(in, x0, y0, x1, y1, margin, scratch) &&
+    DrawLayers(in, margin, scratch, counts);
   StorePixels(in, x0, y0, x1, y1, !any, scratch);
+}
+
+void DrawBlock(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
+  IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
+{
+  static_assert(sizeof(PlacedPolygon) <= PlacedPolygonBytes, "room for a polygon");
+  if (in.Blocks)
+  {
+    RayPacket& bounds = scratch.Rays; // not in use yet
+    SetPixelBounds(bounds, x0, y0, x1, y1);
+    GatherPolygons(in.Tree, in.Frame, in.Limits, bounds, *scratch.Block, counts.Primary);
+  }
+  for (int y = y0; y < y1; y += RayPacket::Edge)
+  {
+    for (int x = x0; x < x1; x += RayPacket::Edge)
+    {
+      const int endX = x + RayPacket::Edge < x1 ? x + RayPacket::Edge : x1;
+      const int endY = y + RayPacket::Edge < y1 ? y + RayPacket::Edge : y1;
+      DrawPacket(in, x, y, endX, endY, scratch, counts);
+    }
+  }
 }
 
 } // namespace

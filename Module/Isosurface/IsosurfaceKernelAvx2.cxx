@@ -6,6 +6,6 @@
 namespace tetralux
 {
 
-IsosurfaceKernel GetIsosurfaceKernelAvx2() { return TETRALUX_ISA::DrawPacket; }
+IsosurfaceKernel GetIsosurfaceKernelAvx2() { return TETRALUX_ISA::DrawBlock; }
 
 } // namespace tetralux

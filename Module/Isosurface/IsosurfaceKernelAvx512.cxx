@@ -6,6 +6,6 @@
 namespace tetralux
 {
 
-IsosurfaceKernel GetIsosurfaceKernelAvx512() { return TETRALUX_ISA::DrawPacket; }
+IsosurfaceKernel GetIsosurfaceKernelAvx512() { return TETRALUX_ISA::DrawBlock; }
 
 } // namespace tetralux

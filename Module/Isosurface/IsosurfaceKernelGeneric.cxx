@@ -6,6 +6,6 @@
 namespace tetralux
 {
 
-IsosurfaceKernel GetIsosurfaceKernelGeneric() { return TETRALUX_ISA::DrawPacket; }
+IsosurfaceKernel GetIsosurfaceKernelGeneric() { return TETRALUX_ISA::DrawBlock; }
 
 } // namespace tetralux

@@ -67,6 +67,10 @@ struct IsosurfaceOptions
   TreeBuild Build = TreeBuild::SpatialMedian;
   Isopolygons Polygons = Isopolygons::Precomputed;
 
+  /// Whether precomputed isopolygons are prepared once for blocks of packets, which gives up to skip
+  /// hidden ones. Without a value: if there are few for the size of the picture.
+  std::optional<bool> Blocks;
+
   int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
 
   /// Kernels to use instead of the best ones, for tests. The processor must have them.

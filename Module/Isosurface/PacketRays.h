@@ -67,18 +67,14 @@ TETRALUX_INLINE int GetChunkRow(int chunk)
 }
 ///@}
 
-/// A key in single precision, rounded down; minus infinity below the range of numbers.
+/// A key in single precision, rounded down: at most the largest finite number.
 TETRALUX_INLINE float RoundDown(double key)
 {
   constexpr double Largest = std::numeric_limits<float>::max();
-  constexpr double Rounding = 1. / (1 << 23); // twice that of single precision
-  if (key > Largest)
-  {
-    return key == InfiniteKey ? std::numeric_limits<float>::infinity()
-                              : std::numeric_limits<float>::max();
-  }
-  const double lower = key - Rounding * (key < 0 ? -key : key) - std::numeric_limits<float>::min();
-  return lower < -Largest ? -std::numeric_limits<float>::infinity() : static_cast<float>(lower);
+  constexpr float Rounding = 1.f / (1 << 23); // twice that of single precision
+  const auto rounded = static_cast<float>(key < Largest ? key : Largest);
+  return rounded - Rounding * (rounded < 0 ? -rounded : rounded) -
+    std::numeric_limits<float>::min();
 }
 
 /// What single precision rounds u and v by, where their largest size is that.
@@ -92,20 +88,13 @@ TETRALUX_INLINE float GetPacketMargin(double largest)
 TETRALUX_INLINE void UpdateChunkFar(RayPacket& packet, int chunk)
 {
   const double* far = packet.Far + chunk * LaneCount;
-  double least[LaneCount / 2];
-  for (int i = 0; i < LaneCount / 2; ++i)
+  double least = InfiniteKey;
+#pragma omp simd reduction(min : least)
+  for (int i = 0; i < LaneCount; ++i)
   {
-    const double other = far[i + LaneCount / 2];
-    least[i] = far[i] < other ? far[i] : other;
+    least = far[i] < least ? far[i] : least;
   }
-  for (int half = LaneCount / 4; half > 0; half /= 2)
-  {
-    for (int i = 0; i < half; ++i)
-    {
-      least[i] = least[i] < least[i + half] ? least[i] : least[i + half];
-    }
-  }
-  packet.ChunkFar[chunk] = RoundDown(least[0]);
+  packet.ChunkFar[chunk] = RoundDown(least);
 }
 
 /// Stores the bounds of a chunk, and widens those of the packet.

@@ -59,8 +59,8 @@ TETRALUX_INLINE double Evaluate(const double (&plane)[4], double x, double y, do
   return plane[0] * x + plane[1] * y + plane[2] * z + plane[3];
 }
 
-/// Which part of a polygon is kept.
-TETRALUX_NOINLINE LimitedPart FindLimitedPart(const TraceLimits& limits, const Isopolygon& polygon)
+/// FindLimitedPart where there are limits.
+TETRALUX_NOINLINE LimitedPart TestLimits(const TraceLimits& limits, const Isopolygon& polygon)
 {
   bool all = true;
   for (int p = 0; p < limits.NumberOfPlanes; ++p)
@@ -97,6 +97,13 @@ TETRALUX_NOINLINE LimitedPart FindLimitedPart(const TraceLimits& limits, const I
     all &= (regions & ~limits.CroppingFlags) == 0;
   }
   return all ? LimitedPart::All : LimitedPart::Some;
+}
+
+/// Which part of a polygon is kept.
+TETRALUX_INLINE LimitedPart FindLimitedPart(const TraceLimits& limits, const Isopolygon& polygon)
+{
+  const bool limited = limits.NumberOfPlanes > 0 || limits.Cropping;
+  return limited ? TestLimits(limits, polygon) : LimitedPart::All;
 }
 
 TETRALUX_INLINE bool IsKept(const TraceLimits& limits, const double (&point)[3])
@@ -146,6 +153,59 @@ TETRALUX_NOINLINE void HitChunkWithin(const TraceLimits& limits, const RayFrame&
     }
   }
   UpdateChunkFar(packet, chunk);
+}
+
+/// A polygon that is prepared for the rays of a packet, or of several.
+struct PlacedPolygon
+{
+  FramePolygon Polygon;
+  std::int64_t Id;
+  LimitedPart Part;
+};
+
+/// Intersects the rays of a packet with a polygon. Returns whether any may have hit it.
+template <bool AnyHit>
+TETRALUX_INLINE bool HitPlaced(const TraceLimits& limits, const RayFrame& frame,
+  const PlacedPolygon& placed, RayPacket& packet, TraceCounts& counts)
+{
+  const Coverage coverage = Cover(placed.Polygon, packet);
+  std::uint32_t chunks = coverage == Coverage::None || placed.Part == LimitedPart::None
+    ? 0
+    : FindChunks(packet, placed.Polygon);
+  if (chunks == 0)
+  {
+    ++counts.PolygonMisses;
+    return false;
+  }
+  counts.PolygonCovers += coverage == Coverage::All;
+  for (; chunks != 0; chunks &= chunks - 1)
+  {
+    const int chunk = __builtin_ctz(chunks);
+    counts.RayPolygonTests += LaneCount;
+    if (placed.Part == LimitedPart::Some)
+    {
+      HitChunkWithin<AnyHit>(limits, frame, placed.Polygon, placed.Id, packet, chunk);
+    }
+    else if (coverage == Coverage::All)
+    {
+      HitChunk<AnyHit, true>(placed.Polygon, placed.Id, packet, chunk);
+    }
+    else
+    {
+      HitChunk<AnyHit, false>(placed.Polygon, placed.Id, packet, chunk);
+    }
+  }
+  return true;
+}
+
+/// A polygon takes two cache lines.
+TETRALUX_INLINE void PrefetchPolygons(const TraceTree& tree, const MinMaxTree::Node& node)
+{
+  for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+  {
+    __builtin_prefetch(tree.Polygons[i].X);
+    __builtin_prefetch(tree.Polygons[i].Z);
+  }
 }
 
 } // namespace
