@@ -12,10 +12,6 @@ namespace tetralux
 namespace
 {
 
-/// How far around a pixel rays are tried, in widths of the picture: above the rounding of rays in
-/// double precision, and far below what a picture shows.
-constexpr double Displacement = 1e-9;
-
 /// What is nearer than this to a lit point does not block its light, radii of the mesh, with the
 /// factor by which the offset is varied to tell the points where it decides.
 constexpr double ShadowOffset = 1e-6;
@@ -368,10 +364,10 @@ OraclePixel IsosurfaceOracle::Render(double x, double y, Real shadowOffset) cons
 }
 
 bool IsosurfaceOracle::IsAtSilhouette(int x, int y, const OraclePixel& pixel, double depth,
-  double channel, std::vector<OraclePixel>& around) const
+  double channel, double displacement, std::vector<OraclePixel>& around) const
 {
   const double step =
-    Displacement * std::max({ this->Scene.Grid.Width, this->Scene.Grid.Height, 2 });
+    displacement * std::max({ this->Scene.Grid.Width, this->Scene.Grid.Height, 2 });
   around.clear();
   for (const auto& [dx, dy] : std::initializer_list<std::pair<double, double>>{
          { 0.9, 0.3 }, { 0.3, -0.9 }, { -0.8, 0.6 }, { -0.5, -0.7 } })
