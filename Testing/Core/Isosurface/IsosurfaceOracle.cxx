@@ -17,6 +17,10 @@ namespace
 constexpr double ShadowOffset = 1e-6;
 constexpr double ShadowOffsetRange = 4;
 
+/// Hits of a surface that are nearer than this to each other are one, as a share of the radius and
+/// of the distance: above the rounding of extended precision, and what IsosurfaceKernel.inl takes.
+constexpr long double SameDistance = 1e-12L;
+
 template <class Vector>
 auto Dot(const Vector& a, const Vector& b)
 {
@@ -344,6 +348,14 @@ OraclePixel IsosurfaceOracle::Render(double x, double y, Real shadowOffset) cons
   this->AddHits(ray, parallel ? -std::numeric_limits<Real>::infinity() : 0, end, hits);
   std::sort(
     hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.Distance < b.Distance; });
+  // A face whose points have the value, between two cells that are below it, is met once.
+  hits.erase(std::unique(hits.begin(), hits.end(),
+               [&](const Hit& a, const Hit& b)
+               {
+                 return a.Surface == b.Surface &&
+                   b.Distance - a.Distance < SameDistance * (this->Radius + std::abs(a.Distance));
+               }),
+    hits.end());
   OraclePixel pixel;
   bool known = false;
   for (const Hit& hit : hits)

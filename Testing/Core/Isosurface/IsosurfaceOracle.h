@@ -39,7 +39,7 @@ public:
   bool IsAtSilhouette(int x, int y, const OraclePixel& pixel, double depth, double channel,
     double displacement, std::vector<OraclePixel>& around) const;
 
-  double GetDiameter() const { return 2 * this->Radius; } ///< of a sphere around the mesh, mesh
+  double GetDiameter() const { return 2 * this->Radius; } ///< of the box around the mesh
 
 private:
   using Real = long double;
