@@ -54,6 +54,7 @@ TETRALUX_INLINE double LargestOf(const double (&v)[4])
   const double b = v[2] > v[3] ? v[2] : v[3];
   return a > b ? a : b;
 }
+
 /// What a division rounds u and v of a corner by, as a share of the largest |u| and |v|, with a
 /// factor of four to spare.
 constexpr double BoxRounding = 4. / (1ll << 53);
@@ -222,9 +223,14 @@ TETRALUX_INLINE Coverage Cover(const FramePolygon& result, const RayPacket& pack
     most[i] = result.One[i] + (u0 > u1 ? u0 : u1) + (v0 > v1 ? v0 : v1);
     least[i] = result.One[i] + (u0 < u1 ? u0 : u1) + (v0 < v1 ? v0 : v1);
   }
-  return LeastOf(most) < -result.Tolerance ? Coverage::None
-    : LeastOf(least) >= 0                  ? Coverage::All
-                                           : Coverage::Some;
+  if (LeastOf(most) < -result.Tolerance)
+  {
+    return Coverage::None;
+  }
+  // A polygon that is smaller than the tolerance covers nothing, though its edges may round so.
+  const bool covers = result.BoxLowU <= packet.LowU && packet.HighU <= result.BoxHighU &&
+    result.BoxLowV <= packet.LowV && packet.HighV <= result.BoxHighV && LeastOf(least) >= 0;
+  return covers ? Coverage::All : Coverage::Some;
 }
 
 /// The chunks of a packet that a polygon may hit, one bit each.

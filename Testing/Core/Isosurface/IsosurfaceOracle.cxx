@@ -12,14 +12,14 @@ namespace tetralux
 namespace
 {
 
-/// How far around a pixel rays are tried, in widths of the picture: above the rounding of rays in
-/// double precision, and far below what a picture shows.
-constexpr double Displacement = 1e-9;
-
 /// What is nearer than this to a lit point does not block its light, radii of the mesh, with the
 /// factor by which the offset is varied to tell the points where it decides.
 constexpr double ShadowOffset = 1e-6;
 constexpr double ShadowOffsetRange = 4;
+
+/// Hits of a surface that are nearer than this to each other are one, as a share of the radius and
+/// of the distance: above the rounding of extended precision, and what IsosurfaceKernel.inl takes.
+constexpr long double SameDistance = 1e-12L;
 
 template <class Vector>
 auto Dot(const Vector& a, const Vector& b)
@@ -348,6 +348,14 @@ OraclePixel IsosurfaceOracle::Render(double x, double y, Real shadowOffset) cons
   this->AddHits(ray, parallel ? -std::numeric_limits<Real>::infinity() : 0, end, hits);
   std::sort(
     hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.Distance < b.Distance; });
+  // A face whose points have the value, between two cells that are below it, is met once.
+  hits.erase(std::unique(hits.begin(), hits.end(),
+               [&](const Hit& a, const Hit& b)
+               {
+                 return a.Surface == b.Surface &&
+                   b.Distance - a.Distance < SameDistance * (this->Radius + std::abs(a.Distance));
+               }),
+    hits.end());
   OraclePixel pixel;
   bool known = false;
   for (const Hit& hit : hits)
@@ -368,10 +376,10 @@ OraclePixel IsosurfaceOracle::Render(double x, double y, Real shadowOffset) cons
 }
 
 bool IsosurfaceOracle::IsAtSilhouette(int x, int y, const OraclePixel& pixel, double depth,
-  double channel, std::vector<OraclePixel>& around) const
+  double channel, double displacement, std::vector<OraclePixel>& around) const
 {
   const double step =
-    Displacement * std::max({ this->Scene.Grid.Width, this->Scene.Grid.Height, 2 });
+    displacement * std::max({ this->Scene.Grid.Width, this->Scene.Grid.Height, 2 });
   around.clear();
   for (const auto& [dx, dy] : std::initializer_list<std::pair<double, double>>{
          { 0.9, 0.3 }, { 0.3, -0.9 }, { -0.8, 0.6 }, { -0.5, -0.7 } })

@@ -33,12 +33,13 @@ public:
   /// The ray of any point of the picture, in pixels.
   OraclePixel Render(double x, double y) const;
 
-  /// The rays around a pixel at Displacement, and whether they see something else than the pixel:
-  /// another number of surfaces, or a depth or a channel that differs by more than given.
+  /// The rays around a pixel, and whether they see something else than the pixel: another number of
+  /// surfaces, or a depth or a channel that differs by more than given. displacement: how far around
+  /// it, in widths of the picture.
   bool IsAtSilhouette(int x, int y, const OraclePixel& pixel, double depth, double channel,
-    std::vector<OraclePixel>& around) const;
+    double displacement, std::vector<OraclePixel>& around) const;
 
-  double GetDiameter() const { return 2 * this->Radius; } ///< of a sphere around the mesh, mesh
+  double GetDiameter() const { return 2 * this->Radius; } ///< of the box around the mesh
 
 private:
   using Real = long double;

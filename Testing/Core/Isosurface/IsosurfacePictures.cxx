@@ -78,7 +78,8 @@ PictureDifference ExpectOracle(const RayScene& scene, const TracedPicture& pictu
     std::vector<OraclePixel> around;
     if (!right)
     {
-      silhouette = oracle.IsAtSilhouette(x, y, pixel, depthTolerance, tolerance.Channel, around);
+      silhouette = oracle.IsAtSilhouette(
+        x, y, pixel, depthTolerance, tolerance.Channel, tolerance.Displacement, around);
       double d, c;
       alone = silhouette &&
         std::none_of(around.begin(), around.end(),

@@ -39,6 +39,9 @@ struct PictureTolerance
   double Channel = 2e-4;
   /// Share of the pixels that may be at silhouettes, where the oracle does not tell.
   double Silhouettes = 2e-3;
+  /// A pixel is at a silhouette if the oracle's rays this far around it differ, in widths of the
+  /// picture: above the rounding of rays in double precision, far below what a picture shows.
+  double Displacement = 1e-9;
 };
 
 struct PictureDifference
