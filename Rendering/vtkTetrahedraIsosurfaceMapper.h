@@ -41,8 +41,8 @@ public:
   ///@{
   /**
    * Set whether surfaces block the light of the renderer's lights, where the property's Shade is on
-   * (section 7 of the paper). Default off. What is clipped or cropped away blocks nothing; opaque
-   * geometry of other props blocks nothing either.
+   * (section 7 of the paper). Default off. Translucent surfaces block light as opaque ones do. What
+   * is clipped or cropped away, and geometry of other props, blocks nothing.
    */
   vtkSetMacro(Shadows, vtkTypeBool);
   vtkGetMacro(Shadows, vtkTypeBool);

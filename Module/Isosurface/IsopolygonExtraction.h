@@ -69,8 +69,10 @@ TETRALUX_INLINE bool MakeIsopolygon(const IsopolygonCell& cell, double value, Is
   {
     const int a = entry.Edges[i][0];
     const int b = entry.Edges[i][1];
-    // Halves, since a difference of large scalars may overflow.
-    const double share = (0.5 * value - 0.5 * s[a]) / (0.5 * s[b] - 0.5 * s[a]);
+    // Half of them where a difference may overflow; all where a half may underflow.
+    constexpr double Large = 1e300;
+    const double unit = s[a] > Large || s[a] < -Large || s[b] > Large || s[b] < -Large ? 0.5 : 1;
+    const double share = (unit * value - unit * s[a]) / (unit * s[b] - unit * s[a]);
     const double* p = cell.Corners[a];
     const double* q = cell.Corners[b];
     // At a point of the mesh the corner is that point, whichever edge it is on.

@@ -73,8 +73,9 @@ public:
   {
     const double* steps[3] = { frame.Parallel ? grid.OriginStepX : grid.DirectionStepX,
       frame.Parallel ? grid.OriginStepY : grid.DirectionStepY, grid.Direction };
-    for (const std::array<double, 4>& plane : limits.Planes)
+    for (std::size_t p = 0; p < limits.Planes.size(); ++p)
     {
+      const std::array<double, 4>& plane = limits.Planes[p];
       std::array<double, 4> result = { 0, 0, 0, Dot(plane.data(), grid.Origin) + plane[3] };
       for (int r = 0; r < 3; ++r)
       {
@@ -88,6 +89,7 @@ public:
       if (!(result[3] > std::hypot(result[0], result[1], result[2])))
       {
         this->Planes.push_back(result);
+        this->NumberOfCameraPlanes += p < static_cast<std::size_t>(limits.NumberOfCameraPlanes);
       }
     }
     this->Result.Cropping = limits.Cropping;
@@ -110,8 +112,18 @@ public:
     return result;
   }
 
+  /// The same for light: without the camera's planes.
+  TraceLimits GetForLight() const
+  {
+    TraceLimits result = this->Get();
+    result.Planes += this->NumberOfCameraPlanes;
+    result.NumberOfPlanes -= this->NumberOfCameraPlanes;
+    return result;
+  }
+
 private:
   std::vector<std::array<double, 4>> Planes;
+  int NumberOfCameraPlanes = 0;
   TraceLimits Result;
 };
 
@@ -209,6 +221,20 @@ void FillDepthFactors(
   const double along = Dot(row, grid.Direction);
   factors[2] = frame.Parallel ? -along : row[3];
   factors[3] = frame.Parallel ? row[3] : along;
+}
+
+/// The surfaces that a picture may show; the others block no light either.
+std::vector<Isosurface> ListVisible(const VolumeScene& scene)
+{
+  std::vector<Isosurface> visible;
+  for (const Isosurface& surface : scene.Optics.GetIsosurfaces())
+  {
+    if (surface.Opacity > 0 || !scene.Mesh.GetColorScalars().empty())
+    {
+      visible.push_back(surface);
+    }
+  }
+  return visible;
 }
 
 std::vector<float> GetColors(const std::vector<Isosurface>& surfaces)
@@ -321,7 +347,7 @@ void IsosurfaceTracer::Prepare(VolumeScene& scene, const IsosurfaceOptions& opti
   }
   this->Values.clear();
   CacheKey key = CacheKey::Of(this->Ranges.GetVersion(), this->TreePoints);
-  for (const Isosurface& surface : scene.Optics.GetIsosurfaces())
+  for (const Isosurface& surface : ListVisible(scene))
   {
     this->Values.push_back(surface.Value);
     key.Add(surface.Value);
@@ -425,9 +451,9 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
     scene.Mesh.GetScalars().data(), this->Values.data(), static_cast<int>(this->Values.size()) };
   const MeshLimits meshLimits(limits, grid, in.Frame, frame);
   in.Limits = meshLimits.Get();
-  in.ShadowLimits = in.Limits;
+  in.ShadowLimits = meshLimits.GetForLight();
   in.MaximumDistances = limits.MaximumDistances;
-  const std::vector<float> surfaceColors = GetColors(scene.Optics.GetIsosurfaces());
+  const std::vector<float> surfaceColors = GetColors(ListVisible(scene));
   in.SurfaceColors = surfaceColors.data();
   if (!scene.Mesh.GetColorScalars().empty())
   {
@@ -528,8 +554,11 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
     // What a ray that ends at the last layer lets through.
     statistics.TerminationError = std::max(statistics.TerminationError, counts.LostOpacity);
   }
-  statistics.ActiveNodes = static_cast<std::int64_t>(this->Active.Get().Nodes.size());
-  statistics.Polygons = static_cast<std::int64_t>(this->Active.Get().Polygons.size());
+  if (precomputed)
+  {
+    statistics.ActiveNodes = static_cast<std::int64_t>(this->Active.Get().Nodes.size());
+    statistics.Polygons = static_cast<std::int64_t>(this->Active.Get().Polygons.size());
+  }
   statistics.NumberOfThreads = threads;
   statistics.InstructionSet = GetName(set);
   statistics.TraceSeconds = stopwatch.GetSeconds();

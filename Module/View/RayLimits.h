@@ -16,6 +16,9 @@ struct RayLimits
   /// planes of the camera and every clipping plane go here.
   std::vector<std::array<double, 4>> Planes;
 
+  /// The first ones that are the camera's own: they cut what it sees, not what blocks light.
+  int NumberOfCameraPlanes = 0;
+
   /// Cropping as in vtkVolumeMapper: planes xmin, xmax, ymin, ymax, zmin, zmax in mesh coordinates
   /// cut space into 27 regions, and bit x + 3 y + 9 z of CroppingFlags keeps a region. Used where
   /// Cropping is true.

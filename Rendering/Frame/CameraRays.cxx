@@ -212,7 +212,8 @@ void CameraRays::AddClippingRange(RayLimits& limits) const
     {
       plane[3] -= plane[c] * this->Position[c];
     }
-    limits.Planes.push_back(plane);
+    limits.Planes.insert(limits.Planes.begin() + limits.NumberOfCameraPlanes, plane);
+    ++limits.NumberOfCameraPlanes;
   }
 }
 
