@@ -224,6 +224,43 @@ TEST(IsosurfaceTracer, GivesTheSameBitsForBothTrees)
   }
 }
 
+TEST(IsosurfaceTracer, GivesTheSameBitsForRaysThroughEdges)
+{
+  // Pixels are in planes of the lattice. Which of the cells there is lit depends on the order in
+  // which polygons are met; what is hit, and where, does not.
+  RayScene scene = MakeCornerScene(1);
+  scene.Mesh = MakeBox(8, 8, 8, { 0, 0, 0 }, { 1, 1, 1 });
+  scene.Scalars = MakeSmoothField(scene.Mesh);
+  scene.Isosurfaces = MakeSurfaces(scene.Scalars, 3, 0.5f);
+  for (const double steps : { 0., 6. })
+  {
+    for (double& scalar : scene.Scalars)
+    {
+      scalar = steps > 0 ? std::round(steps * scalar) / steps : scalar;
+    }
+    for (const bool parallel : { false, true })
+    {
+      scene.Grid = RayGrid();
+      scene.Grid.Width = scene.Grid.Height = 65;
+      const double origin[3] = { parallel ? 0 : 0.5, parallel ? 0 : 0.5, 2 };
+      std::copy_n(origin, 3, scene.Grid.Origin);
+      scene.Grid.Direction[0] = scene.Grid.Direction[1] = parallel ? 0 : -0.5;
+      double* steps0 = parallel ? scene.Grid.OriginStepX : scene.Grid.DirectionStepX;
+      double* steps1 = parallel ? scene.Grid.OriginStepY : scene.Grid.DirectionStepY;
+      steps0[0] = steps1[1] = 1. / 64;
+      IsosurfaceOptions options;
+      const TracedPicture expected = TracePicture(scene, options);
+      EXPECT_GT(expected.Statistics.Hits, 1000);
+      options.Polygons = Isopolygons::OnTheFly;
+      EXPECT_TRUE(IsSame(TracePicture(scene, options), expected));
+      options.Build = TreeBuild::SurfaceArea;
+      EXPECT_TRUE(IsSame(TracePicture(scene, options), expected));
+      options.Polygons = Isopolygons::Precomputed;
+      EXPECT_TRUE(IsSame(TracePicture(scene, options), expected));
+    }
+  }
+}
+
 TEST(IsosurfaceTracer, GivesTheSameBitsForBothVectorKernels)
 {
   if (GetWidestInstructionSet() != InstructionSet::Avx512)
