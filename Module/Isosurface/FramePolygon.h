@@ -59,6 +59,10 @@ TETRALUX_INLINE double LargestOf(const double (&v)[4])
 /// factor of four to spare.
 constexpr double BoxRounding = 4. / (1ll << 53);
 
+/// Polygons whose box is smaller than this, as a share of the largest |u| and |v|, have an area and
+/// edge functions below EdgeRounding: its square root, and less. Which way they turn is not known.
+constexpr double TinyBox = 1. / (1 << 26);
+
 /// Prepares a polygon for the rays within the bounds of a packet. Returns whether any may hit it.
 /// largest: largest |u| and |v| of the packet, at least 1.
 TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, double largest,
@@ -77,6 +81,7 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
   const double nearest = LeastOf(d);
   const double farthest = LargestOf(d);
   bool allBefore = true;
+  bool tiny = false;
   if (frame.Parallel)
   {
     for (double& one : w)
@@ -121,6 +126,7 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
     result.HighU = static_cast<float>(highU) + margin;
     result.LowV = static_cast<float>(lowV) - margin;
     result.HighV = static_cast<float>(highV) + margin;
+    tiny = highU - lowU < TinyBox * largest && highV - lowV < TinyBox * largest;
     result.BoxLowU = lowU - BoxRounding * largest;
     result.BoxHighU = highU + BoxRounding * largest;
     result.BoxLowV = lowV - BoxRounding * largest;
@@ -166,14 +172,10 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
   {
     volume += 0.25 * (normal[0] * x[i] + normal[1] * y[i] + normal[2] * w[i]);
   }
-  if (volume == 0)
-  {
-    return false; // seen from its edge
-  }
+  // Of parallel rays relative to the first corner, where nothing cancels.
+  double across[3] = { 0, 0, 0 };
   if (frame.Parallel)
   {
-    // Relative to the first corner, where nothing cancels.
-    double across[3] = { 0, 0, 0 };
     for (int i = 1; i < 3; ++i)
     {
       const double ux = x[i] - x[0], uy = y[i] - y[0], ud = d[i] - d[0];
@@ -182,10 +184,19 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
       across[1] += ud * vx - ux * vd;
       across[2] += ux * vy - uy * vx;
     }
-    if (across[2] == 0)
+  }
+  if (volume == 0 || (frame.Parallel && across[2] == 0))
+  {
+    if (!tiny)
     {
-      return false;
+      return false; // seen from its edge
     }
+    // It closes the gap between its neighbours.
+    result.Key[0] = result.Key[1] = 0;
+    result.Key[2] = result.LowKey;
+  }
+  else if (frame.Parallel)
+  {
     result.Key[0] = across[0] / across[2];
     result.Key[1] = across[1] / across[2];
     result.Key[2] = -d[0] - (result.Key[0] * x[0] + result.Key[1] * y[0]);

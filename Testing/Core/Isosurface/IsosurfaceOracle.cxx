@@ -100,19 +100,23 @@ IsosurfaceOracle::IsosurfaceOracle(const RayScene& scene, bool shadows)
       const Vector across = Cross(edges[(e + 1) % 3], edges[(e + 2) % 3]);
       cell.Functions[e] = { across[0] / volume, across[1] / volume, across[2] / volume };
     }
-    cell.Middle = { 0, 0, 0 };
+    Sphere sphere{};
+    for (int a = 0; a < 3; ++a)
+    {
+      sphere.Middle[a] =
+        static_cast<double>(corners[0][a] + (edges[0][a] + edges[1][a] + edges[2][a]) / 4);
+    }
     for (const Vector& corner : corners)
     {
+      double squared = 0;
       for (int a = 0; a < 3; ++a)
       {
-        cell.Middle[a] += corner[a] / 4;
+        const double x = static_cast<double>(corner[a] - sphere.Middle[a]);
+        squared += x * x;
       }
+      sphere.SquaredRadius = std::max(sphere.SquaredRadius, 1.01 * squared);
     }
-    cell.Size = 0;
-    for (const Vector& corner : corners)
-    {
-      cell.Size = std::max(cell.Size, Length(Subtract(corner, cell.Middle)));
-    }
+    this->Spheres.push_back(sphere);
     this->Cells.push_back(cell);
   }
 }
@@ -138,15 +142,35 @@ IsosurfaceOracle::Ray IsosurfaceOracle::MakeRay(const Vector& origin, const Vect
 
 void IsosurfaceOracle::AddHits(const Ray& ray, Real from, Real to, std::vector<Hit>& hits) const
 {
-  const Real speed2 = Dot(ray.MeshDirection, ray.MeshDirection);
-  for (const Cell& cell : this->Cells)
+  double origin[3], direction[3];
+  for (int a = 0; a < 3; ++a)
   {
-    // A little more than the sphere around the cell.
-    const Vector across = Cross(Subtract(cell.Middle, ray.MeshOrigin), ray.MeshDirection);
-    if (Dot(across, across) > 1.001L * cell.Size * cell.Size * speed2)
+    origin[a] = static_cast<double>(ray.MeshOrigin[a]);
+    direction[a] = static_cast<double>(ray.MeshDirection[a]);
+  }
+  const double speed2 =
+    direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
+  for (std::size_t c = 0; c < this->Cells.size(); ++c)
+  {
+    const Sphere& sphere = this->Spheres[c];
+    double along = 0;
+    double away[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      away[a] = sphere.Middle[a] - origin[a];
+      along += away[a] * direction[a];
+    }
+    double beside2 = 0;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double x = away[a] - along / speed2 * direction[a];
+      beside2 += x * x;
+    }
+    if (beside2 > sphere.SquaredRadius)
     {
       continue;
     }
+    const Cell& cell = this->Cells[c];
     const Vector start = Subtract(ray.MeshOrigin, cell.Corner);
     std::array<Real, 4> base = { 1, 0, 0, 0 };
     std::array<Real, 4> slope = { 0, 0, 0, 0 };

@@ -52,8 +52,12 @@ private:
     Vector Corner;
     Vector Functions[3];
     std::array<Real, 4> Scalars;
-    Vector Middle;
-    Real Size; ///< largest distance from the middle
+  };
+  /// Around a cell, and a little larger.
+  struct Sphere
+  {
+    double Middle[3];
+    double SquaredRadius;
   };
   struct Ray
   {
@@ -78,7 +82,8 @@ private:
   const RayScene& Scene;
   bool Shadows;
   double Radius;
-  std::vector<Cell> Cells;
+  std::vector<Cell> Cells; ///< that any surface crosses
+  std::vector<Sphere> Spheres;
   std::vector<GradientRow> Gradients; ///< of points, where lighting is smooth
 };
 

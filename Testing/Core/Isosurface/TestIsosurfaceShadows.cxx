@@ -37,7 +37,7 @@ RayScene MakeScene(const char* mesh, const std::map<std::string, double>& parame
   RayScene scene = MakeIsosurfaceScene(mesh, parameters, 2);
   scene.Isosurfaces[0].Opacity = 1;
   scene.Isosurfaces[1].Opacity = 0.7f;
-  scene.Grid = MakeOuterGrid(scene.Mesh, false, 37, 29);
+  scene.Grid = MakeOuterGrid(scene.Mesh, false, 29, 21);
   scene.Shaded = true;
   return scene;
 }
@@ -53,7 +53,7 @@ void ExpectShadows(RayScene scene)
       const testing::ScopedTrace trace(__FILE__, __LINE__,
         lights + (parallel ? ", parallel" : "") + (smooth ? ", smooth" : ", flat"));
       scene.SmoothShading = smooth;
-      scene.Grid = MakeOuterGrid(scene.Mesh, parallel, 37, 29);
+      scene.Grid = MakeOuterGrid(scene.Mesh, parallel, 29, 21);
       IsosurfaceOptions options;
       const TracedPicture without = TracePicture(scene, options);
       options.Shadows = true;
@@ -120,7 +120,7 @@ TEST(IsosurfaceShadows, OfLightsNearSurfaces)
   const TracedPicture unlit = TracePicture(scene);
   const RayGrid& grid = scene.Grid;
   int lights = 0;
-  for (std::size_t p = 0; p < unlit.Depths.size(); p += 131)
+  for (std::size_t p = 0; p < unlit.Depths.size(); p += 71)
   {
     if (unlit.Depths[p] < 0)
     {

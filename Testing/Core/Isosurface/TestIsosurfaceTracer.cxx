@@ -44,8 +44,8 @@ const std::map<std::string, Parameters>& GetMeshes()
   return meshes;
 }
 
-constexpr int Width = 37; // no multiple of the edge of a packet
-constexpr int Height = 29;
+constexpr int Width = 29; // no multiple of the edge of a packet
+constexpr int Height = 21;
 
 RayScene MakeScene(const std::string& mesh)
 {
@@ -100,7 +100,7 @@ TEST(IsosurfaceTracer, DrawsAllMeshes)
         __FILE__, __LINE__, name + ", camera " + std::to_string(camera));
       scene.Grid = MakeGrid(scene.Mesh, camera);
       const PictureDifference difference = ExpectOracle(scene, TracePicture(scene));
-      EXPECT_GT(difference.Hits, 40);
+      EXPECT_GT(difference.Hits, 20);
     }
   }
 }
@@ -163,7 +163,7 @@ TEST(IsosurfaceTracer, GivesTheSameBitsForAnyThreads)
   options.Shadows = true;
   options.NumberOfThreads = 1;
   const TracedPicture expected = TracePicture(scene, options);
-  EXPECT_GT(expected.Statistics.Hits, 500);
+  EXPECT_GT(expected.Statistics.Hits, 300);
   for (const int threads : { 2, 3, 7 })
   {
     options.NumberOfThreads = threads;
@@ -221,6 +221,43 @@ TEST(IsosurfaceTracer, GivesTheSameBitsForBothTrees)
     const TracedPicture median = TracePicture(scene, options);
     options.Build = TreeBuild::SurfaceArea;
     EXPECT_TRUE(IsSame(TracePicture(scene, options), median));
+  }
+}
+
+TEST(IsosurfaceTracer, GivesTheSameBitsForRaysThroughEdges)
+{
+  // Pixels are in planes of the lattice. Which of the cells there is lit depends on the order in
+  // which polygons are met; what is hit, and where, does not.
+  RayScene scene = MakeCornerScene(1);
+  scene.Mesh = MakeBox(8, 8, 8, { 0, 0, 0 }, { 1, 1, 1 });
+  scene.Scalars = MakeSmoothField(scene.Mesh);
+  scene.Isosurfaces = MakeSurfaces(scene.Scalars, 3, 0.5f);
+  for (const double steps : { 0., 6. })
+  {
+    for (double& scalar : scene.Scalars)
+    {
+      scalar = steps > 0 ? std::round(steps * scalar) / steps : scalar;
+    }
+    for (const bool parallel : { false, true })
+    {
+      scene.Grid = RayGrid();
+      scene.Grid.Width = scene.Grid.Height = 65;
+      const double origin[3] = { parallel ? 0 : 0.5, parallel ? 0 : 0.5, 2 };
+      std::copy_n(origin, 3, scene.Grid.Origin);
+      scene.Grid.Direction[0] = scene.Grid.Direction[1] = parallel ? 0 : -0.5;
+      double* steps0 = parallel ? scene.Grid.OriginStepX : scene.Grid.DirectionStepX;
+      double* steps1 = parallel ? scene.Grid.OriginStepY : scene.Grid.DirectionStepY;
+      steps0[0] = steps1[1] = 1. / 64;
+      IsosurfaceOptions options;
+      const TracedPicture expected = TracePicture(scene, options);
+      EXPECT_GT(expected.Statistics.Hits, 1000);
+      options.Polygons = Isopolygons::OnTheFly;
+      EXPECT_TRUE(IsSame(TracePicture(scene, options), expected));
+      options.Build = TreeBuild::SurfaceArea;
+      EXPECT_TRUE(IsSame(TracePicture(scene, options), expected));
+      options.Polygons = Isopolygons::Precomputed;
+      EXPECT_TRUE(IsSame(TracePicture(scene, options), expected));
+    }
   }
 }
 

@@ -186,13 +186,15 @@ Vector Scale(const Vector& v, double factor)
   return { v[0] * factor, v[1] * factor, v[2] * factor };
 }
 
-/// Values of surfaces: between scalars, and that of a point of the mesh.
+/// Values of surfaces: between scalars, that of a point of the mesh, and next to it, where polygons
+/// are smaller than the rounding.
 std::vector<double> GetValues(int cells)
 {
   const RayScene scene = MakeSphere(0.4, cells);
   std::vector<double> sorted = scene.Scalars;
   std::sort(sorted.begin(), sorted.end());
-  return { 0.4, *std::lower_bound(sorted.begin(), sorted.end(), 0.45) };
+  const double scalar = *std::lower_bound(sorted.begin(), sorted.end(), 0.45);
+  return { 0.4, scalar, std::nextafter(scalar, 0), std::nextafter(scalar, 1) };
 }
 
 constexpr int Cells = 16;
@@ -242,6 +244,25 @@ TEST(IsosurfaceWatertight, SeenByParallelRays)
     const std::vector<Vector> cameras = { { 0.9, 0.96, 0.72 }, { 0, 0, 2 } };
     ExpectNoHole(CountHoles(scene, points, cameras, RayStart::Plane, 2), 100000);
     ExpectNoHole(CountHoles(scene, points, cameras, RayStart::Target, 2), 100000);
+  }
+}
+
+TEST(IsosurfaceWatertight, ThroughFlatCells)
+{
+  // Scalars in steps: cells of one scalar, and surfaces in faces. They separate the middle from what
+  // is outside, and may be met three times.
+  for (const double value : { 0.4, 0.45, std::nextafter(0.5, 0) })
+  {
+    RayScene scene = MakeSphere(value, Cells);
+    for (double& scalar : scene.Scalars)
+    {
+      scalar = std::round(20 * scalar) / 20;
+    }
+    const std::vector<Vector> points = FindHardPoints(scene, 8);
+    const std::vector<Vector> cameras = { { 0, 0, 0 }, { 0.013, -0.021, 0.017 } };
+    const HoleCount count = CountHoles(scene, points, cameras, RayStart::Camera, 1);
+    EXPECT_GE(count.Rays, 100000);
+    EXPECT_EQ(count.Holes, 0);
   }
 }
 
