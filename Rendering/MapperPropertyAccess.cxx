@@ -91,6 +91,7 @@ const std::map<std::string, Accessors>& GetAccessors()
     ACCESSORS(Isosurface, AmbientOcclusionRadius),
     ACCESSORS(Isosurface, SamplesPerFrame),
     ACCESSORS(Isosurface, MaximumSamples),
+    ACCESSORS(Isosurface, TimeStepCacheBytes),
     ACCESSORS(Isosurface, MaximumNumberOfPeels),
     ACCESSORS(GPURayCast, StepsPerPass),
     ACCESSORS(GPURayCast, RayMaximumBytes),

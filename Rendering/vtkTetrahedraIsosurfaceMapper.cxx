@@ -53,6 +53,7 @@ void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::
   Json hierarchy;
   hierarchy["rebuilt"] = statistics.Rebuilt;
   hierarchy["nodes"] = statistics.Nodes;
+  hierarchy["time_steps"] = statistics.Steps;
   hierarchy["active_nodes"] = statistics.ActiveNodes;
   hierarchy["isopolygons"] = statistics.Polygons;
   hierarchy["bytes_per_tetrahedron"] = statistics.TreeBytes;
@@ -145,6 +146,7 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
   options.OcclusionRadius = this->AmbientOcclusionRadius;
   options.SamplesPerFrame = this->SamplesPerFrame;
   options.MaximumSamples = this->MaximumSamples;
+  options.StepCacheBytes = static_cast<std::size_t>(this->TimeStepCacheBytes);
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
   options.MaximumLayers = this->MaximumNumberOfPeels;
@@ -174,6 +176,7 @@ tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, ShadowSoftness, double);
 tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, AmbientOcclusionRadius, double);
 tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, SamplesPerFrame, int);
 tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, MaximumSamples, int);
+tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, TimeStepCacheBytes, vtkIdType);
 tetraluxSetNumberMacro(vtkTetrahedraIsosurfaceMapper, MaximumNumberOfPeels, int);
 
 //------------------------------------------------------------------------------------------------
@@ -190,5 +193,6 @@ void vtkTetrahedraIsosurfaceMapper::PrintProperties(ostream& os, vtkIndent inden
   printer.Print("AmbientOcclusionRadius", this->AmbientOcclusionRadius);
   printer.Print("SamplesPerFrame", this->SamplesPerFrame);
   printer.Print("MaximumSamples", this->MaximumSamples);
+  printer.Print("TimeStepCacheBytes", this->TimeStepCacheBytes);
   printer.Print("MaximumNumberOfPeels", this->MaximumNumberOfPeels);
 }

@@ -118,6 +118,16 @@ public:
 
   ///@{
   /**
+   * Set the largest number of bytes for time steps that are kept beside the present one. Default
+   * 256 MiB. A step that comes back, known by its points and scalars, rebuilds nothing. 0: none is
+   * kept, and the boxes of one hierarchy are refitted in place.
+   */
+  virtual void SetTimeStepCacheBytes(vtkIdType bytes);
+  vtkGetMacro(TimeStepCacheBytes, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
    * Set how many surfaces a ray meets at most, 0 to 1000. Default 0: as many as MaximumError asks
    * for. What a ray may miss by it is in the error estimate.
    */
@@ -142,6 +152,7 @@ protected:
   double AmbientOcclusionRadius = 0;
   int SamplesPerFrame = 4;
   int MaximumSamples = 256;
+  vtkIdType TimeStepCacheBytes = 256 << 20;
   int MaximumNumberOfPeels = 0;
 
 private:

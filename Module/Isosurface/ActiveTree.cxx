@@ -317,4 +317,17 @@ std::vector<CellField<3>> MakeGradientFields(
   return fields;
 }
 
+std::vector<GradientRow> MakePolygonGradients(const ActiveTree& tree, const TetrahedralMesh& mesh,
+  Span<const double> scalars, double length, double scalar, int threads)
+{
+  const auto count = static_cast<std::int64_t>(tree.Polygons.size());
+  std::vector<GradientRow> gradients(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    gradients[i] = MakeCellGradient(mesh, scalars, tree.Polygons[i].Cell, length, scalar);
+  }
+  return gradients;
+}
+
 } // namespace tetralux

@@ -35,6 +35,11 @@ TETRALUXCORE_EXPORT std::vector<CellField<1>> MakeScalarFields(
 TETRALUXCORE_EXPORT std::vector<CellField<3>> MakeGradientFields(const ActiveTree& tree,
   const IsopolygonSource& source, const GradientRow* gradients, int threads);
 
+/// MakeCellGradient of each polygon's cell.
+TETRALUXCORE_EXPORT std::vector<GradientRow> MakePolygonGradients(const ActiveTree& tree,
+  const TetrahedralMesh& mesh, Span<const double> scalars, double length, double scalar,
+  int threads);
+
 } // namespace tetralux
 
 #endif

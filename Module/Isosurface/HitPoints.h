@@ -137,7 +137,8 @@ TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch&
     }
     else
     {
-      const GradientRow& row = in.Lighting->Gradients[cell];
+      const GradientRow& row =
+        in.CellGradients ? in.CellGradients[id] : in.Lighting->Gradients[cell];
       for (int i = 0; i < LaneCount; ++i)
       {
         gradient[0][i] = row.X;

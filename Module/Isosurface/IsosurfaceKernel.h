@@ -51,14 +51,15 @@ struct IsosurfaceInput
   // What surfaces look like.
   const IntervalTable::Interval* Intervals; ///< of the function of ColorScalars
   int NumberOfIntervals;
-  double FunctionOffset;           ///< IntervalTable::Offset
-  double FunctionScale;            ///< IntervalTable::Scale
-  const double* ColorScalars;      ///< of points; nullptr: SurfaceColors counts
-  const CellField<1>* ColorFields; ///< of each polygon; nullptr: made of ColorScalars
-  const float* SurfaceColors;      ///< red, green, blue, opacity of each value
-  const KernelLighting* Lighting;  ///< nullptr: no light
-  const CellField<3>* Gradients;   ///< of each polygon; nullptr: Lighting->Gradients
-  const ShadowSource* Shadows;     ///< of the lights that are blocked
+  double FunctionOffset;            ///< IntervalTable::Offset
+  double FunctionScale;             ///< IntervalTable::Scale
+  const double* ColorScalars;       ///< of points; nullptr: SurfaceColors counts
+  const CellField<1>* ColorFields;  ///< of each polygon; nullptr: made of ColorScalars
+  const float* SurfaceColors;       ///< red, green, blue, opacity of each value
+  const KernelLighting* Lighting;   ///< nullptr: no light
+  const CellField<3>* Gradients;    ///< of each polygon, interpolated; nullptr: Lighting's
+  const GradientRow* CellGradients; ///< of each polygon; nullptr: Lighting's
+  const ShadowSource* Shadows;      ///< of the lights that are blocked
   int NumberOfShadows;
   const OcclusionSample* Occlusion; ///< nullptr: nothing blocks ambient light
   int NumberOfOcclusionSamples;

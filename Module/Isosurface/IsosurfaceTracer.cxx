@@ -5,7 +5,13 @@
 #include "Base/Stopwatch.h"
 #include "Integral/ErrorBudget.h"
 #include "Isosurface/IsosurfaceKernel.h"
+#include "Isosurface/IsosurfaceSteps.h"
 #include "Isosurface/LightSamples.h"
+#include "Isosurface/LimitsOfMesh.h"
+#include "Isosurface/PictureKey.h"
+#include "Isosurface/PictureMean.h"
+#include "Isosurface/TracedScene.h"
+#include "Isosurface/TracerMemory.h"
 #include "View/MeshToWorld.h"
 
 #include <algorithm>
@@ -21,9 +27,6 @@ namespace tetralux
 {
 namespace
 {
-
-/// Cells of a leaf. Measured on the blunt fin and a ring of 3 million cells.
-constexpr int LeafSize = 8;
 
 /// Polygons for a pixel up to which they are gathered for blocks. Measured on the blunt fin and on
 /// rings of up to 10 million cells.
@@ -54,163 +57,26 @@ IsosurfaceKernel GetKernel(InstructionSet set)
   return GetIsosurfaceKernelGeneric();
 }
 
-MeshFrame GetMeshFrame(const WalkMesh& mesh)
-{
-  MeshFrame frame;
-  std::copy_n(mesh.GetCenter(), 3, frame.Center);
-  frame.Radius = mesh.GetRadius();
-  return frame;
-}
-
 double Dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Half-spaces and cropping in the mesh's frame, with the memory of the planes.
-class MeshLimits
+/// What the kernel reads that neither the scene nor the caller owns.
+struct OwningInput : IsosurfaceInput
 {
-public:
-  MeshLimits(
-    const RayLimits& limits, const RayGrid& grid, const RayFrame& frame, const MeshFrame& mesh)
-  {
-    const double* steps[3] = { frame.Parallel ? grid.OriginStepX : grid.DirectionStepX,
-      frame.Parallel ? grid.OriginStepY : grid.DirectionStepY, grid.Direction };
-    for (std::size_t p = 0; p < limits.Planes.size(); ++p)
-    {
-      const std::array<double, 4>& plane = limits.Planes[p];
-      std::array<double, 4> result = { 0, 0, 0, Dot(plane.data(), grid.Origin) + plane[3] };
-      for (int r = 0; r < 3; ++r)
-      {
-        const double along = Dot(plane.data(), steps[r]);
-        for (int a = 0; a < 4; ++a)
-        {
-          result[a] += along * frame.Rows[r][a];
-        }
-      }
-      // Whether it cuts the mesh, which is within a sphere of radius 1.
-      if (!(result[3] > std::hypot(result[0], result[1], result[2])))
-      {
-        this->Planes.push_back(result);
-        this->NumberOfCameraPlanes += p < static_cast<std::size_t>(limits.NumberOfCameraPlanes);
-      }
-    }
-    this->Result.Cropping = limits.Cropping;
-    this->Result.CroppingFlags = limits.CroppingFlags;
-    for (int i = 0; i < 6; ++i)
-    {
-      this->Result.CroppingPlanes[i] =
-        (limits.CroppingPlanes[i] - mesh.Center[i / 2]) / mesh.Radius;
-    }
-  }
-  MeshLimits(const MeshLimits&) = delete;
-  MeshLimits& operator=(const MeshLimits&) = delete;
-
-  TraceLimits Get() const
-  {
-    TraceLimits result = this->Result;
-    static_assert(sizeof(std::array<double, 4>) == sizeof(double[4]), "rows of four");
-    result.Planes = reinterpret_cast<const double(*)[4]>(this->Planes.data());
-    result.NumberOfPlanes = static_cast<int>(this->Planes.size());
-    return result;
-  }
-
-  /// The same for light: without the camera's planes.
-  TraceLimits GetForLight() const
-  {
-    TraceLimits result = this->Get();
-    result.Planes += this->NumberOfCameraPlanes;
-    result.NumberOfPlanes -= this->NumberOfCameraPlanes;
-    return result;
-  }
-
-private:
-  std::vector<std::array<double, 4>> Planes;
-  int NumberOfCameraPlanes = 0;
-  TraceLimits Result;
-};
-
-/// What the kernel reads of lights, with its memory.
-struct Illumination
-{
-  KernelLighting Lighting{};
+  std::vector<std::int32_t> Steps;
+  std::vector<float> ColorsOfSurfaces;
+  KernelLighting Light{};
   std::vector<KernelLight> Lights;
-  std::vector<ShadowSource> Shadows;
-  std::vector<OcclusionSample> Occlusion;
+  std::vector<ShadowSource> ShadowSources;
+  std::vector<OcclusionSample> OcclusionSamples;
+
+  OwningInput()
+    : IsosurfaceInput{}
+  {
+  }
+  // The base points into this object.
+  OwningInput(const OwningInput&) = delete;
+  OwningInput& operator=(const OwningInput&) = delete;
 };
-
-void FillIllumination(const VolumeScene& scene, const RayGrid& grid,
-  const IsosurfaceOptions& options, const MeshFrame& mesh, const SampleRange& samples,
-  Illumination& result)
-{
-  const double unit = mesh.Radius * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
-  FillKernelLighting(options.Lights, options.Surface, grid, unit, result.Lighting, result.Lights);
-  const std::vector<GradientRow>& gradients =
-    options.SmoothShading ? scene.Mesh.GetPointGradients() : scene.Mesh.GetCellGradients();
-  result.Lighting.Gradients = gradients.data();
-  result.Lighting.NumberOfGradients = static_cast<std::int32_t>(gradients.size());
-  result.Lighting.OfPoints = options.SmoothShading;
-  if (options.Shadows)
-  {
-    result.Shadows = MakeShadowSources(options.Lights, grid, mesh, options.ShadowSoftness, samples);
-  }
-  if (options.AmbientOcclusion)
-  {
-    result.Occlusion = MakeOcclusionSamples(grid, mesh, samples);
-  }
-}
-
-/// All that a picture follows from, but for the samples of light.
-CacheKey MakePictureKey(const VolumeScene& scene, const RayGrid& grid, const RayLimits& limits,
-  const IsosurfaceOptions& options, std::uint64_t polygons, std::uint64_t ranges)
-{
-  CacheKey key = CacheKey::Of(polygons, ranges, scene.Mesh.GetPointsVersion(),
-    scene.Mesh.GetColorScalarsVersion(), scene.Optics.GetFunctionVersion(),
-    scene.Optics.GetSurfacesVersion(), grid.Width, grid.Height, limits.Cropping,
-    limits.CroppingFlags, options.MaximumError, options.SmoothShading, options.Shadows,
-    options.ShadowSoftness, options.AmbientOcclusion, options.OcclusionRadius,
-    options.SamplesPerFrame, options.MaximumLayers, options.Polygons);
-  const auto add = [&key](const auto& numbers)
-  {
-    for (const auto number : numbers)
-    {
-      key.Add(number);
-    }
-  };
-  add(grid.Origin);
-  add(grid.OriginStepX);
-  add(grid.OriginStepY);
-  add(grid.Direction);
-  add(grid.DirectionStepX);
-  add(grid.DirectionStepY);
-  for (const auto& row : grid.MeshFromWorld)
-  {
-    add(row);
-  }
-  for (const auto& plane : limits.Planes)
-  {
-    add(plane);
-  }
-  add(limits.CroppingPlanes);
-  const std::size_t pixels = static_cast<std::size_t>(grid.Width) * grid.Height;
-  for (std::size_t i = 0; limits.MaximumDistances && i < pixels; ++i)
-  {
-    key.Add(limits.MaximumDistances[i]);
-  }
-  const Material& surface = options.Surface;
-  add(std::array<float, 4>{
-    surface.Ambient, surface.Diffuse, surface.Specular, surface.SpecularPower });
-  for (const Light& light : options.Lights)
-  {
-    key.Add(light.Positional);
-    add(light.Position);
-    add(light.Ambient);
-    add(light.Diffuse);
-    add(light.Specular);
-    add(light.Attenuation);
-    add(light.Axis);
-    key.Add(light.ConeCosine);
-    key.Add(light.Exponent);
-  }
-  return key;
-}
 
 /// row: of a DepthMap.
 void FillDepthFactors(
@@ -223,76 +89,92 @@ void FillDepthFactors(
   factors[3] = frame.Parallel ? row[3] : along;
 }
 
-/// The surfaces that a picture may show; the others block no light either.
-std::vector<Isosurface> ListVisible(const VolumeScene& scene)
+void FillTree(const VolumeScene& scene, const IsosurfaceStep& step,
+  const IsosurfaceOptions& options, OwningInput& in)
 {
-  std::vector<Isosurface> visible;
-  for (const Isosurface& surface : scene.Optics.GetIsosurfaces())
+  const bool precomputed = options.Polygons == Isopolygons::Precomputed;
+  const std::vector<MinMaxTree::Node>& nodes =
+    precomputed ? step.Active.Get().Nodes : step.Tree->Nodes;
+  for (const double value : step.Values)
   {
-    if (surface.Opacity > 0 || !scene.Mesh.GetColorScalars().empty())
-    {
-      visible.push_back(surface);
-    }
+    in.Steps.push_back(step.Ranges.GetStep(value));
   }
-  return visible;
+  in.Tree.Nodes = nodes.empty() ? nullptr : nodes.data();
+  in.Tree.Polygons = precomputed ? step.Active.Get().Polygons.data() : nullptr;
+  in.Tree.Ranges = step.Ranges.Nodes.data();
+  in.Tree.LeafCells = step.Tree->Cells.data();
+  in.Tree.ValueSteps = in.Steps.data();
+  in.Tree.Source = MakeIsopolygonSource(scene, step.Values);
 }
 
-std::vector<float> GetColors(const std::vector<Isosurface>& surfaces)
+void FillColors(const VolumeScene& scene, const IsosurfaceStep& step,
+  const IsosurfaceOptions& options, OwningInput& in)
 {
-  std::vector<float> colors;
-  for (const Isosurface& surface : surfaces)
+  for (const Isosurface& surface : ListVisible(scene))
   {
-    colors.insert(colors.end(),
+    in.ColorsOfSurfaces.insert(in.ColorsOfSurfaces.end(),
       { surface.Color[0], surface.Color[1], surface.Color[2],
         std::clamp(surface.Opacity, 0.f, 1.f) });
   }
-  return colors;
+  in.SurfaceColors = in.ColorsOfSurfaces.data();
+  if (scene.Mesh.GetColorScalars().empty())
+  {
+    return;
+  }
+  const IntervalTable& function = scene.Optics.GetIntervalTable();
+  in.ColorScalars = scene.Mesh.GetColorScalars().data();
+  in.ColorFields =
+    options.Polygons == Isopolygons::Precomputed ? step.Colors.Get().data() : nullptr;
+  in.Intervals = function.Intervals.data();
+  in.NumberOfIntervals = static_cast<int>(function.Intervals.size());
+  in.FunctionOffset = function.Offset;
+  in.FunctionScale = function.Scale;
 }
 
-/// BlockMemory with its memory.
-class OwningBlockMemory : public BlockMemory
+void FillLight(const VolumeScene& scene, const IsosurfaceStep& step, const RayGrid& grid,
+  const IsosurfaceOptions& options, const SampleRange& samples, OwningInput& in)
 {
-public:
-  OwningBlockMemory()
+  const MeshFrame mesh = GetMeshFrame(scene);
+  const double worldRadius = mesh.Radius * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+  FillKernelLighting(options.Lights, options.Surface, grid, worldRadius, in.Light, in.Lights);
+  in.Light.OfPoints = options.SmoothShading;
+  if (options.Polygons == Isopolygons::Precomputed)
   {
-    this->Grow = [](BlockMemory& block, int count)
-    { static_cast<OwningBlockMemory&>(block).Reserve(count); };
+    in.Gradients = options.SmoothShading ? step.Gradients.Get().data() : nullptr;
+    in.CellGradients = options.SmoothShading ? nullptr : step.CellGradients.Get().data();
   }
-  OwningBlockMemory(const OwningBlockMemory&) = delete;
-  OwningBlockMemory& operator=(const OwningBlockMemory&) = delete;
-
-private:
-  struct alignas(64) Room
+  else
   {
-    char Bytes[PlacedPolygonBytes];
-  };
-
-  void Reserve(int count)
-  {
-    this->Capacity = std::max(count, 2 * this->Capacity);
-    this->Rooms.resize(this->Capacity);
-    this->Polygons = this->Rooms.data();
-    float** bounds[4] = { &this->LowU, &this->HighU, &this->LowV, &this->HighV };
-    for (int b = 0; b < 4; ++b)
-    {
-      this->Bounds[b].resize(this->Capacity);
-      *bounds[b] = this->Bounds[b].data();
-    }
+    const std::vector<GradientRow>& gradients =
+      options.SmoothShading ? scene.Mesh.GetPointGradients() : scene.Mesh.GetCellGradients();
+    in.Light.Gradients = gradients.data();
+    in.Light.NumberOfGradients = static_cast<std::int32_t>(gradients.size());
   }
+  in.Lighting = &in.Light;
+  if (options.Shadows)
+  {
+    in.ShadowSources =
+      MakeShadowSources(options.Lights, grid, mesh, options.ShadowSoftness, samples);
+    in.Shadows = in.ShadowSources.data();
+    in.NumberOfShadows = static_cast<int>(in.ShadowSources.size());
+  }
+  if (options.AmbientOcclusion)
+  {
+    in.OcclusionSamples = MakeOcclusionSamples(grid, mesh, samples);
+    in.Occlusion = in.OcclusionSamples.data();
+    in.NumberOfOcclusionSamples = static_cast<int>(in.OcclusionSamples.size());
+    in.OcclusionRadius = options.OcclusionRadius > 0 ? options.OcclusionRadius
+                                                     : AutomaticOcclusionRadius * worldRadius;
+    in.OcclusionOffset = OcclusionOffset * worldRadius;
+  }
+}
 
-  std::vector<Room> Rooms;
-  std::vector<float> Bounds[4];
-};
-
-/// What a thread writes while it traces.
-struct ThreadMemory
+/// Whether a picture is one of several whose mean is shown.
+bool IsSampled(const VolumeScene& scene, const IsosurfaceOptions& options)
 {
-  IsosurfaceScratch Scratch;
-  OwningBlockMemory Block;
-  IsosurfaceCounts Counts;
-  std::vector<float> Visible;
-  Tile Covered{ 0, 0, 0, 0 };
-};
+  return IsLit(scene, options) &&
+    (options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0));
+}
 
 /// An empty tile adds nothing.
 Tile Unite(const Tile& a, const Tile& b)
@@ -306,107 +188,85 @@ Tile Unite(const Tile& a, const Tile& b)
 
 } // namespace
 
-void IsosurfaceTracer::Prepare(VolumeScene& scene, const IsosurfaceOptions& options, int threads,
-  IsosurfaceStatistics& statistics)
+class IsosurfaceTracer::Internals
 {
-  const WalkMesh& walk = *scene.Mesh.GetMesh();
-  const TetrahedralMesh& mesh = walk.GetMesh();
-  const auto bytesPerCell = [&mesh](std::size_t bytes)
-  { return static_cast<double>(bytes) / std::max<std::size_t>(1, mesh.GetNumberOfCells()); };
+public:
+  SampleRange ChooseSamples(const VolumeScene& scene, const RayGrid& grid, const RayLimits& limits,
+    const IsosurfaceOptions& options);
+  void TraceTiles(const OwningInput& in, const IsosurfaceOptions& options, int threads,
+    IsosurfaceStatistics& statistics);
+
+  IsosurfaceSteps Steps;
+  PictureMean Mean;
+};
+
+/// The samples of the next picture of a mean.
+SampleRange IsosurfaceTracer::Internals::ChooseSamples(const VolumeScene& scene,
+  const RayGrid& grid, const RayLimits& limits, const IsosurfaceOptions& options)
+{
+  SampleRange samples;
+  samples.Count = options.SamplesPerFrame;
+  if (IsSampled(scene, options))
   {
-    const Stopwatch stopwatch;
-    CacheKey key = CacheKey::Of(scene.Mesh.GetCellsVersion(), options.Build);
-    if (!this->TreeStamp.Has(key))
-    {
-      MinMaxTreeOptions build;
-      build.Build = options.Build;
-      build.LeafSize = LeafSize;
-      build.NumberOfThreads = threads;
-      this->Tree = BuildMinMaxTree(mesh, walk.GetCenter(), walk.GetRadius(), build);
-      this->TreeStamp.Set(std::move(key));
-      statistics.Rebuilt.emplace_back("tree");
-    }
-    else if (this->TreePoints != scene.Mesh.GetPointsVersion())
-    {
-      RefitMinMaxTree(this->Tree, mesh, walk.GetCenter(), walk.GetRadius(), threads);
-      statistics.Rebuilt.emplace_back("boxes");
-    }
-    this->TreePoints = scene.Mesh.GetPointsVersion();
-    statistics.TreeSeconds = stopwatch.GetSeconds();
-  }
-  {
-    const Stopwatch stopwatch;
-    const bool made = this->Ranges.Update(
-      CacheKey::Of(this->TreeStamp.GetVersion(), scene.Mesh.GetScalarsVersion()),
-      [&] { return MakeMinMaxRanges(this->Tree, mesh, scene.Mesh.GetScalars(), threads); });
-    if (made)
-    {
-      statistics.Rebuilt.emplace_back("ranges");
-    }
-    statistics.RangesSeconds = stopwatch.GetSeconds();
-  }
-  this->Values.clear();
-  CacheKey key = CacheKey::Of(this->Ranges.GetVersion(), this->TreePoints);
-  for (const Isosurface& surface : ListVisible(scene))
-  {
-    this->Values.push_back(surface.Value);
-    key.Add(surface.Value);
-  }
-  const IsopolygonSource source{ GetMeshFrame(walk), mesh.Points.data(), mesh.Cells.data(),
-    scene.Mesh.GetScalars().data(), this->Values.data(), static_cast<int>(this->Values.size()) };
-  if (options.Polygons == Isopolygons::Precomputed)
-  {
-    const Stopwatch stopwatch;
-    const bool made = this->Active.Update(std::move(key),
-      [&] { return MakeActiveTree(this->Tree, this->Ranges.Get(), source, threads); });
-    if (made)
-    {
-      statistics.Rebuilt.emplace_back("isopolygons");
-    }
-    statistics.PolygonsSeconds = stopwatch.GetSeconds();
-  }
-  if (options.Polygons == Isopolygons::Precomputed && options.Shaded && options.SmoothShading)
-  {
-    const Stopwatch stopwatch;
-    const bool made = this->Gradients.Update(CacheKey::Of(this->Active.GetVersion()),
-      [&]
-      {
-        return MakeGradientFields(
-          this->Active.Get(), source, scene.Mesh.GetPointGradients().data(), threads);
-      });
-    if (made)
-    {
-      statistics.Rebuilt.emplace_back("gradients");
-    }
-    statistics.PolygonsSeconds += stopwatch.GetSeconds();
+    this->Mean.Start(MakePictureKey(scene, grid, limits, options));
+    const int frames = std::max(1, options.MaximumSamples / options.SamplesPerFrame);
+    samples.First = std::min(this->Mean.GetCount(), frames - 1) * options.SamplesPerFrame;
   }
   else
   {
-    this->Gradients.Reset();
+    this->Mean.Reset();
   }
-  const std::vector<double>& colorScalars = scene.Mesh.GetColorScalars();
-  if (options.Polygons == Isopolygons::Precomputed && !colorScalars.empty())
-  {
-    const Stopwatch stopwatch;
-    const bool made = this->Colors.Update(
-      CacheKey::Of(this->Active.GetVersion(), scene.Mesh.GetColorScalarsVersion()),
-      [&] { return MakeScalarFields(this->Active.Get(), source, colorScalars.data(), threads); });
-    if (made)
-    {
-      statistics.Rebuilt.emplace_back("colours");
-    }
-    statistics.PolygonsSeconds += stopwatch.GetSeconds();
-  }
-  else
-  {
-    this->Colors.Reset();
-  }
-  statistics.Nodes = static_cast<std::int64_t>(this->Tree.Nodes.size());
-  statistics.TreeBytes = bytesPerCell(this->Tree.Nodes.size() * sizeof(MinMaxTree::Node) +
-    this->Tree.Cells.size() * sizeof(std::int32_t));
-  statistics.StepBytes = bytesPerCell(this->Ranges.Get().Nodes.size() * sizeof(MinMaxTree::Range) +
-    scene.Mesh.GetScalars().size() * sizeof(double));
+  return samples;
 }
+
+void IsosurfaceTracer::Internals::TraceTiles(const OwningInput& in,
+  const IsosurfaceOptions& options, int threads, IsosurfaceStatistics& statistics)
+{
+  const InstructionSet set = options.Kernels.value_or(GetWidestInstructionSet());
+  const IsosurfaceKernel kernel = GetKernel(set);
+  std::vector<std::unique_ptr<TracerMemory>> memory;
+  for (int t = 0; t < threads; ++t)
+  {
+    memory.push_back(std::make_unique<TracerMemory>());
+    memory.back()->Visible.assign(
+      in.NumberOfShadows > 0 ? options.Lights.size() * RayPacket::MaximumRays : 0, 1.f);
+    memory.back()->Scratch.Block = &memory.back()->Block;
+    memory.back()->Scratch.Visible =
+      in.NumberOfShadows > 0 ? memory.back()->Visible.data() : nullptr;
+  }
+  const TileGrid tiles{ in.Grid->Width, in.Grid->Height, BlockEdge };
+  statistics.Aborted = !ForEachTile(tiles, threads, options.Progress,
+    [&](const Tile& tile, int thread)
+    {
+      TracerMemory& own = *memory[thread];
+      const std::int64_t hits = own.Counts.Hits;
+      kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, own.Scratch, own.Counts);
+      if (own.Counts.Hits > hits)
+      {
+        own.Covered = Unite(own.Covered, tile);
+      }
+    });
+  for (const std::unique_ptr<TracerMemory>& thread : memory)
+  {
+    const IsosurfaceCounts& counts = thread->Counts;
+    statistics.Primary.Add(counts.Primary);
+    statistics.Shadow.Add(counts.Shadow);
+    statistics.Hits += counts.Hits;
+    statistics.LostRays += counts.LostRays;
+    statistics.Covered = Unite(statistics.Covered, thread->Covered);
+    // What a ray that ends at the last layer lets through.
+    statistics.TerminationError = std::max(statistics.TerminationError, counts.LostOpacity);
+  }
+  statistics.NumberOfThreads = threads;
+  statistics.InstructionSet = GetName(set);
+}
+
+IsosurfaceTracer::IsosurfaceTracer()
+  : Private(std::make_unique<Internals>())
+{
+}
+
+IsosurfaceTracer::~IsosurfaceTracer() = default;
 
 IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& grid,
   const RayLimits& limits, const IsosurfaceOptions& options, Span<float> colors, Span<float> depths)
@@ -419,82 +279,29 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   scene.CheckComplete();
   IsosurfaceStatistics statistics;
   const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
-  const bool lit = options.Shaded && !scene.Mesh.HasCellScalars();
+  const bool precomputed = options.Polygons == Isopolygons::Precomputed;
+  const bool lit = IsLit(scene, options);
   SceneNeeds needs;
-  needs.PointGradients = lit && options.SmoothShading;
-  needs.CellGradients = lit && !options.SmoothShading;
+  needs.PointGradients = lit && options.SmoothShading && !precomputed;
+  needs.CellGradients = lit && !options.SmoothShading && !precomputed;
   scene.Prepare(needs);
-  this->Prepare(scene, options, threads, statistics);
+  const IsosurfaceStep& step = this->Private->Steps.Update(scene, options, threads, statistics);
 
   const Stopwatch stopwatch;
-  const WalkMesh& walk = *scene.Mesh.GetMesh();
-  const TetrahedralMesh& mesh = walk.GetMesh();
-  const MeshFrame frame = GetMeshFrame(walk);
-  const bool precomputed = options.Polygons == Isopolygons::Precomputed;
-  const std::vector<MinMaxTree::Node>& nodes =
-    precomputed ? this->Active.Get().Nodes : this->Tree.Nodes;
-  std::vector<std::int32_t> steps;
-  for (const double value : this->Values)
-  {
-    steps.push_back(this->Ranges.Get().GetStep(value));
-  }
-
-  IsosurfaceInput in{};
-  in.Frame = MakeRayFrame(grid, frame);
+  const MeshFrame mesh = GetMeshFrame(scene);
+  OwningInput in;
+  in.Frame = MakeRayFrame(grid, mesh);
   in.Grid = &grid;
-  in.Tree.Nodes = nodes.empty() ? nullptr : nodes.data();
-  in.Tree.Polygons = precomputed ? this->Active.Get().Polygons.data() : nullptr;
-  in.Tree.Ranges = this->Ranges.Get().Nodes.data();
-  in.Tree.LeafCells = this->Tree.Cells.data();
-  in.Tree.ValueSteps = steps.data();
-  in.Tree.Source = IsopolygonSource{ frame, mesh.Points.data(), mesh.Cells.data(),
-    scene.Mesh.GetScalars().data(), this->Values.data(), static_cast<int>(this->Values.size()) };
-  const MeshLimits meshLimits(limits, grid, in.Frame, frame);
-  in.Limits = meshLimits.Get();
-  in.ShadowLimits = meshLimits.GetForLight();
+  const LimitsOfMesh limitsOfMesh(limits, grid, in.Frame, mesh);
+  in.Limits = limitsOfMesh.Get();
+  in.ShadowLimits = limitsOfMesh.GetForLight();
   in.MaximumDistances = limits.MaximumDistances;
-  const std::vector<float> surfaceColors = GetColors(ListVisible(scene));
-  in.SurfaceColors = surfaceColors.data();
-  if (!scene.Mesh.GetColorScalars().empty())
-  {
-    const IntervalTable& function = scene.Optics.GetIntervalTable();
-    in.ColorScalars = scene.Mesh.GetColorScalars().data();
-    in.ColorFields = this->Colors.Get().empty() ? nullptr : this->Colors.Get().data();
-    in.Intervals = function.Intervals.data();
-    in.NumberOfIntervals = static_cast<int>(function.Intervals.size());
-    in.FunctionOffset = function.Offset;
-    in.FunctionScale = function.Scale;
-  }
-  // Frames that only refine light.
-  const bool sampled =
-    lit && (options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0));
-  SampleRange samples;
-  samples.Count = options.SamplesPerFrame;
-  if (sampled)
-  {
-    this->Mean.Start(MakePictureKey(
-      scene, grid, limits, options, this->Active.GetVersion(), this->Ranges.GetVersion()));
-    const int frames = std::max(1, options.MaximumSamples / options.SamplesPerFrame);
-    samples.First = std::min(this->Mean.GetCount(), frames - 1) * options.SamplesPerFrame;
-  }
-  else
-  {
-    this->Mean.Reset();
-  }
-  Illumination illumination;
+  FillTree(scene, step, options, in);
+  FillColors(scene, step, options, in);
+  const SampleRange samples = this->Private->ChooseSamples(scene, grid, limits, options);
   if (lit)
   {
-    FillIllumination(scene, grid, options, frame, samples, illumination);
-    in.Lighting = &illumination.Lighting;
-    in.Gradients = this->Gradients.Get().empty() ? nullptr : this->Gradients.Get().data();
-    in.Shadows = illumination.Shadows.data();
-    in.NumberOfShadows = static_cast<int>(illumination.Shadows.size());
-    const double worldRadius = frame.Radius * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
-    in.Occlusion = illumination.Occlusion.empty() ? nullptr : illumination.Occlusion.data();
-    in.NumberOfOcclusionSamples = static_cast<int>(illumination.Occlusion.size());
-    in.OcclusionRadius = options.OcclusionRadius > 0 ? options.OcclusionRadius
-                                                     : AutomaticOcclusionRadius * worldRadius;
-    in.OcclusionOffset = OcclusionOffset * worldRadius;
+    FillLight(scene, step, grid, options, samples, in);
   }
   ErrorSpending spending;
   spending.EndsEarly = true;
@@ -503,7 +310,7 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   in.MaximumLayers =
     options.MaximumLayers > 0 ? options.MaximumLayers : std::numeric_limits<int>::max();
   in.Blocks = precomputed &&
-    options.Blocks.value_or(static_cast<double>(this->Active.Get().Polygons.size()) <
+    options.Blocks.value_or(static_cast<double>(step.Active.Get().Polygons.size()) <
       LargestBlockShare * static_cast<double>(pixels));
   in.Colors = colors.data();
   in.Depths = depths.data();
@@ -513,54 +320,17 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
     FillDepthFactors(grid, in.Frame, options.Depth.Depth, in.DepthFactors);
     FillDepthFactors(grid, in.Frame, options.Depth.Divisor, in.DivisorFactors);
   }
-
-  const InstructionSet set = options.Kernels.value_or(GetWidestInstructionSet());
-  const IsosurfaceKernel kernel = GetKernel(set);
-  std::vector<std::unique_ptr<ThreadMemory>> memory;
-  for (int t = 0; t < threads; ++t)
+  this->Private->TraceTiles(in, options, threads, statistics);
+  if (IsSampled(scene, options) && !statistics.Aborted)
   {
-    memory.push_back(std::make_unique<ThreadMemory>());
-    memory.back()->Visible.assign(
-      in.NumberOfShadows > 0 ? options.Lights.size() * RayPacket::MaximumRays : 0, 1.f);
-    memory.back()->Scratch.Block = &memory.back()->Block;
-    memory.back()->Scratch.Visible =
-      in.NumberOfShadows > 0 ? memory.back()->Visible.data() : nullptr;
-  }
-  const TileGrid tiles{ grid.Width, grid.Height, BlockEdge };
-  statistics.Aborted = !ForEachTile(tiles, threads, options.Progress,
-    [&](const Tile& tile, int thread)
-    {
-      ThreadMemory& own = *memory[thread];
-      const std::int64_t hits = own.Counts.Hits;
-      kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, own.Scratch, own.Counts);
-      if (own.Counts.Hits > hits)
-      {
-        own.Covered = Unite(own.Covered, tile);
-      }
-    });
-  if (sampled && !statistics.Aborted)
-  {
-    this->Mean.Add(colors, samples.First / options.SamplesPerFrame);
+    this->Private->Mean.Add(colors, samples.First / options.SamplesPerFrame);
     statistics.Samples = samples.First + samples.Count;
-  }
-  for (const std::unique_ptr<ThreadMemory>& thread : memory)
-  {
-    const IsosurfaceCounts& counts = thread->Counts;
-    statistics.Primary.Add(counts.Primary);
-    statistics.Shadow.Add(counts.Shadow);
-    statistics.Hits += counts.Hits;
-    statistics.LostRays += counts.LostRays;
-    statistics.Covered = Unite(statistics.Covered, thread->Covered);
-    // What a ray that ends at the last layer lets through.
-    statistics.TerminationError = std::max(statistics.TerminationError, counts.LostOpacity);
   }
   if (precomputed)
   {
-    statistics.ActiveNodes = static_cast<std::int64_t>(this->Active.Get().Nodes.size());
-    statistics.Polygons = static_cast<std::int64_t>(this->Active.Get().Polygons.size());
+    statistics.ActiveNodes = static_cast<std::int64_t>(step.Active.Get().Nodes.size());
+    statistics.Polygons = static_cast<std::int64_t>(step.Active.Get().Polygons.size());
   }
-  statistics.NumberOfThreads = threads;
-  statistics.InstructionSet = GetName(set);
   statistics.TraceSeconds = stopwatch.GetSeconds();
   return statistics;
 }

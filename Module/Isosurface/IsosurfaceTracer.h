@@ -2,139 +2,44 @@
 #ifndef tetralux_IsosurfaceTracer_h
 #define tetralux_IsosurfaceTracer_h
 
-#include "Base/Cached.h"
 #include "Base/Span.h"
-#include "Base/Tile.h"
-#include "Hierarchy/MinMaxTree.h"
-#include "Isosurface/ActiveTree.h"
-#include "Isosurface/CellField.h"
-#include "Isosurface/PictureMean.h"
-#include "Isosurface/TraceInput.h"
-#include "Optics/OpticalModel.h"
+#include "Isosurface/IsosurfaceOptions.h"
 #include "Scene/VolumeScene.h"
-#include "Simd/InstructionSet.h"
 #include "TetraluxCoreModule.h"
-#include "View/DepthMap.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
+#include <memory>
 
 namespace tetralux
 {
-
-/// When isopolygons are made (Wald et al. 2007, section 4.4).
-enum class Isopolygons
-{
-  Precomputed, ///< all of them, when values, scalars or points change
-  OnTheFly     ///< for each packet that meets their cells
-};
-
-struct IsosurfaceOptions
-{
-  /// Largest error of a colour channel to aim at, 0..1: a ray ends where what is behind cannot
-  /// change a channel by half of it.
-  double MaximumError = 1e-4;
-
-  bool Shaded = false;       ///< whether lights shine; their light is clamped to 0..1
-  bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
-  bool Shadows = false;      ///< whether surfaces block positional and distant lights
-  std::vector<Light> Lights;
-  Material Surface;
-
-  double ShadowSoftness = 0;     ///< angle that lights are seen under, radians; 0: hard shadows
-  bool AmbientOcclusion = false; ///< whether surfaces block light from all around, where lit
-  double OcclusionRadius = 0;    ///< from how far they do, world units; 0: a fifth of the radius
-
-  /// Light sources a frame of soft shadows, and directions of ambient light. Frames of which
-  /// nothing else differs take further ones, up to MaximumSamples, and the picture is their mean.
-  ///@{
-  int SamplesPerFrame = 4;
-  int MaximumSamples = 256;
-  ///@}
-
-  /// What the window's depth buffer holds of points, for WindowDepths.
-  DepthMap Depth{};
-  /// To be filled, one a ray, unless empty: what the depth buffer is to hold of the nearest opaque
-  /// surface, 1 where there is none.
-  Span<float> WindowDepths;
-
-  int MaximumLayers = 0; ///< surfaces that a ray meets at most; 0: as many as MaximumError asks for
-
-  TreeBuild Build = TreeBuild::SpatialMedian;
-  Isopolygons Polygons = Isopolygons::Precomputed;
-
-  /// Whether precomputed isopolygons are prepared once for blocks of packets, which gives up to skip
-  /// hidden ones. Without a value: if there are few for the size of the picture.
-  std::optional<bool> Blocks;
-
-  int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
-
-  /// Kernels to use instead of the best ones, for tests. The processor must have them.
-  std::optional<InstructionSet> Kernels;
-
-  /// As RayCastOptions::Progress.
-  std::function<bool(double)> Progress;
-};
-
-struct IsosurfaceStatistics
-{
-  std::vector<std::string> Rebuilt; ///< of tree, boxes, ranges, isopolygons and gradients
-  double TreeSeconds = 0;
-  double RangesSeconds = 0;
-  double PolygonsSeconds = 0;
-  double TraceSeconds = 0;
-  std::int64_t Nodes = 0;       ///< of the whole tree
-  std::int64_t ActiveNodes = 0; ///< of precomputed isopolygons
-  std::int64_t Polygons = 0;    ///< the same
-  double TreeBytes = 0;         ///< for each tetrahedron
-  double StepBytes = 0;         ///< for each tetrahedron, of one time step: ranges and scalars
-  TraceCounts Primary;
-  TraceCounts Shadow;
-  std::int64_t Hits = 0;
-  Tile Covered{ 0, 0, 0, 0 }; ///< packets that hit anything, pixels; nothing else is in the picture
-  int Samples = 0; ///< of soft shadows and ambient light, of all frames that the picture is of
-  std::int64_t LostRays = 0; ///< ended at MaximumLayers
-  int NumberOfThreads = 0;
-  std::string InstructionSet;
-  bool Aborted = false;
-  double TerminationError = 0; ///< what may be lost behind a ray's early end
-};
 
 /// Traces rays to the isosurfaces of tetrahedra, by an implicit hierarchy over all values (Wald,
 /// Friedrich, Knoll and Hansen, Interactive Isosurface Ray Tracing of Time-Varying Tetrahedral
 /// Volumes, 2007). Surfaces are planar in each cell, and no ray passes between two cells.
 ///
 /// What was built is kept: the tree for the cells, its boxes for the points, its ranges for the
-/// scalars, and isopolygons for the values.
+/// scalars, and isopolygons for the values; see IsosurfaceSteps.h for time steps.
 class TETRALUXCORE_EXPORT IsosurfaceTracer
 {
 public:
+  IsosurfaceTracer();
+  ~IsosurfaceTracer();
+  IsosurfaceTracer(const IsosurfaceTracer&) = delete;
+  IsosurfaceTracer& operator=(const IsosurfaceTracer&) = delete;
+
   /// Draws a picture of a scene whose model is OpticalModel::Isosurfaces: four floats a pixel,
   /// premultiplied, and distances along rays to the first surface, -1 where there is none. The same
-  /// picture for any number of threads. Throws std::invalid_argument, with one line, if scalars are
-  /// not at points, or if the arrays do not have the size of the grid.
+  /// picture for any number of threads; of two polygons that a ray meets at the same bits of a
+  /// distance, on their common edge, the one that counts depends on the other options. Throws
+  /// std::invalid_argument, with one line, if scalars are not at points, or if the arrays do not
+  /// have the size of the grid.
   IsosurfaceStatistics Trace(VolumeScene& scene, const RayGrid& grid, const RayLimits& limits,
     const IsosurfaceOptions& options, Span<float> colors, Span<float> depths);
 
 private:
-  void Prepare(VolumeScene& scene, const IsosurfaceOptions& options, int threads,
-    IsosurfaceStatistics& statistics);
-
-  CacheStamp TreeStamp;
-  MinMaxTree Tree;
-  std::uint64_t TreePoints = 0; ///< version of the points that the boxes fit
-  Cached<MinMaxRanges> Ranges;
-  std::vector<double> Values;
-  Cached<ActiveTree> Active;
-  // One for each isopolygon.
-  Cached<std::vector<CellField<3>>> Gradients;
-  Cached<std::vector<CellField<1>>> Colors;
-
-  PictureMean Mean;
+  class Internals;
+  std::unique_ptr<Internals> Private;
 };
 
 } // namespace tetralux

@@ -99,13 +99,18 @@ std::vector<GradientRow> MakeCellGradients(
 #pragma omp parallel for schedule(static)
   for (std::int64_t cell = 0; cell < numberOfCells; ++cell)
   {
-    const std::array<double, 4> g = FindWeightedGradient(mesh, scalars, cell, length, scalar);
-    const double largest = std::max({ std::abs(g[0]), std::abs(g[1]), std::abs(g[2]) });
-    const double divisor = g[3] > 0 ? g[3] : largest > 0 ? largest : 1;
-    gradients[cell] = { ToFloat(g[0] / divisor), ToFloat(g[1] / divisor), ToFloat(g[2] / divisor),
-      0 };
+    gradients[cell] = MakeCellGradient(mesh, scalars, cell, length, scalar);
   }
   return gradients;
+}
+
+GradientRow MakeCellGradient(const TetrahedralMesh& mesh, Span<const double> scalars,
+  std::int64_t cell, double length, double scalar)
+{
+  const std::array<double, 4> g = FindWeightedGradient(mesh, scalars, cell, length, scalar);
+  const double largest = std::max({ std::abs(g[0]), std::abs(g[1]), std::abs(g[2]) });
+  const double divisor = g[3] > 0 ? g[3] : largest > 0 ? largest : 1;
+  return { ToFloat(g[0] / divisor), ToFloat(g[1] / divisor), ToFloat(g[2] / divisor), 0 };
 }
 
 } // namespace tetralux

@@ -6,6 +6,7 @@
 #include "Mesh/TetrahedralMesh.h"
 #include "TetraluxCoreModule.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace tetralux
@@ -31,6 +32,10 @@ TETRALUXCORE_EXPORT std::vector<GradientRow> MakePointGradients(
 /// alone, and 0 where a scalar is not finite.
 TETRALUXCORE_EXPORT std::vector<GradientRow> MakeCellGradients(
   const TetrahedralMesh& mesh, Span<const double> scalars, double length, double scalar);
+
+/// MakeCellGradients of one cell.
+TETRALUXCORE_EXPORT GradientRow MakeCellGradient(const TetrahedralMesh& mesh,
+  Span<const double> scalars, std::int64_t cell, double length, double scalar);
 
 } // namespace tetralux
 

@@ -81,6 +81,9 @@ public:
   /// Gradients of scalars in cells, in the same units. After PrepareCellGradients.
   const std::vector<GradientRow>& GetCellGradients() const { return this->CellGradients.Get(); }
 
+  /// What gradients count scalars in: half of their range, or 1 where that is 0.
+  double GetGradientUnit() const;
+
   /// DrawMeshRays; the same until the mesh, the scalars or the scale change. scale: world units of
   /// a length in the mesh.
   std::shared_ptr<const RaySample> DrawRays(double scale);
@@ -88,7 +91,6 @@ public:
 private:
   void SetScalars(std::vector<double> scalars, bool ofCells);
   void CountBlankCells();
-  double GetGradientUnit() const; ///< of scalars
 
   std::shared_ptr<WalkMesh> Mesh;
   std::vector<double> Scalars;
