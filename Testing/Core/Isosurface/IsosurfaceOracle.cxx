@@ -81,10 +81,10 @@ IsosurfaceOracle::IsosurfaceOracle(const RayScene& scene, bool shadows)
         corners[i][a] = mesh.Points[3 * static_cast<std::size_t>(point) + a];
       }
     }
-    const auto [least, largest] = std::minmax_element(cell.Scalars.begin(), cell.Scalars.end());
+    const Real least = *std::min_element(cell.Scalars.begin(), cell.Scalars.end());
+    const Real largest = *std::max_element(cell.Scalars.begin(), cell.Scalars.end());
     const bool crossed = std::any_of(scene.Isosurfaces.begin(), scene.Isosurfaces.end(),
-      [&](const Isosurface& surface)
-      { return *least < surface.Value && surface.Value <= *largest; });
+      [&](const Isosurface& surface) { return least < surface.Value && surface.Value <= largest; });
     const bool finite = std::all_of(
       cell.Scalars.begin(), cell.Scalars.end(), [](Real s) { return std::isfinite(s); });
     const Vector edges[3] = { Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]),
