@@ -74,8 +74,9 @@ private:
 
   Ray MakeRay(const Vector& origin, const Vector& direction) const;
   OraclePixel Render(double x, double y, Real shadowOffset) const;
-  void AddHits(const Ray& ray, Real from, Real to, std::vector<Hit>& hits) const;
-  bool IsKept(const Ray& ray, Real distance) const;
+  /// ofLight: planes of the camera and surfaces that are not visible do not count.
+  void AddHits(const Ray& ray, Real from, Real to, bool ofLight, std::vector<Hit>& hits) const;
+  bool IsKept(const Ray& ray, Real distance, bool ofLight) const;
   bool IsBlocked(const Light& light, const Vector& world, Real offset) const;
   std::array<double, 3> Shade(const Hit& hit, const Ray& ray, Real shadowOffset) const;
 
