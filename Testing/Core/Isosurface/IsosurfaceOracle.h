@@ -33,9 +33,9 @@ public:
   /// The ray of any point of the picture, in pixels.
   OraclePixel Render(double x, double y) const;
 
-  /// The rays around a pixel, and whether they see something else than the pixel: another number of
-  /// surfaces, or a depth or a channel that differs by more than given. displacement: how far around
-  /// it, in widths of the picture.
+  /// The rays around a pixel, and whether they see something else than it does: another number of
+  /// surfaces, or a depth or a channel that differs by more than given. displacement: how far
+  /// around it, in widths of the picture.
   bool IsAtSilhouette(int x, int y, const OraclePixel& pixel, double depth, double channel,
     double displacement, std::vector<OraclePixel>& around) const;
 
