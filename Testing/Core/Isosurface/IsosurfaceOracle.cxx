@@ -81,10 +81,10 @@ IsosurfaceOracle::IsosurfaceOracle(const RayScene& scene, bool shadows)
         corners[i][a] = mesh.Points[3 * static_cast<std::size_t>(point) + a];
       }
     }
-    const auto [least, largest] = std::minmax_element(cell.Scalars.begin(), cell.Scalars.end());
+    const Real least = *std::min_element(cell.Scalars.begin(), cell.Scalars.end());
+    const Real largest = *std::max_element(cell.Scalars.begin(), cell.Scalars.end());
     const bool crossed = std::any_of(scene.Isosurfaces.begin(), scene.Isosurfaces.end(),
-      [&](const Isosurface& surface)
-      { return *least < surface.Value && surface.Value <= *largest; });
+      [&](const Isosurface& surface) { return least < surface.Value && surface.Value <= largest; });
     const bool finite = std::all_of(
       cell.Scalars.begin(), cell.Scalars.end(), [](Real s) { return std::isfinite(s); });
     const Vector edges[3] = { Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]),
@@ -140,7 +140,8 @@ IsosurfaceOracle::Ray IsosurfaceOracle::MakeRay(const Vector& origin, const Vect
   return ray;
 }
 
-void IsosurfaceOracle::AddHits(const Ray& ray, Real from, Real to, std::vector<Hit>& hits) const
+void IsosurfaceOracle::AddHits(
+  const Ray& ray, Real from, Real to, bool ofLight, std::vector<Hit>& hits) const
 {
   double origin[3], direction[3];
   for (int a = 0; a < 3; ++a)
@@ -224,12 +225,13 @@ void IsosurfaceOracle::AddHits(const Ray& ray, Real from, Real to, std::vector<H
     for (std::size_t s = 0; s < this->Scene.Isosurfaces.size(); ++s)
     {
       const double value = this->Scene.Isosurfaces[s].Value;
-      if ((atLow < value) == (atHigh < value))
+      const bool counts = !ofLight || this->Scene.Isosurfaces[s].Opacity > 0;
+      if (!counts || (atLow < value) == (atHigh < value))
       {
         continue;
       }
       const Real distance = low + (value - atLow) / (atHigh - atLow) * (high - low);
-      if (from < distance && distance < to && this->IsKept(ray, distance))
+      if (from < distance && distance < to && this->IsKept(ray, distance, ofLight))
       {
         Hit hit{ distance, &cell, static_cast<int>(s), {} };
         for (int i = 0; i < 4; ++i)
@@ -242,11 +244,12 @@ void IsosurfaceOracle::AddHits(const Ray& ray, Real from, Real to, std::vector<H
   }
 }
 
-bool IsosurfaceOracle::IsKept(const Ray& ray, Real distance) const
+bool IsosurfaceOracle::IsKept(const Ray& ray, Real distance, bool ofLight) const
 {
   const RayLimits& limits = this->Scene.Limits;
-  for (const std::array<double, 4>& plane : limits.Planes)
+  for (std::size_t p = ofLight ? limits.NumberOfCameraPlanes : 0; p < limits.Planes.size(); ++p)
   {
+    const std::array<double, 4>& plane = limits.Planes[p];
     Real inside = plane[3];
     for (int a = 0; a < 3; ++a)
     {
@@ -284,7 +287,7 @@ bool IsosurfaceOracle::IsBlocked(const Light& light, const Vector& world, Real o
     light.Positional ? std::max({ std::abs(d[0]), std::abs(d[1]), std::abs(d[2]) }) : Length(d);
   std::vector<Hit> hits;
   this->AddHits(ray, offset * this->Radius / along,
-    light.Positional ? Length(way) : std::numeric_limits<Real>::infinity(), hits);
+    light.Positional ? Length(way) : std::numeric_limits<Real>::infinity(), true, hits);
   return !hits.empty();
 }
 
@@ -369,7 +372,7 @@ OraclePixel IsosurfaceOracle::Render(double x, double y, Real shadowOffset) cons
     end = this->Scene.MaximumDistances[row * grid.Width + column];
   }
   std::vector<Hit> hits;
-  this->AddHits(ray, parallel ? -std::numeric_limits<Real>::infinity() : 0, end, hits);
+  this->AddHits(ray, parallel ? -std::numeric_limits<Real>::infinity() : 0, end, false, hits);
   std::sort(
     hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.Distance < b.Distance; });
   // A face whose points have the value, between two cells that are below it, is met once.

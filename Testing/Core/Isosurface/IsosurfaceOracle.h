@@ -33,9 +33,9 @@ public:
   /// The ray of any point of the picture, in pixels.
   OraclePixel Render(double x, double y) const;
 
-  /// The rays around a pixel, and whether they see something else than the pixel: another number of
-  /// surfaces, or a depth or a channel that differs by more than given. displacement: how far around
-  /// it, in widths of the picture.
+  /// The rays around a pixel, and whether they see something else than it does: another number of
+  /// surfaces, or a depth or a channel that differs by more than given. displacement: how far
+  /// around it, in widths of the picture.
   bool IsAtSilhouette(int x, int y, const OraclePixel& pixel, double depth, double channel,
     double displacement, std::vector<OraclePixel>& around) const;
 
@@ -74,8 +74,9 @@ private:
 
   Ray MakeRay(const Vector& origin, const Vector& direction) const;
   OraclePixel Render(double x, double y, Real shadowOffset) const;
-  void AddHits(const Ray& ray, Real from, Real to, std::vector<Hit>& hits) const;
-  bool IsKept(const Ray& ray, Real distance) const;
+  /// ofLight: planes of the camera and surfaces that are not visible do not count.
+  void AddHits(const Ray& ray, Real from, Real to, bool ofLight, std::vector<Hit>& hits) const;
+  bool IsKept(const Ray& ray, Real distance, bool ofLight) const;
   bool IsBlocked(const Light& light, const Vector& world, Real offset) const;
   std::array<double, 3> Shade(const Hit& hit, const Ray& ray, Real shadowOffset) const;
 

@@ -231,12 +231,14 @@ TEST(Isopolygons, OfFacesBelongToTheCellBelow)
   EXPECT_EQ(MakeOne({ 1, 1, 0, 0 }).Polygons.size(), 0u);
 }
 
-TEST(Isopolygons, OfHugeScalarsAreFinite)
+TEST(Isopolygons, OfHugeAndTinyScalarsAreFinite)
 {
   const double largest = std::numeric_limits<double>::max();
+  const double least = std::numeric_limits<double>::denorm_min();
   for (const std::array<double, 4>& scalars :
     { std::array<double, 4>{ -largest, largest, largest, largest },
-      { largest, -largest, -largest, 0.5 * largest }, { 1e-300, -1e-300, -2e-300, -1e-300 } })
+      { largest, -largest, -largest, 0.5 * largest }, { 1e-300, -1e-300, -2e-300, -1e-300 },
+      { least, -least, -2 * least, 0 } })
   {
     const ActiveTree tree = MakeOne(scalars);
     ASSERT_EQ(tree.Polygons.size(), 1u);

@@ -184,6 +184,33 @@ TEST(IsosurfaceShadows, WhatIsCutAwayBlocksNothing)
   }
 }
 
+TEST(IsosurfaceShadows, WhatTheCameraCutsAwayBlocksLight)
+{
+  for (RayScene& scene : MakeScenes())
+  {
+    const MeshBox box(scene.Mesh);
+    std::array<double, 3> position;
+    std::copy_n(scene.Grid.Origin, 3, position.data());
+    const double distance = std::hypot(
+      position[0] - box.Middle[0], position[1] - box.Middle[1], position[2] - box.Middle[2]);
+    AddClippingRange(scene.Limits, position, box.Middle, distance, distance + 0.5 * box.Radius);
+    scene.Limits.NumberOfCameraPlanes = 2;
+    // From the viewer's side, where blockers are that the near plane cuts away.
+    scene.Lights = { MakeLight(true, GetPlace(scene, 1.2, 1.5, 1.4)) };
+    ExpectShadows(scene);
+  }
+}
+
+TEST(IsosurfaceShadows, InvisibleSurfacesBlockNothing)
+{
+  for (RayScene& scene : MakeScenes())
+  {
+    scene.Isosurfaces[1].Opacity = 0;
+    scene.Lights = { MakeLight(true, GetPlace(scene, 1.2, 1.5, 0.4)) };
+    ExpectShadows(scene);
+  }
+}
+
 TEST(IsosurfaceShadows, LightAtTheViewerCastsNone)
 {
   RayScene scene = MakeScene("random", { { "cells", 8 } });

@@ -249,8 +249,8 @@ TEST(IsosurfaceWatertight, SeenByParallelRays)
 
 TEST(IsosurfaceWatertight, ThroughFlatCells)
 {
-  // Scalars in steps: cells of one scalar, and surfaces in faces. They separate the middle from what
-  // is outside, and may be met three times.
+  // Scalars in steps: cells of one scalar, and surfaces in faces. They separate the middle from
+  // what is outside, and may be met three times.
   for (const double value : { 0.4, 0.45, std::nextafter(0.5, 0) })
   {
     RayScene scene = MakeSphere(value, Cells);
