@@ -51,9 +51,9 @@ public:
 
   ///@{
   /**
-   * Set the name of an array of point data that surfaces are coloured by: at each point of a surface
+   * Set the name of an array of point data that surfaces are coloured by: at each of their points
    * by the property's colour and scalar opacity at the array's value there, interpolated in the
-   * cell. Default nullptr: a surface has the colour and opacity of its value. Where the value is not
+   * cell. Default nullptr: a surface has the colour and opacity of its value. Where the array is not
    * a number, a surface is transparent.
    */
   vtkSetStringMacro(ColorArrayName);

@@ -12,15 +12,13 @@
 namespace tetralux
 {
 
-/// A polygon, in 128 bytes. A triangle or a quadrilateral; of a triangle the last corner is there twice. Corners follow each
+/// A triangle or a quadrilateral; of a triangle the last corner is there twice. Corners follow each
 /// other around it, in any direction.
 struct Isopolygon
 {
   double X[4], Y[4], Z[4]; ///< of the corners, in the mesh's frame
-  float Shares[4];         ///< where the corners are, from the first to the last end of their edges
   std::int32_t Cell;
   std::int32_t Surface; ///< index of its value
-  std::int32_t Case;    ///< bit i: the scalar at point i of the cell is at least the value
 };
 
 /// A mesh as isopolygons are made from it.

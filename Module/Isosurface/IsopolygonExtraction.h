@@ -17,7 +17,8 @@ struct IsopolygonCase
   std::int8_t Edges[4][2];
 };
 
-/// For each Isopolygon::Case. The first corner of an edge is the lower one.
+/// For each set of corners whose scalars are at least the value: bit i for corner i. The first
+/// corner of an edge is the lower one.
 constexpr IsopolygonCase IsopolygonCases[16] = {
   { 0, {} },
   { 3, { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 0, 3 } } },
@@ -64,7 +65,6 @@ TETRALUX_INLINE bool MakeIsopolygon(const IsopolygonCell& cell, double value, Is
   {
     return false;
   }
-  polygon.Case = mask;
   for (int i = 0; i < 4; ++i)
   {
     const int a = entry.Edges[i][0];
@@ -79,7 +79,6 @@ TETRALUX_INLINE bool MakeIsopolygon(const IsopolygonCell& cell, double value, Is
     polygon.X[i] = share == 1 ? q[0] : p[0] + share * (q[0] - p[0]);
     polygon.Y[i] = share == 1 ? q[1] : p[1] + share * (q[1] - p[1]);
     polygon.Z[i] = share == 1 ? q[2] : p[2] + share * (q[2] - p[2]);
-    polygon.Shares[i] = static_cast<float>(share);
   }
   return true;
 }

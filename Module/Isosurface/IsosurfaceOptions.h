@@ -61,11 +61,12 @@ struct IsosurfaceOptions
   TreeBuild Build = TreeBuild::SpatialMedian;
   Isopolygons Polygons = Isopolygons::Precomputed;
 
-  /// Whether precomputed isopolygons are prepared once for blocks of packets, which gives up to skip
-  /// hidden ones. Without a value: if there are few for the size of the picture.
+  /// Whether precomputed isopolygons are prepared once for blocks of packets, which gives up to
+  /// skip hidden ones. Without a value: if there are few for the size of the picture.
   std::optional<bool> Blocks;
 
-  /// Bytes of time steps that are kept beside the present one; 0: none, boxes are refitted in place.
+  /// Bytes of time steps that are kept beside the present one. 0: none is kept, and boxes are
+  /// refitted in place.
   std::size_t StepCacheBytes = std::size_t{ 256 } << 20;
 
   int NumberOfThreads = 0; ///< 0: as many as OpenMP offers

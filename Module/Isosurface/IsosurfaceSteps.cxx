@@ -82,12 +82,6 @@ void IsosurfaceSteps::ChooseStep(
     this->Entries.front().Key = std::move(key);
     this->Entries.front().PointsKey = std::move(points);
     this->IsNew = true;
-    if (options.StepCacheBytes == 0 && this->Entries.size() > 1)
-    {
-      // Its tree is refitted in place.
-      this->Entries.front().Step.Tree = std::move(this->Entries.back().Step.Tree);
-      this->Entries.resize(1);
-    }
   }
   statistics.RangesSeconds += stopwatch.GetSeconds();
 }
@@ -103,18 +97,29 @@ void IsosurfaceSteps::UpdateTree(const VolumeScene& scene, const IsosurfaceOptio
   const TetrahedralMesh& mesh = walk.GetMesh();
   Entry& entry = this->Entries.front();
   const Stopwatch treeStopwatch;
-  std::shared_ptr<MinMaxTree> other = std::move(entry.Step.Tree);
+  // Of the steps before, what depends on points or scalars alone that did not change.
+  std::shared_ptr<MinMaxTree> other;
+  bool hasRanges = false;
   for (const Entry& before : this->Entries)
   {
     if (before.Step.Tree && before.PointsKey == entry.PointsKey)
     {
       entry.Step.Tree = before.Step.Tree;
     }
+    if (before.Step.Tree && !hasRanges && before.Key == entry.Key)
+    {
+      entry.Step.Ranges = before.Step.Ranges;
+      hasRanges = true;
+    }
     other = other ? other : before.Step.Tree;
+  }
+  if (options.StepCacheBytes == 0)
+  {
+    this->Entries.resize(1);
   }
   if (!entry.Step.Tree && other)
   {
-    const bool isShared = other.use_count() > 1;
+    const bool isShared = other.use_count() > 1; // by a step that is kept
     entry.Step.Tree = isShared ? std::make_shared<MinMaxTree>(*other) : other;
     RefitMinMaxTree(*entry.Step.Tree, mesh, walk.GetCenter(), walk.GetRadius(), threads);
     statistics.Rebuilt.emplace_back("boxes");
@@ -130,6 +135,10 @@ void IsosurfaceSteps::UpdateTree(const VolumeScene& scene, const IsosurfaceOptio
     statistics.Rebuilt.emplace_back("tree");
   }
   statistics.TreeSeconds = treeStopwatch.GetSeconds();
+  if (hasRanges)
+  {
+    return;
+  }
   const Stopwatch rangesStopwatch;
   entry.Step.Ranges = MakeMinMaxRanges(*entry.Step.Tree, mesh, scene.Mesh.GetScalars(), threads);
   statistics.Rebuilt.emplace_back("ranges");

@@ -65,7 +65,8 @@ TETRALUX_INLINE bool FacesLight(
   return !any || (view > 0 ? towards < 0 : towards > 0);
 }
 
-/// Takes from visible, 1 a ray at first, what does not come through from one source. chunks: those with hits, one bit each.
+/// Takes from visible, 1 a ray at first, what does not come through from one source. chunks: those
+/// with hits, one bit each.
 TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource& source,
   std::uint32_t chunks, IsosurfaceScratch& scratch, IsosurfaceCounts& counts, float* visible)
 {

@@ -17,7 +17,8 @@ namespace tetralux
 /// Which part of space has surfaces, in the mesh's frame.
 struct TraceLimits
 {
-  /// Half-spaces (a, b, c, d): what has a x + b y + c z + d >= 0 is kept. None keeps the whole mesh.
+  /// Half-spaces (a, b, c, d): what has a x + b y + c z + d >= 0 is kept. None of them keeps the
+  /// whole mesh.
   const double (*Planes)[4] = nullptr;
   int NumberOfPlanes = 0;
 

@@ -32,8 +32,8 @@ public:
   /// sizes differ, into the frame buffer that is bound for drawing. Leaves OpenGL's state as it
   /// was. Throws std::runtime_error, with one line, where there is no shader program or no texture.
   ///@{
-  /// colors: width x height x 4 floats, lower row first. covered: pixels of the picture beyond which
-  /// there is nothing in it; not empty.
+  /// colors: width x height x 4 floats, lower row first. covered: pixels of the picture beyond
+  /// which there is nothing in it; not empty.
   void Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
     const float* colors, int width, int height, const PixelRectangle& covered);
   /// picture: of that window; its filters are set.

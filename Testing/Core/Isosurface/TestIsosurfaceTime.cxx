@@ -42,6 +42,7 @@ public:
   {
     this->Options.Polygons = polygons;
     this->Options.Shadows = true;
+    this->Options.StepCacheBytes = 0;
   }
 
   void SetScalars(const RayScene& scene)
@@ -136,7 +137,35 @@ TEST(IsosurfaceTime, RebuildsGradients)
   tracer.SetPoints(second);
   tracer.Expect({ "boxes", "isopolygons", "gradients" });
   tracer.Scene.SmoothShading = false;
+  tracer.Expect({ "gradients" });
+}
+
+TEST(IsosurfaceTime, KeepsSteps)
+{
+  const RayScene first = MakeScene(0.1, true);
+  const RayScene second = MakeScene(0.35, true);
+  KeptTracer tracer(first, Isopolygons::Precomputed);
+  tracer.Options.StepCacheBytes = std::size_t{ 64 } << 20;
+  tracer.Expect({ "tree", "ranges", "isopolygons", "gradients" });
+  tracer.SetScalars(second);
+  tracer.Expect({ "ranges", "isopolygons", "gradients" });
+  tracer.SetPoints(second);
+  tracer.Expect({ "boxes", "isopolygons", "gradients" });
+  // Each comes back, in any order.
+  tracer.SetPoints(first);
   tracer.Expect({});
+  tracer.SetScalars(first);
+  tracer.Expect({});
+  tracer.SetPoints(second);
+  tracer.SetScalars(second);
+  tracer.Expect({});
+  // Not those that there was no room for.
+  tracer.Options.StepCacheBytes = 1;
+  tracer.Expect({});
+  tracer.SetScalars(first);
+  tracer.Expect({ "ranges", "isopolygons", "gradients" });
+  tracer.SetScalars(second);
+  tracer.Expect({ "ranges", "isopolygons", "gradients" });
 }
 
 TEST(IsosurfaceTime, KeepsNoPolygonsOnTheFly)
