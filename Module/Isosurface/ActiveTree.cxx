@@ -19,10 +19,15 @@ constexpr std::int32_t LeafSize = 4;
 /// Nodes of the whole tree below which a subtree is one task.
 constexpr std::int32_t TaskSize = 1024;
 
+/// Leaves whose memory is asked for before it is needed: what is read lies where the cells are in
+/// memory, and takes longer to come than to compute with.
+constexpr std::size_t LeavesAhead = 4;
+
 /// An active node of the whole tree, in depth-first order.
 struct Visit
 {
   std::int32_t Node;
+  std::int32_t Parent;       ///< the visit above, or -1
   std::int32_t Polygons = 0; ///< of it and all below
   std::int32_t End = 0;      ///< the visit behind those below it
 };
@@ -32,6 +37,7 @@ struct Task
 {
   std::int32_t Node; ///< of the whole tree
   std::vector<Visit> Visits;
+  std::vector<std::int32_t> Cells; ///< that have polygons, in the order of the leaves
   std::int32_t FirstPolygon = 0;
   std::vector<MinMaxTree::Node> Nodes; ///< children count from the first one
 };
@@ -61,7 +67,7 @@ public:
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
     for (int i = 0; i < count; ++i)
     {
-      this->Count(this->Tasks[i], this->Tasks[i].Node);
+      this->Count(this->Tasks[i]);
     }
     std::int32_t polygons = 0;
     for (Task& task : this->Tasks)
@@ -110,39 +116,88 @@ private:
     }
   }
 
-  void Count(Task& task, std::int32_t id) const
+  void Count(Task& task) const
+  {
+    this->FindVisits(task, task.Node, -1);
+    std::vector<std::int32_t> leaves;
+    for (std::size_t v = 0; v < task.Visits.size(); ++v)
+    {
+      if (this->Tree.Nodes[task.Visits[v].Node].Count > 0)
+      {
+        leaves.push_back(static_cast<std::int32_t>(v));
+      }
+    }
+    for (std::size_t l = 0; l < leaves.size(); ++l)
+    {
+      // Points of a leaf farther ahead, scalars of one nearer.
+      if (l + 2 * LeavesAhead < leaves.size())
+      {
+        this->ForEachCell(task, leaves[l + 2 * LeavesAhead],
+          [this](std::int32_t cell) { __builtin_prefetch(this->GetPoints(cell)); });
+      }
+      if (l + LeavesAhead < leaves.size())
+      {
+        this->ForEachCell(task, leaves[l + LeavesAhead],
+          [this](std::int32_t cell)
+          {
+            for (int i = 0; i < 4; ++i)
+            {
+              __builtin_prefetch(this->Source.Scalars + this->GetPoints(cell)[i]);
+            }
+          });
+      }
+      this->ForEachCell(task, leaves[l],
+        [&](std::int32_t cell)
+        {
+          const std::int32_t polygons = this->CountPolygons(cell);
+          task.Visits[leaves[l]].Polygons += polygons;
+          if (polygons > 0)
+          {
+            task.Cells.push_back(cell);
+          }
+        });
+    }
+    for (std::size_t v = task.Visits.size(); v-- > 1;)
+    {
+      task.Visits[task.Visits[v].Parent].Polygons += task.Visits[v].Polygons;
+    }
+  }
+
+  void FindVisits(Task& task, std::int32_t id, std::int32_t parent) const
   {
     if (!this->IsActive(id))
     {
       return;
     }
     const MinMaxTree::Node& node = this->Tree.Nodes[id];
-    const std::size_t visit = task.Visits.size();
-    task.Visits.push_back({ id });
-    std::int32_t polygons = 0;
-    if (node.Count > 0)
+    const auto visit = static_cast<std::int32_t>(task.Visits.size());
+    task.Visits.push_back({ id, parent });
+    if (node.Count == 0)
     {
-      for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
-      {
-        polygons += this->CountPolygons(this->Tree.Cells[i]);
-      }
+      this->FindVisits(task, id + 1, visit);
+      this->FindVisits(task, node.First, visit);
     }
-    else
-    {
-      for (const std::int32_t child : { id + 1, node.First })
-      {
-        const std::size_t first = task.Visits.size();
-        this->Count(task, child);
-        polygons += first < task.Visits.size() ? task.Visits[first].Polygons : 0;
-      }
-    }
-    task.Visits[visit].Polygons = polygons;
     task.Visits[visit].End = static_cast<std::int32_t>(task.Visits.size());
+  }
+
+  template <class Call>
+  void ForEachCell(const Task& task, std::int32_t visit, const Call& call) const
+  {
+    const MinMaxTree::Node& node = this->Tree.Nodes[task.Visits[visit].Node];
+    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+    {
+      call(this->Tree.Cells[i]);
+    }
+  }
+
+  const std::int32_t* GetPoints(std::int32_t cell) const
+  {
+    return this->Source.Cells + 4 * static_cast<std::int64_t>(cell);
   }
 
   std::int32_t CountPolygons(std::int32_t cell) const
   {
-    const std::int32_t* points = this->Source.Cells + 4 * static_cast<std::int64_t>(cell);
+    const std::int32_t* points = this->GetPoints(cell);
     double least = std::numeric_limits<double>::infinity();
     double largest = -least;
     for (int i = 0; i < 4; ++i)
@@ -166,15 +221,21 @@ private:
     {
       return;
     }
+    constexpr std::size_t CellsAhead = 16;
     std::int32_t next = task.FirstPolygon;
-    for (const Visit& visit : task.Visits)
+    for (std::size_t c = 0; c < task.Cells.size(); ++c)
     {
-      const MinMaxTree::Node& node = this->Tree.Nodes[visit.Node];
-      for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+      if (c + CellsAhead < task.Cells.size())
       {
-        TETRALUX_ISA::ForEachIsopolygon(this->Source, this->Tree.Cells[i],
-          [&](const Isopolygon& polygon) { this->Result.Polygons[next++] = polygon; });
+        for (int i = 0; i < 4; ++i)
+        {
+          const std::int32_t point = this->GetPoints(task.Cells[c + CellsAhead])[i];
+          __builtin_prefetch(this->Source.Points + 3 * static_cast<std::int64_t>(point));
+          __builtin_prefetch(this->Source.Scalars + point);
+        }
       }
+      TETRALUX_ISA::ForEachIsopolygon(this->Source, task.Cells[c],
+        [&](const Isopolygon& polygon) { this->Result.Polygons[next++] = polygon; });
     }
     next = task.FirstPolygon;
     this->MakeNodes(task, 0, next);
@@ -291,11 +352,11 @@ ActiveTree MakeActiveTree(
   return ActiveTreeBuilder(tree, ranges, source).Build(threads);
 }
 
-std::vector<CellField<1>> MakeScalarFields(
+RawVector<CellField<1>> MakeScalarFields(
   const ActiveTree& tree, const IsopolygonSource& source, const double* scalars, int threads)
 {
   const auto count = static_cast<std::int64_t>(tree.Polygons.size());
-  std::vector<CellField<1>> fields(count);
+  RawVector<CellField<1>> fields(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::int64_t i = 0; i < count; ++i)
   {
@@ -304,11 +365,11 @@ std::vector<CellField<1>> MakeScalarFields(
   return fields;
 }
 
-std::vector<CellField<3>> MakeGradientFields(
+RawVector<CellField<3>> MakeGradientFields(
   const ActiveTree& tree, const IsopolygonSource& source, const GradientRow* gradients, int threads)
 {
   const auto count = static_cast<std::int64_t>(tree.Polygons.size());
-  std::vector<CellField<3>> fields(count);
+  RawVector<CellField<3>> fields(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::int64_t i = 0; i < count; ++i)
   {
@@ -317,11 +378,11 @@ std::vector<CellField<3>> MakeGradientFields(
   return fields;
 }
 
-std::vector<GradientRow> MakePolygonGradients(const ActiveTree& tree, const TetrahedralMesh& mesh,
+RawVector<GradientRow> MakePolygonGradients(const ActiveTree& tree, const TetrahedralMesh& mesh,
   Span<const double> scalars, double length, double scalar, int threads)
 {
   const auto count = static_cast<std::int64_t>(tree.Polygons.size());
-  std::vector<GradientRow> gradients(count);
+  RawVector<GradientRow> gradients(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::int64_t i = 0; i < count; ++i)
   {

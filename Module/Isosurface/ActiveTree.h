@@ -2,6 +2,7 @@
 #ifndef tetralux_ActiveTree_h
 #define tetralux_ActiveTree_h
 
+#include "Base/RawVector.h"
 #include "Hierarchy/MinMaxTree.h"
 #include "Isosurface/CellField.h"
 #include "Isosurface/Isopolygon.h"
@@ -20,7 +21,7 @@ struct ActiveTree
 {
   /// Leaves hold Polygons[First ... First + Count).
   std::vector<MinMaxTree::Node> Nodes;
-  std::vector<Isopolygon> Polygons;
+  RawVector<Isopolygon> Polygons;
 };
 
 /// threads is at least 1; the tree is the same for any number.
@@ -28,15 +29,15 @@ TETRALUXCORE_EXPORT ActiveTree MakeActiveTree(
   const MinMaxTree& tree, const MinMaxRanges& ranges, const IsopolygonSource& source, int threads);
 
 /// The scalars of points in each polygon's cell.
-TETRALUXCORE_EXPORT std::vector<CellField<1>> MakeScalarFields(
+TETRALUXCORE_EXPORT RawVector<CellField<1>> MakeScalarFields(
   const ActiveTree& tree, const IsopolygonSource& source, const double* scalars, int threads);
 
 /// The gradients of each polygon's cell, interpolated between those of its points.
-TETRALUXCORE_EXPORT std::vector<CellField<3>> MakeGradientFields(const ActiveTree& tree,
+TETRALUXCORE_EXPORT RawVector<CellField<3>> MakeGradientFields(const ActiveTree& tree,
   const IsopolygonSource& source, const GradientRow* gradients, int threads);
 
 /// MakeCellGradient of each polygon's cell.
-TETRALUXCORE_EXPORT std::vector<GradientRow> MakePolygonGradients(const ActiveTree& tree,
+TETRALUXCORE_EXPORT RawVector<GradientRow> MakePolygonGradients(const ActiveTree& tree,
   const TetrahedralMesh& mesh, Span<const double> scalars, double length, double scalar,
   int threads);
 

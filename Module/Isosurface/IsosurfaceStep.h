@@ -26,9 +26,9 @@ struct IsosurfaceStep
   Cached<ActiveTree> Active;
 
   // One for each isopolygon.
-  Cached<std::vector<CellField<3>>> Gradients; ///< between points
-  Cached<std::vector<GradientRow>> CellGradients;
-  Cached<std::vector<CellField<1>>> Colors;
+  Cached<RawVector<CellField<3>>> Gradients; ///< between points
+  Cached<RawVector<GradientRow>> CellGradients;
+  Cached<RawVector<CellField<1>>> Colors;
 
   /// Bytes without the tree.
   std::size_t GetBytes() const

@@ -30,7 +30,7 @@ namespace
 
 /// Polygons for a pixel up to which they are gathered for blocks. Measured on the blunt fin and on
 /// rings of up to 10 million cells.
-constexpr double LargestBlockShare = 0.25;
+constexpr double LargestBlockShare = 0.1;
 
 /// How far ambient light is blocked from, in radii of the mesh, unless that is chosen: a part of
 /// the mesh whose size shows in a picture.
@@ -292,7 +292,7 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   OwningInput in;
   in.Frame = MakeRayFrame(grid, mesh);
   in.Grid = &grid;
-  const LimitsOfMesh limitsOfMesh(limits, grid, in.Frame, mesh);
+  const LimitsOfMesh limitsOfMesh(limits, grid, in.Frame, mesh, step.Tree->Nodes);
   in.Limits = limitsOfMesh.Get();
   in.ShadowLimits = limitsOfMesh.GetForLight();
   in.MaximumDistances = limits.MaximumDistances;

@@ -7,8 +7,8 @@
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace tetralux
@@ -18,8 +18,8 @@ namespace tetralux
 class LimitsOfMesh
 {
 public:
-  LimitsOfMesh(
-    const RayLimits& limits, const RayGrid& grid, const RayFrame& frame, const MeshFrame& mesh)
+  LimitsOfMesh(const RayLimits& limits, const RayGrid& grid, const RayFrame& frame,
+    const MeshFrame& mesh, const std::vector<MinMaxTree::Node>& nodes)
   {
     const double* steps[3] = { frame.Parallel ? grid.OriginStepX : grid.DirectionStepX,
       frame.Parallel ? grid.OriginStepY : grid.DirectionStepY, grid.Direction };
@@ -37,8 +37,7 @@ public:
           result[a] += along * frame.Rows[r][a];
         }
       }
-      // Whether it cuts the mesh, which is within a sphere of radius 1.
-      if (!(result[3] > std::hypot(result[0], result[1], result[2])))
+      if (!KeepsAll(result, nodes))
       {
         this->Planes.push_back(result);
         this->NumberOfCameraPlanes += p < static_cast<std::size_t>(limits.NumberOfCameraPlanes);
@@ -74,6 +73,19 @@ public:
   }
 
 private:
+  /// Whether a half-space holds the whole mesh: the box of the first node.
+  static bool KeepsAll(
+    const std::array<double, 4>& plane, const std::vector<MinMaxTree::Node>& nodes)
+  {
+    double least = plane[3];
+    for (int a = 0; a < 3 && !nodes.empty(); ++a)
+    {
+      const MinMaxTree::Node& box = nodes.front();
+      least += std::min(plane[a] * box.Lower[a], plane[a] * box.Upper[a]);
+    }
+    return nodes.empty() || least > 0;
+  }
+
   std::vector<std::array<double, 4>> Planes;
   int NumberOfCameraPlanes = 0;
   TraceLimits Result;

@@ -164,7 +164,7 @@ TEST(ActiveTree, DoesNotDependOnThreads)
                 tree.Nodes.size() * sizeof(MinMaxTree::Node)),
       0);
     // Behind the last member there is padding.
-    constexpr std::size_t Bytes = offsetof(Isopolygon, Case) + sizeof(Isopolygon::Case);
+    constexpr std::size_t Bytes = offsetof(Isopolygon, Surface) + sizeof(Isopolygon::Surface);
     std::int64_t differing = 0;
     for (std::size_t i = 0; i < tree.Polygons.size(); ++i)
     {
@@ -207,7 +207,7 @@ TEST(ActiveTree, GradientsAreLinearInCells)
     rows.push_back({ x[0], x[1], x[2], 0 });
   }
   const ActiveTree tree = surfaces.Make();
-  const std::vector<CellField<3>> fields = MakeGradientFields(tree, source, rows.data(), 2);
+  const RawVector<CellField<3>> fields = MakeGradientFields(tree, source, rows.data(), 2);
   ASSERT_EQ(fields.size(), tree.Polygons.size());
   // Rows are rounded to single precision, and cells are not thinner than a hundredth.
   constexpr double RowRounding = 100. / (1 << 23);

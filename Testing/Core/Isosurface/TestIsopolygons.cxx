@@ -88,7 +88,6 @@ TEST(Isopolygons, LieOnTheSurface)
   const IsopolygonSource& source = surfaces.Source;
   // Coordinates and scalars are about 1; scalars of edges differ by a thousandth at least.
   constexpr double Rounding = 1e-12;
-  constexpr double ShareRounding = 1. / (1 << 23);
   for (const Isopolygon& polygon : surfaces.Make().Polygons)
   {
     const std::int32_t* ids = source.Cells + 4 * polygon.Cell;
@@ -98,7 +97,6 @@ TEST(Isopolygons, LieOnTheSurface)
     {
       mask |= source.Scalars[ids[i]] >= value ? 1 << i : 0;
     }
-    EXPECT_EQ(polygon.Case, mask);
     for (int corner = 0; corner < 4; ++corner)
     {
       const double x[3] = { polygon.X[corner], polygon.Y[corner], polygon.Z[corner] };
@@ -122,7 +120,7 @@ TEST(Isopolygons, LieOnTheSurface)
               (source.Points[3 * ids[j] + a] - source.Frame.Center[a]) / source.Frame.Radius;
             away = std::max(away, std::abs(p + share * (q - p) - x[a]));
           }
-          edges += away < Rounding && std::abs(polygon.Shares[corner] - share) < ShareRounding;
+          edges += away < Rounding;
         }
       }
       EXPECT_GE(edges, 1);
@@ -246,7 +244,6 @@ TEST(Isopolygons, OfHugeAndTinyScalarsAreFinite)
     {
       const Isopolygon& polygon = tree.Polygons[0];
       EXPECT_TRUE(std::isfinite(polygon.X[i] + polygon.Y[i] + polygon.Z[i]));
-      EXPECT_TRUE(0 <= polygon.Shares[i] && polygon.Shares[i] <= 1);
     }
   }
 }

@@ -32,6 +32,16 @@ RayScene MakeScene(double time, bool shaded)
   return scene;
 }
 
+/// The same with other scalars: those of the ball swing with its points.
+RayScene WithOtherScalars(RayScene scene)
+{
+  for (double& scalar : scene.Scalars)
+  {
+    scalar = 0.9 * scalar + 0.05;
+  }
+  return scene;
+}
+
 /// A tracer and a volume that are kept, while mesh and scalars of a scene change.
 class KeptTracer
 {
@@ -91,11 +101,7 @@ TEST(IsosurfaceTime, RebuildsPrecomputedPolygons)
   const RayScene second = MakeScene(0.35, false);
   ASSERT_EQ(first.Mesh.Cells, second.Mesh.Cells);
   ASSERT_NE(first.Mesh.Points, second.Mesh.Points);
-  RayScene other = first;
-  for (double& scalar : other.Scalars)
-  {
-    scalar = 0.9 * scalar + 0.05;
-  }
+  const RayScene other = WithOtherScalars(first);
   KeptTracer tracer(first, Isopolygons::Precomputed);
   tracer.Expect({ "tree", "ranges", "isopolygons" });
   tracer.Expect({});
@@ -124,11 +130,7 @@ TEST(IsosurfaceTime, RebuildsGradients)
 {
   const RayScene first = MakeScene(0.1, true);
   const RayScene second = MakeScene(0.35, true);
-  RayScene other = first;
-  for (double& scalar : other.Scalars)
-  {
-    scalar = 0.9 * scalar + 0.05;
-  }
+  const RayScene other = WithOtherScalars(first);
   KeptTracer tracer(first, Isopolygons::Precomputed);
   tracer.Expect({ "tree", "ranges", "isopolygons", "gradients" });
   tracer.Expect({});
@@ -143,7 +145,7 @@ TEST(IsosurfaceTime, RebuildsGradients)
 TEST(IsosurfaceTime, KeepsSteps)
 {
   const RayScene first = MakeScene(0.1, true);
-  const RayScene second = MakeScene(0.35, true);
+  const RayScene second = WithOtherScalars(MakeScene(0.35, true));
   KeptTracer tracer(first, Isopolygons::Precomputed);
   tracer.Options.StepCacheBytes = std::size_t{ 64 } << 20;
   tracer.Expect({ "tree", "ranges", "isopolygons", "gradients" });
@@ -180,7 +182,7 @@ TEST(IsosurfaceTime, KeepsNoPolygonsOnTheFly)
   tracer.Scene.Isosurfaces[0].Value = 0.4;
   tracer.Volume.Optics.SetIsosurfaces(tracer.Scene.Isosurfaces);
   tracer.Expect({});
-  tracer.SetScalars(second);
+  tracer.SetScalars(WithOtherScalars(second));
   tracer.Expect({ "ranges" });
 }
 
@@ -206,7 +208,7 @@ TEST(IsosurfaceTime, GoesBetweenBothKindsOfPolygons)
   tracer.Expect({ "tree", "ranges", "isopolygons", "gradients" });
   tracer.Options.Polygons = Isopolygons::OnTheFly;
   tracer.Expect({});
-  tracer.SetScalars(MakeScene(0.35, true));
+  tracer.SetScalars(WithOtherScalars(MakeScene(0.35, true)));
   tracer.Expect({ "ranges" });
   tracer.Options.Polygons = Isopolygons::Precomputed;
   tracer.Expect({ "isopolygons", "gradients" });
