@@ -214,8 +214,9 @@ private:
         for (int x = x0; x <= x1; ++x)
         {
           const int packet = y * PacketsAcross + x;
-          if (!AddCrossings(this->In, rays[packet], MaskFromBits(0xff), entry,
-                this->Buffers[packet], this->Crossings[packet]))
+          if (!AddCrossings(this->In, rays[packet], MaskFromBits(0xff),
+                GetBeginOfEdges(rays[packet]), entry, this->Buffers[packet],
+                this->Crossings[packet]))
           {
             return false;
           }
