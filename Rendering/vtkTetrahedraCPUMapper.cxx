@@ -82,13 +82,23 @@ void vtkTetrahedraCPUMapper::Internals::DrawFrame(MapperFrame& frame)
   if (covered.Width > 0)
   {
     const tetralux::Stopwatch stopwatch;
-    if (!frame.WindowDepths.empty())
+    const tetralux::PixelRectangle& visible = rays.GetVisible();
+    const float* colors = picture.Colors.data();
+    const float* depths = frame.WindowDepths.data();
+    const bool sameSize = width == visible.Width && height == visible.Height;
+    if (!frame.WindowDepths.empty() && frame.IsOpaque && sameSize)
     {
-      this->Compositor.WriteDepth(
-        frame.Window, rays.GetVisible(), frame.WindowDepths.data(), width, height, covered);
+      this->Compositor.CompositeOpaque(
+        frame.Window, visible, colors, depths, width, height, covered);
     }
-    this->Compositor.Composite(
-      frame.Window, rays.GetVisible(), picture.Colors.data(), width, height, covered);
+    else
+    {
+      if (!frame.WindowDepths.empty())
+      {
+        this->Compositor.WriteDepth(frame.Window, visible, depths, width, height, covered);
+      }
+      this->Compositor.Composite(frame.Window, visible, colors, width, height, covered);
+    }
     frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
   }
 }

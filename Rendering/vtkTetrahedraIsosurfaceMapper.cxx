@@ -81,6 +81,16 @@ bool HasOpaqueSurfaces(const tetralux::VolumeScene& scene)
       [](const tetralux::Isosurface& surface) { return surface.Opacity >= 1; });
 }
 
+/// Whether all that is seen is opaque.
+bool HasOnlyOpaqueSurfaces(const tetralux::VolumeScene& scene)
+{
+  const std::vector<tetralux::Isosurface>& surfaces = scene.Optics.GetIsosurfaces();
+  return scene.Mesh.GetColorScalars().empty() &&
+    std::all_of(surfaces.begin(), surfaces.end(),
+      [](const tetralux::Isosurface& surface)
+      { return surface.Opacity >= 1 || surface.Opacity <= 0; });
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -158,6 +168,7 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     options.Depth = picture.Depth;
     options.WindowDepths = this->Private->WindowDepths;
     frame.WindowDepths = this->Private->WindowDepths;
+    frame.IsOpaque = HasOnlyOpaqueSurfaces(*frame.Scene);
   }
   const tetralux::IsosurfaceStatistics statistics = this->Private->Tracer.Trace(
     *frame.Scene, picture.Grid, picture.Limits, options, picture.Colors, picture.Depths);

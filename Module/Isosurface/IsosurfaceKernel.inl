@@ -289,8 +289,8 @@ bool DrawLayers(
     for (int l = 0; l < in.NumberOfShadows; ++l)
     {
       const ShadowSource& source = in.Shadows[l];
-      FindShadows(in, source, chunks, scratch, counts,
-        scratch.Visible + source.Light * RayPacket::MaximumRays);
+      FindShadows(
+        in, source, scratch, counts, scratch.Visible + source.Light * RayPacket::MaximumRays);
     }
     if (in.Occlusion)
     {

@@ -43,93 +43,100 @@ TETRALUX_INLINE void ClearShadowRay(RayPacket& packet, int ray)
   packet.U[ray] = packet.V[ray] = 0;
 }
 
-/// Whether a light shines on a hit from the viewer's side: else its shadow changes nothing.
-TETRALUX_INLINE bool FacesLight(
-  const IsosurfaceInput& in, const IsosurfaceScratch& scratch, int ray, const double (&toLight)[3])
-{
-  const RayFrame& frame = in.Frame;
-  double towards = 0;
-  double view = 0;
-  bool any = false;
-  for (int a = 0; a < 3; ++a)
-  {
-    const double g = scratch.Gradients[a][ray];
-    any |= g != 0;
-    towards += g * toLight[a];
-    view += g *
-      (frame.Axes[2][a] +
-        (frame.Parallel
-            ? 0
-            : scratch.Rays.U[ray] * frame.Axes[0][a] + scratch.Rays.V[ray] * frame.Axes[1][a]));
-  }
-  return !any || (view > 0 ? towards < 0 : towards > 0);
-}
+/// No frame: the ray takes no part.
+constexpr std::int64_t NoSide = -1;
 
-/// Takes from visible, 1 a ray at first, what does not come through from one source. chunks: those
-/// with hits, one bit each.
-TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource& source,
-  std::uint32_t chunks, IsosurfaceScratch& scratch, IsosurfaceCounts& counts, float* visible)
+/// Which frame of a source each hit's shadow ray belongs to. None where the light does not shine on
+/// the viewer's side of the surface: its shadow changes nothing there. Returns a bit for each frame
+/// that has rays.
+TETRALUX_INLINE unsigned FindSides(const IsosurfaceInput& in, const ShadowSource& source,
+  const IsosurfaceScratch& scratch, std::int64_t (&sides)[RayPacket::MaximumRays])
 {
   const RayPacket& rays = scratch.Rays;
-  RayPacket& packet = scratch.ShadowRays;
-  std::int8_t side[RayPacket::MaximumRays]; // which frame a ray belongs to, or -1
-  unsigned sides = 0;
+  const RayFrame& frame = in.Frame;
+  const double positional = source.Positional ? 1 : 0;
+  const double perspective = frame.Parallel ? 0 : 1;
+#pragma omp simd
   for (int i = 0; i < RayPacket::MaximumRays; ++i)
   {
-    visible[i] = source.First ? 1.f : visible[i];
-    side[i] = -1;
-    if ((chunks >> (i / LaneCount) & 1) == 0 || rays.Hit[i] < 0)
-    {
-      continue;
-    }
-    double way[3];
+    const double u = perspective * rays.U[i];
+    const double v = perspective * rays.V[i];
+    double way[3], size[3];
+    double towards = 0, view = 0, steepness = 0;
     for (int a = 0; a < 3; ++a)
     {
-      way[a] = source.Place[a] - (source.Positional ? scratch.Points[a][i] : 0);
+      way[a] = source.Place[a] - positional * scratch.Points[a][i];
+      size[a] = way[a] < 0 ? -way[a] : way[a];
+      const double g = scratch.Gradients[a][i];
+      towards += g * way[a];
+      view += g * (frame.Axes[2][a] + u * frame.Axes[0][a] + v * frame.Axes[1][a]);
+      steepness += g < 0 ? -g : g;
     }
-    if (!FacesLight(in, scratch, i, way))
-    {
-      continue;
-    }
-    int axis = 0;
-    if (source.Positional)
-    {
-      const double ax = way[0] < 0 ? -way[0] : way[0];
-      const double ay = way[1] < 0 ? -way[1] : way[1];
-      const double az = way[2] < 0 ? -way[2] : way[2];
-      axis = ax >= ay && ax >= az ? 0 : ay >= az ? 1 : 2;
-      if (!(way[axis] < 0) && !(way[axis] > 0))
-      {
-        continue; // at the light
-      }
-      axis = 2 * axis + (way[axis] < 0); // rays run away from the light
-    }
-    side[i] = static_cast<std::int8_t>(axis);
-    sides |= 1u << axis;
+    // What has no gradient faces the viewer.
+    const bool faces = !(steepness > 0) | (view > 0 ? towards < 0 : towards > 0);
+    const bool xIsLargest = (size[0] >= size[1]) & (size[0] >= size[2]);
+    const bool yIsLargest = size[1] >= size[2];
+    const double largest = xIsLargest ? way[0] : yIsLargest ? way[1] : way[2];
+    // Rays run away from the light.
+    const std::int64_t axis = xIsLargest ? 0 : yIsLargest ? 2 : 4;
+    const std::int64_t side = axis + (largest < 0 ? 1 : 0);
+    const bool takesPart = (rays.Hit[i] >= 0) & faces & (largest != 0);
+    sides[i] = takesPart ? (source.Positional ? side : 0) : NoSide;
   }
-  for (int s = 0; s < 6; ++s)
+  unsigned found = 0;
+  for (const std::int64_t side : sides)
   {
-    if ((sides >> s & 1) == 0)
+    found |= side >= 0 ? 1u << side : 0u;
+  }
+  return found;
+}
+
+/// Fills the shadow rays of one frame.
+TETRALUX_INLINE void FillShadowRays(const RayFrame& frame, std::int64_t side,
+  const std::int64_t (&sides)[RayPacket::MaximumRays], IsosurfaceScratch& scratch)
+{
+  RayPacket& packet = scratch.ShadowRays;
+  const bool parallel = frame.Parallel;
+  const double(&m)[3][4] = frame.Rows;
+#pragma omp simd
+  for (int i = 0; i < RayPacket::MaximumRays; ++i)
+  {
+    const double x = scratch.Points[0][i], y = scratch.Points[1][i], z = scratch.Points[2][i];
+    const double u = m[0][0] * x + m[0][1] * y + m[0][2] * z + m[0][3];
+    const double v = m[1][0] * x + m[1][1] * y + m[1][2] * z + m[1][3];
+    const double depth = m[2][0] * x + m[2][1] * y + m[2][2] * z + m[2][3];
+    const double nearer = depth - ShadowOffset;
+    const double divisor = parallel ? 1 : depth;
+    const double far = parallel ? -nearer : nearer > 0 ? 1 / nearer : InfiniteKey;
+    const bool takesPart = sides[i] == side;
+    packet.U[i] = takesPart ? u / divisor : 0;
+    packet.V[i] = takesPart ? v / divisor : 0;
+    packet.Far[i] = takesPart ? far : InfiniteKey;
+    packet.Near[i] = InfiniteKey;
+    packet.Hit[i] = -1;
+  }
+}
+
+/// Takes from visible, 1 a ray at first, what does not come through from one source.
+TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource& source,
+  IsosurfaceScratch& scratch, IsosurfaceCounts& counts, float* visible)
+{
+  std::int64_t sides[RayPacket::MaximumRays];
+  const unsigned found = FindSides(in, source, scratch, sides);
+  for (int i = 0; source.First && i < RayPacket::MaximumRays; ++i)
+  {
+    visible[i] = 1.f;
+  }
+  for (int side = 0; side < 6; ++side)
+  {
+    if ((found >> side & 1) == 0)
     {
       continue;
     }
-    const RayFrame& frame = source.Frames[s];
-    for (int i = 0; i < RayPacket::MaximumRays; ++i)
-    {
-      ClearShadowRay(packet, i);
-      if (side[i] != s)
-      {
-        continue;
-      }
-      const double point[3] = { scratch.Points[0][i], scratch.Points[1][i], scratch.Points[2][i] };
-      double placed[3];
-      Transform(frame, point, placed);
-      const double nearer = placed[2] - ShadowOffset;
-      packet.U[i] = frame.Parallel ? placed[0] : placed[0] / placed[2];
-      packet.V[i] = frame.Parallel ? placed[1] : placed[1] / placed[2];
-      packet.Far[i] = frame.Parallel ? -nearer : nearer > 0 ? 1 / nearer : InfiniteKey;
-    }
+    const RayFrame& frame = source.Frames[side];
+    FillShadowRays(frame, side, sides, scratch);
     TraceShadows(in, frame, scratch, counts);
+    const RayPacket& packet = scratch.ShadowRays;
     for (int i = 0; i < RayPacket::MaximumRays; ++i)
     {
       const float left = visible[i] - source.Share;

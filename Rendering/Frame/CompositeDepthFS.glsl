@@ -4,12 +4,12 @@
 
 //VTK::Output::Dec
 
-uniform sampler2D image;
+uniform sampler2D depths;
 in vec2 texCoord;
 
 void main()
 {
-  float depth = texture(image, texCoord).r;
+  float depth = texture(depths, texCoord).r;
   if (depth >= 1.0)
   {
     discard;

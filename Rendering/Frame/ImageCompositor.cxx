@@ -3,6 +3,7 @@
 
 #include "CompositeDepthFS.h"
 #include "CompositeImageFS.h"
+#include "CompositeOpaqueFS.h"
 
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -14,6 +15,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tetralux
 {
@@ -37,7 +39,27 @@ void ImageCompositor::WriteDepth(vtkOpenGLRenderWindow* window, const PixelRecta
   this->SetWindow(window);
   const PixelRectangle target =
     this->Upload(rectangle, depths, 1, width, height, covered, this->DepthTexture);
-  vtkOpenGLState* state = window->GetState();
+  this->DrawDepth(target, this->DepthQuad, CompositeDepthFS, nullptr);
+}
+
+void ImageCompositor::CompositeOpaque(vtkOpenGLRenderWindow* window,
+  const PixelRectangle& rectangle, const float* colors, const float* depths, int width, int height,
+  const PixelRectangle& covered)
+{
+  this->SetWindow(window);
+  this->Upload(rectangle, depths, 1, width, height, covered, this->DepthTexture);
+  const PixelRectangle target =
+    this->Upload(rectangle, colors, 4, width, height, covered, this->Texture);
+  this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  this->DrawDepth(target, this->OpaqueQuad, CompositeOpaqueFS, this->Texture);
+}
+
+/// Draws the depth texture over what the buffers hold, with colours if there are any.
+void ImageCompositor::DrawDepth(const PixelRectangle& target,
+  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader, vtkTextureObject* colors)
+{
+  vtkOpenGLState* state = this->Window->GetState();
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   const vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
@@ -54,11 +76,12 @@ void ImageCompositor::WriteDepth(vtkOpenGLRenderWindow* window, const PixelRecta
   state->vtkglDepthMask(GL_TRUE);
   // The picture has ended at what the buffer holds.
   state->vtkglDepthFunc(GL_ALWAYS);
-  state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  const GLboolean mask = colors ? GL_TRUE : GL_FALSE;
+  state->vtkglColorMask(mask, mask, mask, mask);
   state->vtkglViewport(target.X, target.Y, target.Width, target.Height);
   this->DepthTexture->SetMinificationFilter(vtkTextureObject::Nearest);
   this->DepthTexture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  this->Draw(this->DepthQuad, CompositeDepthFS, this->DepthTexture);
+  this->Draw(quad, shader, colors, this->DepthTexture);
 }
 
 /// Makes the texture of what is covered of a picture. Returns where it belongs in the window.
@@ -96,6 +119,7 @@ void ImageCompositor::SetWindow(vtkOpenGLRenderWindow* window)
     // Also where the last window is no more.
     this->Quad.reset();
     this->DepthQuad.reset();
+    this->OpaqueQuad.reset();
     this->Window = window;
   }
 }
@@ -127,12 +151,12 @@ void ImageCompositor::Composite(
   picture->SetMinificationFilter(filter);
   picture->SetMagnificationFilter(filter);
 
-  this->Draw(this->Quad, CompositeImageFS, picture);
+  this->Draw(this->Quad, CompositeImageFS, picture, nullptr);
 }
 
-/// Draws a texture by a shader, whose program quad keeps.
-void ImageCompositor::Draw(
-  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader, vtkTextureObject* picture)
+/// Draws a picture, depths or both by a shader, whose program quad keeps.
+void ImageCompositor::Draw(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader,
+  vtkTextureObject* picture, vtkTextureObject* depths)
 {
   vtkOpenGLRenderWindow* window = this->Window;
   if (!quad)
@@ -144,10 +168,24 @@ void ImageCompositor::Draw(
     quad.reset();
     throw std::runtime_error("the shader program that composites the picture did not compile");
   }
-  picture->Activate();
-  quad->Program->SetUniformi("image", picture->GetTextureUnit());
+  const std::pair<const char*, vtkTextureObject*> textures[] = { { "image", picture },
+    { "depths", depths } };
+  for (const auto& [name, texture] : textures)
+  {
+    if (texture)
+    {
+      texture->Activate();
+      quad->Program->SetUniformi(name, texture->GetTextureUnit());
+    }
+  }
   quad->Render();
-  picture->Deactivate();
+  for (const auto& [name, texture] : textures)
+  {
+    if (texture)
+    {
+      texture->Deactivate();
+    }
+  }
 }
 
 void ImageCompositor::ReleaseGraphicsResources(vtkWindow* window)
@@ -160,6 +198,7 @@ void ImageCompositor::ReleaseGraphicsResources(vtkWindow* window)
   this->DepthTexture->ReleaseGraphicsResources(window);
   this->Quad.reset();
   this->DepthQuad.reset();
+  this->OpaqueQuad.reset();
   this->Window = nullptr;
 }
 

@@ -46,6 +46,11 @@ public:
   void WriteDepth(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
     const float* depths, int width, int height, const PixelRectangle& covered);
 
+  /// Both at once, of a picture that is opaque wherever its depth is below 1, and empty elsewhere;
+  /// of the size of the rectangle.
+  void CompositeOpaque(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
+    const float* colors, const float* depths, int width, int height, const PixelRectangle& covered);
+
   /// window: the one that goes away.
   void ReleaseGraphicsResources(vtkWindow* window);
 
@@ -53,14 +58,17 @@ private:
   void SetWindow(vtkOpenGLRenderWindow* window);
   PixelRectangle Upload(const PixelRectangle& rectangle, const float* values, int components,
     int width, int height, const PixelRectangle& covered, vtkTextureObject* texture);
-  void Draw(
-    std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader, vtkTextureObject* picture);
+  void DrawDepth(const PixelRectangle& target, std::unique_ptr<vtkOpenGLQuadHelper>& quad,
+    const char* shader, vtkTextureObject* colors);
+  void Draw(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader,
+    vtkTextureObject* picture, vtkTextureObject* depths);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkNew<vtkTextureObject> Texture;
   vtkNew<vtkTextureObject> DepthTexture;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   std::unique_ptr<vtkOpenGLQuadHelper> DepthQuad;
+  std::unique_ptr<vtkOpenGLQuadHelper> OpaqueQuad;
 };
 
 } // namespace tetralux

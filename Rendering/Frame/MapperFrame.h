@@ -80,6 +80,7 @@ struct MapperFrame
   /// What the depth buffer is to hold of what is opaque, one a ray, 1 where nothing is; empty: it
   /// stays as it is. Of memory that the mapper keeps.
   Span<const float> WindowDepths;
+  bool IsOpaque = false; ///< whatever is in the picture, with WindowDepths
 
   /// Fills Image, if the picture is not read from the graphics card in each frame: called when
   /// somebody asks for the picture.
