@@ -56,18 +56,20 @@ void vtkTetrahedraCPUMapper::Internals::DrawFrame(MapperFrame& frame)
   picture.Grid = frame.MakeGrid(rays);
   picture.Limits = frame.MakeLimits(rays);
   picture.Depth = rays.GetDepthMap();
-  std::vector<float> opaqueDistances;
   if (frame.HasOpaqueGeometry())
   {
     const tetralux::Stopwatch stopwatch;
-    opaqueDistances = tetralux::ReadOpaqueDistances(frame.Renderer, rays);
+    picture.OpaqueDistances = std::make_shared<const std::vector<float>>(
+      tetralux::ReadOpaqueDistances(frame.Renderer, rays));
     frame.Seconds.emplace_back("depth_buffer", stopwatch.GetSeconds());
   }
-  frame.Opaque = !opaqueDistances.empty();
-  picture.Limits.MaximumDistances = opaqueDistances.empty() ? nullptr : opaqueDistances.data();
+  frame.Opaque = picture.OpaqueDistances && !picture.OpaqueDistances->empty();
+  picture.Limits.MaximumDistances = frame.Opaque ? picture.OpaqueDistances->data() : nullptr;
 
+  const tetralux::PixelRectangle& visible = rays.GetVisible();
   const int width = picture.Grid.Width;
   const int height = picture.Grid.Height;
+  picture.IsWindowSized = width == visible.Width && height == visible.Height;
   const tetralux::Stopwatch castStopwatch;
   MapperFrame::PrepareImage(frame.Image, width, height, picture.Colors, picture.Depths);
   const tetralux::PixelRectangle covered = this->Self->MakePicture(frame, picture);
@@ -82,14 +84,11 @@ void vtkTetrahedraCPUMapper::Internals::DrawFrame(MapperFrame& frame)
   if (covered.Width > 0)
   {
     const tetralux::Stopwatch stopwatch;
-    const tetralux::PixelRectangle& visible = rays.GetVisible();
-    const float* colors = picture.Colors.data();
     const float* depths = frame.WindowDepths.data();
-    const bool sameSize = width == visible.Width && height == visible.Height;
-    if (!frame.WindowDepths.empty() && frame.IsOpaque && sameSize)
+    if (!frame.WindowColors.empty())
     {
       this->Compositor.CompositeOpaque(
-        frame.Window, visible, colors, depths, width, height, covered);
+        frame.Window, visible, frame.WindowColors.data(), depths, width, height, covered);
     }
     else
     {
@@ -97,7 +96,8 @@ void vtkTetrahedraCPUMapper::Internals::DrawFrame(MapperFrame& frame)
       {
         this->Compositor.WriteDepth(frame.Window, visible, depths, width, height, covered);
       }
-      this->Compositor.Composite(frame.Window, visible, colors, width, height, covered);
+      this->Compositor.Composite(
+        frame.Window, visible, picture.Colors.data(), width, height, covered);
     }
     frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
   }

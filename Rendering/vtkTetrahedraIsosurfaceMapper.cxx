@@ -8,10 +8,12 @@
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
 
+#include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 using tetralux::Json;
@@ -99,6 +101,7 @@ class vtkTetrahedraIsosurfaceMapper::Internals
 public:
   tetralux::IsosurfaceTracer Tracer;
   std::vector<float> WindowDepths;
+  std::vector<std::uint8_t> WindowColors;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -168,12 +171,35 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     options.Depth = picture.Depth;
     options.WindowDepths = this->Private->WindowDepths;
     frame.WindowDepths = this->Private->WindowDepths;
-    frame.IsOpaque = HasOnlyOpaqueSurfaces(*frame.Scene);
+  }
+  const bool sampled = options.AmbientOcclusion || options.ShadowSoftness > 0;
+  if (!frame.WindowDepths.empty() && picture.IsWindowSized && !sampled &&
+    HasOnlyOpaqueSurfaces(*frame.Scene))
+  {
+    this->Private->WindowColors.resize(4 * picture.Depths.size());
+    options.WindowColors = this->Private->WindowColors;
+    frame.WindowColors = this->Private->WindowColors;
+    // In single precision only for who asks for it.
+    frame.ReadPicture = [this, scene = frame.Scene, picture, options](vtkImageData* image)
+    {
+      tetralux::IsosurfaceOptions inMemory = options;
+      inMemory.Progress = nullptr;
+      inMemory.WindowColors = {};
+      inMemory.WindowDepths = {};
+      tetralux::Span<float> colors, depths;
+      MapperFrame::PrepareImage(image, picture.Grid.Width, picture.Grid.Height, colors, depths);
+      this->Private->Tracer.Trace(*scene, picture.Grid, picture.Limits, inMemory, colors, depths);
+    };
   }
   const tetralux::IsosurfaceStatistics statistics = this->Private->Tracer.Trace(
     *frame.Scene, picture.Grid, picture.Limits, options, picture.Colors, picture.Depths);
   frame.Integration = tetralux::Integrator::Isosurfaces;
   frame.Aborted = statistics.Aborted;
+  if (frame.Aborted && frame.ReadPicture)
+  {
+    frame.ReadPicture = nullptr;
+    frame.Image->Initialize();
+  }
   Describe(statistics, picture, frame);
   frame.ReportOmission(!options.AmbientOcclusion, "ambient occlusion", "it is off");
   frame.ReportOmission(!options.Shadows, "shadows", "they are off");

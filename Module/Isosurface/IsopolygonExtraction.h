@@ -14,7 +14,7 @@ namespace tetralux
 struct IsopolygonCase
 {
   int Count; ///< 0, 3 or 4; of 3 the last edge is there twice
-  std::int8_t Edges[4][2];
+  std::uint8_t Edges[4][2];
 };
 
 /// For each set of corners whose scalars are at least the value: bit i for corner i. The first

@@ -70,9 +70,10 @@ struct IsosurfaceInput
   int MaximumLayers;        ///< surfaces that a ray meets at most
   float MaximumOpacity;     ///< a ray ends where it is this opaque
 
-  float* Colors;       ///< four a pixel, premultiplied
-  float* Depths;       ///< one a pixel
-  float* WindowDepths; ///< one a pixel; nullptr: not wanted
+  float* Colors;              ///< four a pixel, premultiplied
+  float* Depths;              ///< one a pixel
+  float* WindowDepths;        ///< one a pixel; nullptr: not wanted
+  std::uint8_t* WindowColors; ///< four a pixel, in place of Colors and Depths; nullptr: not wanted
 
   /// What a depth buffer holds of a point of a ray, and what that is divided by: factors of u, v,
   /// the key and 1.

@@ -55,6 +55,9 @@ struct IsosurfaceOptions
   /// To be filled, one a ray, unless empty: what the depth buffer is to hold of the nearest opaque
   /// surface, 1 where there is none.
   Span<float> WindowDepths;
+  /// To be filled, four a ray, unless empty: colours and opacities as the frame buffer of a window
+  /// holds them, 0..255, in place of those in single precision and of distances. With WindowDepths.
+  Span<std::uint8_t> WindowColors;
 
   int MaximumLayers = 0; ///< surfaces that a ray meets at most; 0: as many as MaximumError asks for
 

@@ -272,7 +272,9 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   const RayLimits& limits, const IsosurfaceOptions& options, Span<float> colors, Span<float> depths)
 {
   const std::size_t pixels = static_cast<std::size_t>(grid.Width) * grid.Height;
-  if (colors.size() != 4 * pixels || depths.size() != pixels)
+  const bool forWindow = !options.WindowColors.empty();
+  if (forWindow ? options.WindowColors.size() != 4 * pixels || options.WindowDepths.size() != pixels
+                : colors.size() != 4 * pixels || depths.size() != pixels)
   {
     throw std::invalid_argument("the image arrays do not have the size of the ray grid");
   }
@@ -314,6 +316,7 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
       LargestBlockShare * static_cast<double>(pixels));
   in.Colors = colors.data();
   in.Depths = depths.data();
+  in.WindowColors = forWindow ? options.WindowColors.data() : nullptr;
   if (!options.WindowDepths.empty())
   {
     in.WindowDepths = options.WindowDepths.data();

@@ -8,18 +8,23 @@
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
+#include <memory>
+#include <vector>
+
 namespace tetralux
 {
 
-/// A picture that a processor has to make.
+/// A picture that a processor has to make. A copy of it can be kept, and be made later.
 struct CPUPicture
 {
   RayGrid Grid;
-  RayLimits Limits;          ///< opaque geometry included
-  double SampleDistance = 1; ///< pixels from ray to ray
-  Span<float> Colors;        ///< to be filled: four a ray, premultiplied
-  DepthMap Depth;            ///< of the window
-  Span<float> Depths;        ///< to be filled: distance along the ray, -1 where there is nothing
+  bool IsWindowSized = false;                                ///< a ray is a pixel
+  std::shared_ptr<const std::vector<float>> OpaqueDistances; ///< what Limits point to
+  RayLimits Limits;                                          ///< opaque geometry included
+  double SampleDistance = 1;                                 ///< pixels from ray to ray
+  Span<float> Colors; ///< to be filled: four a ray, premultiplied
+  DepthMap Depth;     ///< of the window
+  Span<float> Depths; ///< to be filled: distance along the ray, -1 where there is nothing
 };
 
 } // namespace tetralux

@@ -29,7 +29,7 @@ void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectan
 {
   this->SetWindow(window);
   const PixelRectangle target =
-    this->Upload(rectangle, colors, 4, width, height, covered, this->Texture);
+    this->Upload(rectangle, { colors, VTK_FLOAT, 4, width, height }, covered, this->Texture);
   this->Composite(window, target, this->Texture);
 }
 
@@ -38,18 +38,18 @@ void ImageCompositor::WriteDepth(vtkOpenGLRenderWindow* window, const PixelRecta
 {
   this->SetWindow(window);
   const PixelRectangle target =
-    this->Upload(rectangle, depths, 1, width, height, covered, this->DepthTexture);
+    this->Upload(rectangle, { depths, VTK_FLOAT, 1, width, height }, covered, this->DepthTexture);
   this->DrawDepth(target, this->DepthQuad, CompositeDepthFS, nullptr);
 }
 
 void ImageCompositor::CompositeOpaque(vtkOpenGLRenderWindow* window,
-  const PixelRectangle& rectangle, const float* colors, const float* depths, int width, int height,
-  const PixelRectangle& covered)
+  const PixelRectangle& rectangle, const std::uint8_t* colors, const float* depths, int width,
+  int height, const PixelRectangle& covered)
 {
   this->SetWindow(window);
-  this->Upload(rectangle, depths, 1, width, height, covered, this->DepthTexture);
-  const PixelRectangle target =
-    this->Upload(rectangle, colors, 4, width, height, covered, this->Texture);
+  this->Upload(rectangle, { depths, VTK_FLOAT, 1, width, height }, covered, this->DepthTexture);
+  const PixelRectangle target = this->Upload(
+    rectangle, { colors, VTK_UNSIGNED_CHAR, 4, width, height }, covered, this->Texture);
   this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   this->DrawDepth(target, this->OpaqueQuad, CompositeOpaqueFS, this->Texture);
@@ -85,25 +85,28 @@ void ImageCompositor::DrawDepth(const PixelRectangle& target,
 }
 
 /// Makes the texture of what is covered of a picture. Returns where it belongs in the window.
-PixelRectangle ImageCompositor::Upload(const PixelRectangle& rectangle, const float* values,
-  int components, int width, int height, const PixelRectangle& covered, vtkTextureObject* texture)
+PixelRectangle ImageCompositor::Upload(const PixelRectangle& rectangle, const Memory& memory,
+  const PixelRectangle& covered, vtkTextureObject* texture)
 {
   // Where a ray is a pixel, what is empty needs neither upload nor drawing.
-  const bool sameSize = width == rectangle.Width && height == rectangle.Height;
-  const PixelRectangle part = sameSize ? covered : PixelRectangle{ 0, 0, width, height };
+  const bool sameSize = memory.Width == rectangle.Width && memory.Height == rectangle.Height;
+  const PixelRectangle part =
+    sameSize ? covered : PixelRectangle{ 0, 0, memory.Width, memory.Height };
   const vtkOpenGLState::ScopedglActiveTexture unit(this->Window->GetState());
   texture->SetContext(this->Window);
   texture->SetWrapS(vtkTextureObject::ClampToEdge);
   texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  const float* first = values + components * (static_cast<std::size_t>(part.Y) * width + part.X);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, width);
+  const std::size_t bytes = memory.Components * (memory.Type == VTK_FLOAT ? sizeof(float) : 1);
+  const auto* first = static_cast<const char*>(memory.Values) +
+    bytes * (static_cast<std::size_t>(part.Y) * memory.Width + part.X);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, memory.Width);
   const bool made = texture->Create2DFromRaw(
-    part.Width, part.Height, components, VTK_FLOAT, const_cast<float*>(first)); // only read
+    part.Width, part.Height, memory.Components, memory.Type, const_cast<char*>(first)); // only read
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   if (!made)
   {
     throw std::runtime_error("no texture of " + std::to_string(part.Width) + " x " +
-      std::to_string(part.Height) + " floating point pixels could be made");
+      std::to_string(part.Height) + " pixels could be made");
   }
   texture->Deactivate();
   return sameSize

@@ -8,6 +8,7 @@
 #include "vtkNew.h"
 #include "vtkWeakPointer.h"
 
+#include <cstdint>
 #include <memory>
 
 class vtkOpenGLQuadHelper;
@@ -47,17 +48,28 @@ public:
     const float* depths, int width, int height, const PixelRectangle& covered);
 
   /// Both at once, of a picture that is opaque wherever its depth is below 1, and empty elsewhere;
-  /// of the size of the rectangle.
+  /// of the size of the rectangle. colors: 0..255.
   void CompositeOpaque(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
-    const float* colors, const float* depths, int width, int height, const PixelRectangle& covered);
+    const std::uint8_t* colors, const float* depths, int width, int height,
+    const PixelRectangle& covered);
 
   /// window: the one that goes away.
   void ReleaseGraphicsResources(vtkWindow* window);
 
 private:
+  /// A picture, lower row first.
+  struct Memory
+  {
+    const void* Values;
+    int Type; ///< VTK_FLOAT or VTK_UNSIGNED_CHAR
+    int Components;
+    int Width;
+    int Height;
+  };
+
   void SetWindow(vtkOpenGLRenderWindow* window);
-  PixelRectangle Upload(const PixelRectangle& rectangle, const float* values, int components,
-    int width, int height, const PixelRectangle& covered, vtkTextureObject* texture);
+  PixelRectangle Upload(const PixelRectangle& rectangle, const Memory& memory,
+    const PixelRectangle& covered, vtkTextureObject* texture);
   void DrawDepth(const PixelRectangle& target, std::unique_ptr<vtkOpenGLQuadHelper>& quad,
     const char* shader, vtkTextureObject* colors);
   void Draw(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader,

@@ -13,6 +13,7 @@
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -80,7 +81,10 @@ struct MapperFrame
   /// What the depth buffer is to hold of what is opaque, one a ray, 1 where nothing is; empty: it
   /// stays as it is. Of memory that the mapper keeps.
   Span<const float> WindowDepths;
-  bool IsOpaque = false; ///< whatever is in the picture, with WindowDepths
+
+  /// The colours of a picture that is opaque wherever WindowDepths is below 1, as the frame buffer
+  /// holds them, 0..255; in place of those of Image, which ReadPicture fills. Else empty.
+  Span<const std::uint8_t> WindowColors;
 
   /// Fills Image, if the picture is not read from the graphics card in each frame: called when
   /// somebody asks for the picture.
