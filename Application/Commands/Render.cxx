@@ -70,7 +70,8 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
   const bool isosurfaces = mapper->GetBlendMode() == vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND;
   if (isosurfaces && options.Isovalues.empty())
   {
-    throw UsageError("BlendMode=isosurface needs --isovalues A,B,...");
+    throw UsageError((method == "isosurface" ? "--method isosurface" : "BlendMode=isosurface") +
+      std::string(" needs --isovalues A,B,..."));
   }
   if (!options.ColorArray.empty() && !vtkTetrahedraIsosurfaceMapper::SafeDownCast(mapper))
   {
@@ -124,7 +125,9 @@ RenderInput ReadInput(const SceneOptions& options, const std::string& colorArray
   if (options.TransferFile.empty())
   {
     MakeDefaultTransferFunction(
-      (colorArray.empty() ? input.Scalars : ChooseArray(input.Data, colorArray, "")).Range.data(),
+      (colorArray.empty() ? input.Scalars
+                          : ChooseArray(input.Data, colorArray, "", "--color-array"))
+        .Range.data(),
       input.Functions);
   }
   return input;

@@ -130,7 +130,8 @@ std::vector<ArraySummary> ListArrays(vtkDataObject* data)
   return summaries;
 }
 
-ArrayChoice ChooseArray(vtkDataObject* data, const std::string& name, const std::string& component)
+ArrayChoice ChooseArray(vtkDataObject* data, const std::string& name, const std::string& component,
+  const std::string& option)
 {
   const std::vector<ArraySummary> arrays = ListArrays(data);
   const ArraySummary* array = nullptr;
@@ -148,7 +149,7 @@ ArrayChoice ChooseArray(vtkDataObject* data, const std::string& name, const std:
       [&name](const ArraySummary& summary) { return summary.Name == name; });
     if (found == arrays.end())
     {
-      throw WorkError("--array: the input has no array named '" + name + "'; there are " +
+      throw WorkError(option + ": the input has no array named '" + name + "'; there are " +
         tetralux::DescribeArrays(data));
     }
     array = &*found;

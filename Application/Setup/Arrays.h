@@ -43,7 +43,8 @@ struct ArrayChoice
 /// Chooses by the options --array and --component. If name is empty, it takes the active scalars,
 /// else the first array of floating point numbers, else the first array; point arrays come before
 /// cell arrays. If component is empty, it takes the only one, else the magnitude. Throws WorkError
-/// that lists the arrays.
-ArrayChoice ChooseArray(vtkDataObject* data, const std::string& name, const std::string& component);
+/// that lists the arrays. option: that gave the name, for errors.
+ArrayChoice ChooseArray(vtkDataObject* data, const std::string& name, const std::string& component,
+  const std::string& option = "--array");
 
 #endif
