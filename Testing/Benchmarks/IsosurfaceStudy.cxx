@@ -74,7 +74,7 @@ struct StudyOptions
   int Frames = 5;
   int Size = 1024;
   int Threads = 0;
-  double Zoom = 1.4;
+  double Zoom = 1.2;
   double Memory = 4;
 };
 
@@ -326,6 +326,7 @@ void StudyTraversal(const Study& study)
   {
     StudySettings settings = study.MakeSettings(std::string("tracer, ") + GetName(polygons));
     settings.Options.Polygons = polygons;
+    settings.Options.Blocks = false; // each packet by itself, as in the paper
     cases.push_back(study.MakeCase(settings));
     cases.back()->DrawFrame();
   }
@@ -550,7 +551,7 @@ void AddOptions(CLI::App& app, StudyOptions& options)
     [&options](const std::string& name, const std::string& text)
     { options.Threads = ParseInteger(name, text, 1, omp_get_num_procs()); })
     ->type_name("N");
-  AddOption(&app, "--zoom", "1 shows the whole bounding sphere; default: 1.4",
+  AddOption(&app, "--zoom", "1 shows the whole bounding sphere; default: 1.2",
     [&options](const std::string& name, const std::string& text)
     { options.Zoom = ParsePositive(name, text); })
     ->type_name("Z");
