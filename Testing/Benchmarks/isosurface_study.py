@@ -47,7 +47,7 @@ REACTOR = "reactor flow"
 # sets in PAPER, about as large.
 GENERATED = {
     "ball": ("ball:cells=39", 0.5, 0.3),
-    "heat sink": ("heat-sink", 0.5, 0.35),
+    "heat sink": ("heat-sink", 0.35, 0.5),
     BUCKY: ("swinging-ball:cells=41,time=0.25", 0.5, 0.3),
     "large ring": ("ring:around=600,across=32", 0.5, 0.3),
     "ring": ("ring", 0.5, 0.3),
