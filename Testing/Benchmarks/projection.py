@@ -32,6 +32,7 @@ from benchmark_meshes import (
     read_blunt_fin,
     split_by_vtk,
 )
+from benchmark_page import Page
 from benchmark_scene import (
     BLUNT_FIN_FOCUS,
     BLUNT_FIN_NODES,
@@ -41,14 +42,10 @@ from benchmark_scene import (
     time_frames,
 )
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingVolume import vtkProjectedTetrahedraMapper
 
 Mapper = tetralux.vtkTetrahedraProjectionMapper
 Sort = tetralux.vtkMeshedPolyhedraVisibilitySort
-
-TEMPLATE = os.path.join(os.path.dirname(__file__), "../../Application/Bench/page.html")
 
 # The paper's lookup table: 256 x 256 x 16 texels.
 TABLE = {
@@ -179,41 +176,6 @@ def make_peak(share, width):
         (share + width, 0.3, 0.5, 1, 0.0),
         (1.0, 0.3, 0.5, 1, 0.0),
     )
-
-
-class Page:
-    """The page of the benchmark tool, with sections of our own, and the pictures beside it."""
-
-    def __init__(self, folder, title, *paragraphs):
-        self.folder = folder
-        self.results = {"title": title, "text": paragraphs, "sections": []}
-
-    def add_section(self, title, *paragraphs, level=2, figures=(), columns=(), rows=(), notes=()):
-        """figures: file names of pictures, with a caption. rows: texts for a table's columns."""
-        section = {"title": title, "text": paragraphs, "level": level, "notes": notes}
-        if figures:
-            section["figures"] = [{"images": images, "caption": text} for images, text in figures]
-        if columns:
-            section["table"] = {"columns": columns, "rows": rows, "words": True}
-        self.results["sections"].append(section)
-
-    def write_picture(self, name, rgb):
-        pixels = numpy.ascontiguousarray(numpy.clip(rgb * 255 + 0.5, 0, 255).astype(numpy.uint8))
-        image = vtkImageData()
-        image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-        image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3), deep=True))
-        writer = vtkPNGWriter()
-        writer.SetCompressionLevel(9)
-        writer.SetFileName(os.path.join(self.folder, name))
-        writer.SetInputData(image)
-        writer.Write()
-
-    def write(self):
-        with open(TEMPLATE, encoding="utf-8") as file:
-            template = file.read()
-        text = json.dumps(self.results).replace("<", "\\u003c")  # no end of the script it is in
-        with open(os.path.join(self.folder, "index.html"), "w", encoding="utf-8") as file:
-            file.write(template.replace("@RESULTS@", text))
 
 
 def describe_errors(picture, reference):
