@@ -324,11 +324,11 @@ private:
 
   TETRALUX_INLINE bool HitPolygon(const Isopolygon& polygon, std::int64_t id)
   {
-    ++this->Counts.Polygons;
     PlacedPolygon placed;
     placed.Id = id;
     if (!Place(this->Frame, this->Packet, this->Largest, this->Margin, polygon, placed.Polygon))
     {
+      ++this->Counts.Polygons;
       ++this->Counts.PolygonMisses;
       return false;
     }

@@ -38,11 +38,11 @@ TETRALUX_NOINLINE void GatherPolygons(const TraceTree& tree, const RayFrame& fra
         {
           const Isopolygon& polygon = tree.Polygons[i];
           PlacedPolygon& placed = polygons[block.Count];
-          ++counts.Polygons;
           placed.Part = FindLimitedPart(limits, polygon);
           if (placed.Part == LimitedPart::None ||
             !Place(frame, bounds, largest, margin, polygon, placed.Polygon))
           {
+            ++counts.Polygons;
             ++counts.PolygonMisses;
             continue;
           }

@@ -168,6 +168,7 @@ template <bool AnyHit>
 TETRALUX_INLINE bool HitPlaced(const TraceLimits& limits, const RayFrame& frame,
   const PlacedPolygon& placed, RayPacket& packet, TraceCounts& counts)
 {
+  ++counts.Polygons;
   const Coverage coverage = Cover(placed.Polygon, packet);
   std::uint32_t chunks = coverage == Coverage::None || placed.Part == LimitedPart::None
     ? 0

@@ -51,7 +51,7 @@ struct TraceCounts
   std::int64_t RangeTests = 0;      ///< nodes whose range was looked at
   std::int64_t NodeTests = 0;       ///< nodes that were tested against a packet's frustum
   std::int64_t NodeMisses = 0;      ///< of them, those that the frustum misses
-  std::int64_t Polygons = 0;        ///< tested against a packet's frustum
+  std::int64_t Polygons = 0;        ///< tested against the frustum of a packet, or of a block
   std::int64_t PolygonMisses = 0;   ///< of them, those that the frustum misses
   std::int64_t PolygonCovers = 0;   ///< of them, those that cover the whole packet
   std::int64_t Extractions = 0;     ///< isopolygons made of cells
