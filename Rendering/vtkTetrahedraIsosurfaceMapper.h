@@ -53,8 +53,8 @@ public:
   /**
    * Set the name of an array of point data that surfaces are coloured by: at each of their points
    * by the property's colour and scalar opacity at the array's value there, interpolated in the
-   * cell. Default nullptr: a surface has the colour and opacity of its value. Where the array is not
-   * a number, a surface is transparent.
+   * cell. Default nullptr: a surface has the colour and opacity of its value. Where the array is
+   * not a number, a surface is transparent.
    */
   vtkSetStringMacro(ColorArrayName);
   vtkGetStringMacro(ColorArrayName);
