@@ -52,8 +52,8 @@ void ImageCompositor::WriteDepth(vtkOpenGLRenderWindow* window, const PixelRecta
   state->vtkglDisable(GL_CULL_FACE);
   state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglDepthMask(GL_TRUE);
-  // The picture has ended at what the buffer holds.
-  state->vtkglDepthFunc(GL_ALWAYS);
+  // Rays end at what the buffer holds, but where a ray covers several pixels, one may be nearer.
+  state->vtkglDepthFunc(GL_LEQUAL);
   state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   state->vtkglViewport(target.X, target.Y, target.Width, target.Height);
   this->DepthTexture->SetMinificationFilter(vtkTextureObject::Nearest);
