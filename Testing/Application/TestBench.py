@@ -277,7 +277,7 @@ class Bench(ToolTest):
         self.assertIsNone(features["cell data"]["forced"])
         self.assertIsNotNone(features["clipping"]["forced"])
         self.assertIsNone(features["isosurfaces traced"]["forced"])
-        self.assertIsNotNone(features["shadows of traced isosurfaces"]["used"])
+        self.assertIsNone(features["shadows of traced isosurfaces"]["forced"])
         for name, feature in features.items():
             for case in ("plain", "forced", "used"):
                 if feature[case]:
