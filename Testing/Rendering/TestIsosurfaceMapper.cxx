@@ -9,6 +9,7 @@
 
 #include "vtkCellData.h"
 #include "vtkCommand.h"
+#include "vtkContourValues.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -265,9 +267,41 @@ TEST(IsosurfaceMapper, ColorsOfTheSurfacesAgain)
   EXPECT_EQ(GetStatistic(scene.Tracer, "rebuilt"), "[\"colours\"]");
   scene.Tracer->SetColorArrayName(nullptr);
   EXPECT_EQ(scene.Render(), own);
-  // Of the surface's own array: the same colours.
+  // Of the surfaces' own array: the same colours, below 0 too.
+  scene.SetSurfaces({ { -0.4, 0.5 }, { 0.1, 1 } });
+  scene.Color->AddRGBPoint(-1, 1, 0, 0);
+  const std::vector<float> both = scene.Render();
   scene.Tracer->SetColorArrayName("Field");
-  ExpectSamePicture(scene.Render(), own, Rounding, "own array");
+  ExpectSamePicture(scene.Render(), both, Rounding, "own array");
+}
+
+TEST(IsosurfaceMapper, ColorsThatAreNoNumbersAreTransparent)
+{
+  IsosurfaceScene scene;
+  AddPlaces(scene);
+  scene.Tracer->SetColorArrayName("Place");
+  scene.Tracer->SetColorArrayComponent(0);
+  const std::vector<float> before = scene.Render();
+  auto* place = vtkDoubleArray::SafeDownCast(scene.Grid->GetPointData()->GetArray("Place"));
+  for (vtkIdType p = 0; p < place->GetNumberOfTuples(); ++p)
+  {
+    if (place->GetComponent(p, 0) > 0.5)
+    {
+      place->SetComponent(p, 0, std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  place->Modified();
+  const std::vector<float> after = scene.Render();
+  int gone = 0;
+  int left = 0;
+  for (std::size_t i = 0; i < after.size(); i += 4)
+  {
+    ASSERT_TRUE(std::isfinite(after[i]));
+    gone += before[i + 3] > 0 && after[i + 3] == 0;
+    left += after[i + 3] > 0;
+  }
+  EXPECT_GT(gone, 100);
+  EXPECT_GT(left, 100);
 }
 
 // Colours are kept with the steps whose values they are of.
@@ -438,6 +472,52 @@ TEST(IsosurfaceMapper, RebuildsWhatTimeStepsChange)
     scene.Color->AddRGBPoint(0, 1, 1, 1);
     EXPECT_EQ(RenderAndGetRebuilt(scene), Nothing);
   }
+}
+
+TEST(IsosurfaceMapper, ValuesInAnyOrder)
+{
+  IsosurfaceScene scene;
+  scene.SetSurfaces({ { -0.4, 0.5 }, { 0, 0.3 }, { 0.3, 1 } });
+  const std::vector<float> sorted = scene.Render();
+  vtkContourValues* values = scene.Volume->GetProperty()->GetIsoSurfaceValues();
+  values->SetValue(0, 0.3);
+  values->SetValue(1, -0.4);
+  values->SetValue(2, 0);
+  EXPECT_EQ(scene.Render(), sorted);
+  // One that no point reaches, and one that is there twice.
+  values->SetValue(3, 7);
+  EXPECT_EQ(scene.Render(), sorted);
+  values->SetValue(3, -0.4);
+  scene.ExpectPictureOfRays("twice");
+}
+
+TEST(IsosurfaceMapper, OtherMeshes)
+{
+  IsosurfaceScene scene;
+  scene.Window->Render();
+  scene.Show(tetralux::GenerateMesh("ball", { { "cells", 6 } }));
+  EXPECT_EQ(RenderAndGetRebuilt(scene), "[\"tree\",\"ranges\",\"isopolygons\"]");
+  EXPECT_EQ(scene.Get("hierarchy", "time_steps"), "1");
+  scene.ExpectPictureOfRays("another mesh");
+
+  // Cells of which a scalar is no number are empty.
+  auto* field = vtkDoubleArray::SafeDownCast(scene.Grid->GetPointData()->GetScalars());
+  const std::vector<float> before = scene.Render();
+  field->SetValue(scene.Grid->FindPoint(0.2, 0.2, 0.2), std::numeric_limits<double>::quiet_NaN());
+  field->Modified();
+  EXPECT_NE(scene.Render(), before);
+  EXPECT_GT(scene.Tracer->GetNumberOfBlankCells(), 0);
+  scene.ExpectPictureOfRays("blank cells");
+
+  // Nothing to draw is no error.
+  vtkNew<vtkUnstructuredGrid> empty;
+  scene.Tracer->SetInputData(empty);
+  const MessageObserver warnings(scene.Tracer, { vtkCommand::WarningEvent });
+  const MessageObserver errors(scene.Tracer);
+  // VTK itself does not draw a volume without bounds.
+  scene.Tracer->Render(scene.Renderer, scene.Volume);
+  EXPECT_NE(warnings.Text.find("nothing is drawn"), std::string::npos) << warnings.Text;
+  EXPECT_EQ(errors.Text, "");
 }
 
 TEST(IsosurfaceMapper, SeveralBlocks)

@@ -301,6 +301,18 @@ TEST(IsosurfaceMapperWindow, TilesMakeOnePicture)
   EXPECT_GT(brightest, 150);
 }
 
+// Two rays a pixel in both directions, of which the window shows the mean.
+TEST(IsosurfaceMapperWindow, SeveralRaysAPixel)
+{
+  IsosurfaceScene scene(40, 30);
+  scene.Tracer->SetImageSampleDistance(0.5);
+  const std::vector<float> fine = scene.Render();
+  EXPECT_EQ(scene.Tracer->GetOutputImage()->GetDimensions()[0], 80);
+  scene.Tracer->SetImageSampleDistance(1);
+  scene.Window->SetSize(80, 60);
+  ExpectSamePicture(scene.Render(), fine, Rounding, "as the picture of a larger window");
+}
+
 // One mapper in two viewports: each has the picture and the depths of a window of its own.
 TEST(IsosurfaceMapperWindow, Viewports)
 {
