@@ -31,8 +31,8 @@ TETRALUX_INLINE void LookUpColor(
   const IntervalTable::Interval& t = intervals[first];
   const float along = x - t.Reference;
   const float opacity = t.Attenuation + t.AttenuationSlope * along;
-  const float bounded = opacity < 1.f ? opacity : 1.f;
-  color[3] = bounded > 0.f ? bounded : 0.f; // also of what is not a number
+  const float positive = opacity > 0.f ? opacity : 0.f; // also of what is not a number
+  color[3] = positive < 1.f ? positive : 1.f;
   for (int c = 0; c < 3; ++c)
   {
     color[c] = x == x ? t.Color[c] + t.ColorSlope[c] * along : 0.f;

@@ -205,12 +205,12 @@ SampleRange IsosurfaceTracer::Internals::ChooseSamples(const VolumeScene& scene,
   const RayGrid& grid, const RayLimits& limits, const IsosurfaceOptions& options)
 {
   SampleRange samples;
-  samples.Count = options.SamplesPerFrame;
+  samples.Count = std::min(options.SamplesPerFrame, options.MaximumSamples);
   if (IsSampled(scene, options))
   {
     this->Mean.Start(MakePictureKey(scene, grid, limits, options));
-    const int frames = std::max(1, options.MaximumSamples / options.SamplesPerFrame);
-    samples.First = std::min(this->Mean.GetCount(), frames - 1) * options.SamplesPerFrame;
+    const int frames = options.MaximumSamples / samples.Count;
+    samples.First = std::min(this->Mean.GetCount(), frames - 1) * samples.Count;
   }
   else
   {
@@ -326,7 +326,7 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   this->Private->TraceTiles(in, options, threads, statistics);
   if (IsSampled(scene, options) && !statistics.Aborted)
   {
-    this->Private->Mean.Add(colors, samples.First / options.SamplesPerFrame);
+    this->Private->Mean.Add(colors, samples.First / samples.Count);
     statistics.Samples = samples.First + samples.Count;
   }
   if (precomputed)

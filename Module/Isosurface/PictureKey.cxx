@@ -14,7 +14,7 @@ CacheKey MakePictureKey(const VolumeScene& scene, const RayGrid& grid, const Ray
     scene.Optics.GetFunctionVersion(), scene.Optics.GetSurfacesVersion(), grid.Width, grid.Height,
     limits.Cropping, limits.CroppingFlags, options.MaximumError, options.SmoothShading,
     options.Shadows, options.ShadowSoftness, options.AmbientOcclusion, options.OcclusionRadius,
-    options.SamplesPerFrame, options.MaximumLayers, options.Polygons);
+    options.SamplesPerFrame, options.MaximumSamples, options.MaximumLayers, options.Polygons);
   const auto add = [&key](const auto& numbers)
   {
     for (const auto number : numbers)

@@ -74,8 +74,8 @@ void ImageCompositor::DrawDepth(const PixelRectangle& target,
   state->vtkglDisable(GL_CULL_FACE);
   state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglDepthMask(GL_TRUE);
-  // The picture has ended at what the buffer holds.
-  state->vtkglDepthFunc(GL_ALWAYS);
+  // Rays end at what the buffer holds, but where a ray covers several pixels, one may be nearer.
+  state->vtkglDepthFunc(GL_LEQUAL);
   const GLboolean mask = colors ? GL_TRUE : GL_FALSE;
   state->vtkglColorMask(mask, mask, mask, mask);
   state->vtkglViewport(target.X, target.Y, target.Width, target.Height);

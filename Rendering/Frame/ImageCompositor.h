@@ -43,7 +43,8 @@ public:
   ///@}
 
   /// Writes depths of a picture into the depth buffer, width x height of them, lower row first;
-  /// what is 1 or more is left out. The nearest one where the sizes differ. Throws as Composite.
+  /// what is 1 or more is left out, as is what the buffer has something in front of. The nearest
+  /// one where the sizes differ. Throws as Composite.
   void WriteDepth(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
     const float* depths, int width, int height, const PixelRectangle& covered);
 

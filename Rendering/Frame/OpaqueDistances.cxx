@@ -24,9 +24,14 @@ std::vector<float> ReadDepths(vtkRenderer* renderer, const PixelRectangle& visib
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   std::vector<float> depths(static_cast<std::size_t>(visible.Width) * visible.Height);
-  const vtkOpenGLState::ScopedglEnableDisable scissor(window->GetState(), GL_SCISSOR_TEST);
-  if (window->GetZbufferData(visible.X, visible.Y, visible.X + visible.Width - 1,
-        visible.Y + visible.Height - 1, depths.data()) != VTK_OK)
+  vtkOpenGLState* state = window->GetState();
+  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  GLint alignment = 0; // which reading changes
+  glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
+  const int status = window->GetZbufferData(visible.X, visible.Y, visible.X + visible.Width - 1,
+    visible.Y + visible.Height - 1, depths.data());
+  state->vtkglPixelStorei(GL_PACK_ALIGNMENT, alignment);
+  if (status != VTK_OK)
   {
     throw std::runtime_error("the depth buffer could not be read");
   }

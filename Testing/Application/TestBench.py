@@ -270,11 +270,14 @@ class Bench(ToolTest):
             {
                 "colour variation", "opacity variation", "3-D table", "shading", "clipping",
                 "cropping", "opaque geometry", "non-convexity", "cell data", "maximum intensity",
+                "isosurfaces traced", "shadows of traced isosurfaces",
             },
             set(features),
         )
         self.assertIsNone(features["cell data"]["forced"])
         self.assertIsNotNone(features["clipping"]["forced"])
+        self.assertIsNone(features["isosurfaces traced"]["forced"])
+        self.assertIsNone(features["shadows of traced isosurfaces"]["forced"])
         for name, feature in features.items():
             for case in ("plain", "forced", "used"):
                 if feature[case]:

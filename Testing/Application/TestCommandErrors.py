@@ -34,11 +34,27 @@ class WrongUsage(ToolTest):
         self.render_fails("more.vtu", says="more.vtu")
 
     def test_methods(self):
-        for method in ("bunyk", "isosurface", "gpu", ""):
+        for method in ("bunyk", "isosurfaces", "gpu", ""):
             self.render_fails(
                 "--method", method,
-                says=["--method", "auto, ray-cast, gpu-ray-cast and projection"],
+                says=["--method", "auto, ray-cast, gpu-ray-cast, projection and isosurface"],
             )
+
+    def test_isosurfaces(self):
+        self.render_fails("--method", "isosurface", says="--isovalues")
+        self.render_fails("--color-array", "Field", says=["--color-array", "--isovalues"])
+        self.render_fails(
+            "--method", "ray-cast", "--isovalues", "0.5", "--color-array", "Field",
+            says=["--color-array", "--method isosurface"],
+        )
+        self.render_fails(
+            "--method", "isosurface", "--isovalues", "0.5", "--set", "BlendMode=isosurface",
+            says="vtkTetrahedraIsosurfaceMapper has no property 'BlendMode'",
+        )
+        self.render_fails(
+            "--method", "ray-cast", "--isovalues", "0.5", "--set", "Shadows=on",
+            says="has no property 'Shadows'",
+        )
 
     def test_properties_of_other_methods(self):
         self.render_fails(
@@ -200,6 +216,9 @@ class FailedWork(ToolTest):
     def test_arrays(self):
         self.render_fails("--array", "Temp", says=["'Temp'", "Field"])
         self.render_fails("--component", 1, says=["--component", "no component 1"])
+        self.render_fails(
+            "--isovalues", "0.5", "--color-array", "Temp", says=["'Temp'", "Field"]
+        )
 
     def write_grid(self, name, cell_type, count, with_scalars=True, value=1.0):
         points = vtkPoints()

@@ -63,7 +63,7 @@ class Commands(ToolTest):
             "--array --component --method --transfer --opacity-unit-distance --camera-position "
             "--camera-focal-point --camera-view-up --camera-view-angle --camera-parallel-scale "
             "--size --background --shade --max-error --set --list-properties --threads --stats "
-            "--output --plot3d-q"
+            "--output --plot3d-q --isovalues --color-array"
         ).split():
             self.assertIn(option, text)
         self.assertIn("--plot3d-q", self.succeed("info", "--help"))
@@ -152,7 +152,13 @@ class Commands(ToolTest):
         ):
             with self.subTest(further=further):
                 pictures = {}
-                for method in ("auto", "ray-cast", "gpu-ray-cast", "projection"):
+                # Isosurfaces are traced unless a method is named.
+                automatic = {"ray-cast", "gpu-ray-cast", "projection"}
+                methods = ["auto", "ray-cast", "gpu-ray-cast", "projection"]
+                if "--isovalues" in further:
+                    automatic = {"isosurface"}
+                    methods.append("isosurface")
+                for method in methods:
                     self.succeed(
                         "render", "m.vtu", "--size", "80,60", "--method", method, *further,
                         "--stats", "s.json", "--output", "m.vti",
@@ -162,19 +168,60 @@ class Commands(ToolTest):
                         statistics = json.load(file)
                     if method == "auto":
                         # With OpenGL in software, as in most tests, or on a graphics card.
-                        self.assertIn(
-                            statistics["method"], ("ray-cast", "gpu-ray-cast", "projection")
-                        )
+                        self.assertIn(statistics["method"], automatic)
                         self.assertGreater(len(statistics["method_reason"]), 10)
                     else:
                         self.assertEqual(statistics["method"], method)
                         self.assertNotIn("method_reason", statistics)
                 self.assertGreater(pictures["ray-cast"].max(), 0.3)
-                for method in ("auto", "gpu-ray-cast", "projection"):
+                for method in methods:
                     error = abs(pictures[method] - pictures["ray-cast"]).max(axis=2)
                     # Silhouette pixels may differ by what the ray grazes.
                     self.assertLess(numpy.quantile(error, 0.99), 1e-4, method)
                     self.assertLess(error.max(), 1 / 255, method)
+
+    def test_isosurfaces_coloured_by_another_array(self):
+        self.succeed("generate", "ball", "--cells", 8, "--output", "ball.vtu")
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(self.path("ball.vtu"))
+        reader.Update()
+        grid = reader.GetOutput()
+        places = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+        array = numpy_to_vtk(places, deep=True)
+        array.SetName("Place")
+        grid.GetPointData().AddArray(array)
+        radius = numpy_to_vtk(numpy.linalg.norm(places, axis=1), deep=True)
+        radius.SetName("Radius")
+        grid.GetPointData().AddArray(radius)
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputData(grid)
+        writer.SetFileName(self.path("places.vtu"))
+        writer.Write()
+        # Red grows with the component, from the left to the right of the picture, and is constant
+        # for the magnitude, which is that of the surface.
+        self.write("red.json", json.dumps({
+            "RGBPoints": [-1, 0, 0, 1, 1, 1, 0, 0], "Points": [-1, 1, 0.5, 0, 1, 1, 0.5, 0],
+        }))
+        shares = {}
+        for settings in ((), ("--set", "ColorArrayComponent=0")):
+            self.succeed(
+                "render", "places.vtu", "--array", "Radius", "--isovalues", "0.7",
+                "--color-array", "Place", *settings, "--transfer", "red.json",
+                "--camera-position", "0,0,5", "--camera-parallel-scale", 1, "--size", "40,40",
+                "--stats", "s.json", "--output", "c.vti",
+            )
+            with open(self.path("s.json"), encoding="utf-8") as file:
+                self.assertEqual(json.load(file)["method"], "isosurface")
+            colors, _ = self.read_vti("c.vti")
+            row = colors[20, 8:32]
+            self.assertTrue((row[:, 3] == 1).all())
+            # Green is what shines.
+            red, blue = row[:, 0] - row[:, 1], row[:, 2] - row[:, 1]
+            shares[settings] = red / (red + blue)
+        magnitude, component = shares.values()
+        self.assertLess(abs(magnitude - 0.85).max(), 0.02)
+        x = (numpy.arange(8, 32) + 0.5 - 20) / 20
+        self.assertLess(abs(component - (1 + x) / 2).max(), 0.02)
 
     def test_auto_takes_the_method_that_has_the_property(self):
         self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
@@ -386,6 +433,7 @@ class Commands(ToolTest):
         text = self.succeed("render", "--list-properties")
         for words in (
             "  MaximumError=0.0001\n", "a number from 0 to 1", "closed-form (1)", "projection:\n",
+            "isosurface:\n", "  Shadows=Off\n", "  ColorArrayComponent=magnitude\n",
             "boundary-layers (3): depth-peeled boundary faces; gpu-ray-cast only",
             "CroppingRegionPlanes=0,1,0,1,0,1\n", "NumberOfThreads=automatic\n",
         ):
@@ -394,12 +442,13 @@ class Commands(ToolTest):
         # What it says is a default can be set.
         self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
         groups = re.split(r"\n\n", text)[1:]
-        self.assertEqual(len(groups), 5)
+        self.assertEqual(len(groups), 8)
         for group in groups:
             method = re.split(r",|:| and ", group)[0]
             defaults = re.findall(r"^  (\w+=\S+)$", group, re.MULTILINE)
             self.assertGreater(len(defaults), 0)
             options = [word for default in defaults for word in ("--set", default)]
+            options += ["--isovalues", "0.5"] if method == "isosurface" else []
             self.succeed(
                 "render", "ball.vtu", "--size", "8,8", "--method", method, *options,
                 "--output", "out.png",

@@ -76,6 +76,24 @@ TEST(Methods, LeaveOutThoseWithoutAProperty)
   EXPECT_EQ(one, "the window is not one of OpenGL, projection has no property Reentry");
 }
 
+TEST(Methods, TraceIsosurfaces)
+{
+  // With threads and without, and whatever the window is.
+  for (const int threads : { 0, 2 })
+  {
+    const std::vector<MethodChoice> methods =
+      ListMethods("auto", nullptr, threads, { "Shadows=on" }, true);
+    EXPECT_EQ(GetNames(methods), Names{ "isosurface" });
+    EXPECT_EQ(methods[0].Reason, "isosurfaces are traced");
+  }
+  EXPECT_EQ(GetNames(ListMethods("ray-cast", nullptr, 0, {}, true)), Names{ "ray-cast" });
+  // What tracing has not is set.
+  EXPECT_EQ(
+    GetNames(ListMethods("auto", nullptr, 0, { "Precision=double" }, true)), Names{ "ray-cast" });
+  EXPECT_EQ(GetNames(ListMethods("auto", nullptr, 0, { "BlendMode=isosurface" }, true)),
+    Names{ "ray-cast" });
+}
+
 TEST(Methods, ProjectFewCellsOntoManyPixels)
 {
   const std::vector<MethodChoice> methods = Rank(FewCells);

@@ -25,8 +25,18 @@ CLASSES = {
         "BlendMode", "ColorBuffer", "Integration", "MergePoints", "Order", "TableFormat",
         "TableLengthScale", "TableScalarAxis", "VectorMode",
     ],
+    tetralux.vtkTetrahedraIsosurfaceMapper: ["MergePoints", "VectorMode"],
     tetralux.vtkPreIntegrationTableSource: ["BlendMode", "Format", "LengthScale", "ScalarAxis"],
     tetralux.vtkMeshedPolyhedraVisibilitySort: ["Order"],
+}
+
+# What a class inherits and refuses; BlendMode is isosurface, and nothing else.
+FOREIGN = {
+    tetralux.vtkTetrahedraProjectionMapper: {"Reentry"},
+    tetralux.vtkTetrahedraIsosurfaceMapper: {
+        "BlendMode", "Integration", "Reentry", "TableFormat", "TableLengthScale",
+        "TableScalarAxis",
+    },
 }
 
 
@@ -57,8 +67,8 @@ def find_accepted(thing, name):
 def test_enumerations():
     for cls, expected in CLASSES.items():
         names = find_enumerations(cls)
-        # ScalarMode is VTK's. The projection mapper refuses all values of Reentry.
-        foreign = {"ScalarMode"} | ({"Reentry"} - set(expected))
+        # ScalarMode is VTK's. Mappers refuse all values of what belongs to others.
+        foreign = {"ScalarMode"} | FOREIGN.get(cls, set())
         names = [name for name in names if name not in foreign]
         assert names == expected, (cls, names)
         for name in names:
@@ -73,6 +83,14 @@ def test_enumerations():
                 assert getattr(thing, f"Get{name}")() == number
                 line = f"\n  {name}: {text}\n"
                 assert line in str(thing), (line, str(thing))
+
+
+def test_refused_enumerations():
+    for cls, names in FOREIGN.items():
+        for name in names:
+            accepted = find_accepted(cls(), name)
+            assert len(accepted) == (name == "BlendMode"), (cls, name, accepted)
+    assert tetralux.vtkTetrahedraIsosurfaceMapper().GetBlendModeAsString() == "isosurface"
 
 
 def test_picture():
@@ -107,5 +125,6 @@ def test_numpy_is_imported_when_needed():
 
 if __name__ == "__main__":
     test_enumerations()
+    test_refused_enumerations()
     test_picture()
     test_numpy_is_imported_when_needed()

@@ -8,6 +8,7 @@
 #include "vtkContourValues.h"
 #include "vtkImageData.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 
 #include <algorithm>
@@ -86,6 +87,6 @@ TEST_P(IsosurfaceLayers, AreCrossedOnce)
 
 INSTANTIATE_TEST_SUITE_P(AllMappers, IsosurfaceLayers,
   testing::Values(&Make<vtkTetrahedraRayCastMapper>, &Make<vtkTetrahedraGPURayCastMapper>,
-    &Make<vtkTetrahedraProjectionMapper>));
+    &Make<vtkTetrahedraProjectionMapper>, &Make<vtkTetrahedraIsosurfaceMapper>));
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "vtkNew.h"
 #include "vtkPreIntegrationTableSource.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 #include "vtkTetrahedraRayIntegrator.h"
@@ -71,8 +72,8 @@ protected:
   template <class FunctionT>
   void ForEach(const FunctionT& function)
   {
-    for (Mapper* mapper :
-      std::initializer_list<Mapper*>{ this->RayCast, this->GPURayCast, this->Projection })
+    for (Mapper* mapper : std::initializer_list<Mapper*>{
+           this->RayCast, this->GPURayCast, this->Projection, this->Isosurface })
     {
       for (const MapperProperty& property : tetralux::GetMapperProperties())
       {
@@ -88,6 +89,7 @@ protected:
   vtkNew<vtkTetrahedraRayCastMapper> RayCast;
   vtkNew<vtkTetrahedraGPURayCastMapper> GPURayCast;
   vtkNew<vtkTetrahedraProjectionMapper> Projection;
+  vtkNew<vtkTetrahedraIsosurfaceMapper> Isosurface;
 };
 
 /// A value other than the default.
@@ -104,7 +106,7 @@ std::vector<double> ChooseOther(const MapperProperty& property, unsigned kind)
   }
   return { property.Type == PropertyType::Boolean ? 1 - value
       : property.Type == PropertyType::Real       ? (value + property.Maximum) / 2
-                                                  : property.Minimum + 3 };
+                                                  : property.Minimum + 2 };
 }
 
 } // namespace
@@ -114,6 +116,8 @@ TEST_F(MapperProperties, KindsAreThoseOfTheClasses)
   EXPECT_EQ(tetralux::GetKind(this->RayCast), tetralux::RayCastKind);
   EXPECT_EQ(tetralux::GetKind(this->GPURayCast), tetralux::GPURayCastKind);
   EXPECT_EQ(tetralux::GetKind(this->Projection), tetralux::ProjectionKind);
+  EXPECT_EQ(tetralux::GetKind(this->Isosurface), tetralux::IsosurfaceKind);
+  EXPECT_EQ(tetralux::VolumeKinds | tetralux::IsosurfaceKind, tetralux::AllKinds);
 }
 
 TEST_F(MapperProperties, DefaultsAreThoseOfTheClasses)
@@ -258,6 +262,16 @@ TEST_F(MapperProperties, ArePrintedAsAReaderWritesThem)
   EXPECT_EQ(FindPrinted(this->RayCast, "ErrorEstimate"), "0");
   EXPECT_EQ(FindPrinted(this->Projection, "UsedOrder"), "none");
   EXPECT_EQ(FindPrinted(this->Projection, "Reentry"), "(not printed)");
+  this->Isosurface->SetColorArrayName("Temperature");
+  this->Isosurface->SetColorArrayComponent(2);
+  this->Isosurface->SetShadowSoftness(2.5);
+  EXPECT_EQ(FindPrinted(this->Isosurface, "ColorArrayName"), "Temperature");
+  EXPECT_EQ(FindPrinted(this->Isosurface, "ColorArrayComponent"), "2");
+  EXPECT_EQ(FindPrinted(this->Isosurface, "ShadowSoftness"), "2.5");
+  EXPECT_EQ(FindPrinted(this->Isosurface, "TimeStepCacheBytes"), "268435456");
+  EXPECT_EQ(FindPrinted(this->Isosurface, "AmbientOcclusionRadius"), "automatic");
+  this->Isosurface->SetColorArrayName(nullptr);
+  EXPECT_EQ(FindPrinted(this->Isosurface, "ColorArrayName"), "(none)");
 
   // Statistics are last, and indented.
   std::ostringstream text;
@@ -379,6 +393,26 @@ TEST_F(MapperProperties, ReentryThatAMapperDoesNotHaveIsRefused)
   EXPECT_EQ(this->Projection->GetReentry(), Mapper::AUTOMATIC_REENTRY);
   ASSERT_EQ(others.Texts.size(), 1u);
   EXPECT_NE(others.Texts[0].find("no such property"), std::string::npos) << others.Texts[0];
+}
+
+// What integrates along rays is not there.
+TEST_F(MapperProperties, IsosurfacesHaveNoneOfVolumes)
+{
+  for (const char* name :
+    { "BlendMode", "Integration", "TableScalarSize", "TableLengthSize", "TableLengthScale",
+      "TableScalarAxis", "TableFormat", "TableMaximumBytes", "Reentry", "Precision" })
+  {
+    EXPECT_EQ(tetralux::GetMapperProperty(name).Kinds & tetralux::IsosurfaceKind, 0u) << name;
+    EXPECT_EQ(FindPrinted(this->Isosurface, name), "(not printed)");
+  }
+  Errors errors(this->Isosurface);
+  this->Isosurface->SetIntegrationToTable();
+  this->Isosurface->SetReentryToImaginaryCells();
+  ASSERT_EQ(errors.Texts.size(), 2u);
+  for (const std::string& text : errors.Texts)
+  {
+    EXPECT_NE(text.find("no such property"), std::string::npos) << text;
+  }
 }
 
 TEST(PropertiesOfOthers, TheTableSourceRefusesWhatItCannotTabulate)

@@ -13,6 +13,7 @@
 #include "vtkLight.h"
 #include "vtkPlane.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 
 #include <algorithm>
@@ -207,6 +208,32 @@ TEST_P(WorldScale, OutOfRangeIsAnError)
 INSTANTIATE_TEST_SUITE_P(AllMappers, WorldScale,
   testing::Values(&Make<vtkTetrahedraRayCastMapper>, &Make<vtkTetrahedraGPURayCastMapper>,
     &Make<vtkTetrahedraProjectionMapper>));
+
+class WorldScaleOfSurfaces : public WorldScale
+{
+};
+
+// By a light near the box, of which surfaces block some, and with what is nearby.
+TEST_P(WorldScaleOfSurfaces, InShadows)
+{
+  this->ExpectAnyScale(
+    [](ScaledScene& scene)
+    {
+      vtkNew<vtkLight> light;
+      light->SetPositional(true);
+      light->SetConeAngle(90);
+      light->SetPosition(1.5 * scene.Size, 2 * scene.Size, 1.2 * scene.Size);
+      scene.Renderer->AddLight(light);
+      scene.Volume->GetProperty()->ShadeOn();
+      auto* tracer = vtkTetrahedraIsosurfaceMapper::SafeDownCast(scene.Subject);
+      tracer->ShadowsOn();
+      tracer->AmbientOcclusionOn();
+      tracer->SetAmbientOcclusionRadius(0.3 * scene.Size);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Tracer, WorldScaleOfSurfaces, testing::Values(&Make<vtkTetrahedraIsosurfaceMapper>));
 
 // Rays that a graphics card can't hold: the camera is beyond all single precision numbers.
 TEST(WorldScaleOfRays, TooFarCameraIsAnError)

@@ -11,6 +11,7 @@
 #include "vtkContourValues.h"
 #include "vtkCubeSource.h"
 #include "vtkDoubleArray.h"
+#include "vtkLight.h"
 #include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPolyDataMapper.h"
@@ -106,6 +107,10 @@ bool PipeScene::Vary(const std::string& name)
   else if (name == "Isosurfaces")
   {
     this->ShowIsosurfaces();
+  }
+  else if (name == "Shadows")
+  {
+    this->CastShadows();
   }
   else if (name == "Lit")
   {
@@ -225,4 +230,27 @@ void PipeScene::ShowIsosurfaces()
   values->SetValue(1, 0.1);
   values->SetValue(2, 0.6);
   this->Volume->GetProperty()->ShadeOn();
+}
+
+// Two opaque surfaces, cut open so that light falls in from the side.
+void PipeScene::CastShadows()
+{
+  this->Mapper->SetBlendModeToIsoSurface();
+  this->Opacity->RemoveAllPoints();
+  this->Opacity->AddPoint(-1, 1);
+  this->Opacity->AddPoint(1, 1);
+  vtkContourValues* values = this->Volume->GetProperty()->GetIsoSurfaceValues();
+  values->SetValue(0, -0.5);
+  values->SetValue(1, 0.3);
+  this->Volume->GetProperty()->ShadeOn();
+  this->Volume->GetProperty()->SetAmbient(0.3);
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0, 0, 1.7);
+  plane->SetNormal(-0.3, 0.2, -1);
+  this->Mapper->AddClippingPlane(plane);
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(-3, -3, 5);
+  light->SetFocalPoint(0, 0, 0.9);
+  this->Renderer->AddLight(light);
 }

@@ -34,6 +34,7 @@ private:
   void UseHsvColors();
   void TransformVolume();
   void ShowIsosurfaces();
+  void CastShadows();
 
   vtkNew<vtkColorTransferFunction> Color;
   vtkNew<vtkPiecewiseFunction> Opacity;

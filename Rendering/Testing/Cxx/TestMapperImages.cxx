@@ -11,6 +11,7 @@
 #include "vtkRenderWindowInteractor.h"
 #include "vtkSmartPointer.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
@@ -36,6 +37,10 @@ constexpr double RayCastThreshold = 1;
 // volume is faint there.
 constexpr double GPURayCastThreshold = 2 * RayCastThreshold;
 
+// Kernels for other processors are rounded otherwise, so rays at the edge of a surface or a shadow
+// may fall on its other side.
+constexpr double IsosurfaceThreshold = 2 * RayCastThreshold;
+
 // OpenGL decides which pixels a cell covers, too.
 constexpr double ProjectionThreshold = 3 * RayCastThreshold;
 
@@ -50,11 +55,19 @@ vtkSmartPointer<Mapper> Make()
   return vtkSmartPointer<Mapper>::New();
 }
 
+// Pictures do not depend on how fast the machine is.
 template <>
 vtkSmartPointer<vtkTetrahedraRayCastMapper> Make()
 {
   auto mapper = vtkSmartPointer<vtkTetrahedraRayCastMapper>::New();
-  // Pictures do not depend on how fast the machine is.
+  mapper->AutoAdjustSampleDistancesOff();
+  return mapper;
+}
+
+template <>
+vtkSmartPointer<vtkTetrahedraIsosurfaceMapper> Make()
+{
+  auto mapper = vtkSmartPointer<vtkTetrahedraIsosurfaceMapper>::New();
   mapper->AutoAdjustSampleDistancesOff();
   return mapper;
 }
@@ -97,6 +110,13 @@ MapperPointer MakeWithCoarseRays()
   return mapper;
 }
 
+MapperPointer MakeWithShadows()
+{
+  const auto mapper = Make<vtkTetrahedraIsosurfaceMapper>();
+  mapper->ShadowsOn();
+  return mapper;
+}
+
 struct Method
 {
   std::string Name;
@@ -109,6 +129,7 @@ const Method* FindMethod(const std::string& name)
   using RayCast = vtkTetrahedraRayCastMapper;
   using GPURayCast = vtkTetrahedraGPURayCastMapper;
   using Projection = vtkTetrahedraProjectionMapper;
+  using Isosurface = vtkTetrahedraIsosurfaceMapper;
   static const std::vector<Method> methods = {
     { "RayCast", MakeDefault<RayCast>, RayCastThreshold },
     { "RayCastCoarse", MakeWithCoarseRays, RayCastThreshold },
@@ -118,6 +139,8 @@ const Method* FindMethod(const std::string& name)
     { "GPURayCastBoundaryLayers", MakeWithBoundaryLayers, GPURayCastThreshold },
     { "GPURayCastImaginaryCells", MakeWithImaginaryCells<GPURayCast>, GPURayCastThreshold },
     { "GPURayCastTable", MakeWithTable<GPURayCast>, GPURayCastThreshold },
+    { "Isosurface", MakeDefault<Isosurface>, IsosurfaceThreshold },
+    { "IsosurfaceShadows", MakeWithShadows, IsosurfaceThreshold },
     { "Projection", MakeDefault<Projection>, ProjectionThreshold },
     { "ProjectionTable", MakeWithTable<Projection>, ProjectionThreshold },
   };
