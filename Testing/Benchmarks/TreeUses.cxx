@@ -10,7 +10,8 @@
 // skipping transfer functions that show a part of the scalars' range. What the ray caster takes
 //          today, and what it takes at least to find the visible cells along the rays by the tree.
 //
-// Pictures of 512 x 512, two threads, median milliseconds of frames by turns.
+// Pictures of 512 x 512, two threads, median milliseconds of frames by turns, by the clock and by
+// the processor, where waiting threads should sleep (OMP_WAIT_POLICY=passive).
 
 #include "Base/ParallelTiles.h"
 #include "Base/Stopwatch.h"
@@ -95,6 +96,12 @@ public:
     this->Scene.Mesh.SetPointScalars(this->Scalars);
     this->Points.resize(this->Scalars.size());
     this->Pixels.resize(this->Scalars.size());
+    const std::vector<std::int32_t>& ids = this->Walk->GetMesh().Cells;
+    for (const std::int32_t cell : this->Tree.Cells)
+    {
+      const auto first = ids.begin() + 4 * static_cast<std::ptrdiff_t>(cell);
+      this->LeafCells.insert(this->LeafCells.end(), first, first + 4);
+    }
   }
 
   /// Brings the points into the frame of the rays: a part of each frame by the tree.
@@ -118,11 +125,11 @@ public:
     }
   }
 
-  RayCastStatistics Cast()
+  RayCastStatistics Cast(Precision arithmetic = Precision::Single)
   {
     RayCastOptions options;
     options.MaximumError = 1e-9; // rays end where they leave
-    options.Arithmetic = Precision::Single;
+    options.Arithmetic = arithmetic;
     options.NumberOfThreads = Threads;
     return CastRays(this->Scene, this->View.Grid, {}, options, this->Colors, this->Depths);
   }
@@ -135,6 +142,7 @@ public:
   MinMaxRanges Ranges;
   RayFrame Frame;
   VolumeScene Scene;
+  std::vector<std::int32_t> LeafCells; ///< point ids of cells in the order of the leaves
   std::vector<FramePoint> Points;
   std::vector<Pixel> Pixels;
   std::vector<float> Colors = std::vector<float>(4 * ImageSize * ImageSize);
@@ -290,7 +298,7 @@ public:
 
   Packet(const Subject& subject, const Tile& tile, Counts& counts)
     : Mesh(subject)
-    , Cells(subject.Walk->GetMesh().Cells.data())
+    , Cells(subject.LeafCells.data())
     , X(tile.X0)
     , Y(tile.Y0)
     , Frustum(subject.Frame, MakeBounds(tile), this->None)
@@ -361,7 +369,6 @@ public:
   /// Finds the largest scalar along each ray.
   void FindLargest(Order order)
   {
-    this->LeastStep = -1;
     this->Walk(
       order,
       [this](std::int32_t id) { return this->Mesh.Ranges.Nodes[id].Largest < this->LeastStep; },
@@ -370,22 +377,23 @@ public:
         bool changed = false;
         for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
         {
-          changed |= this->Raise(this->Mesh.Tree.Cells[i]);
+          changed |= this->Raise(i);
         }
         if (changed)
         {
-          this->LeastStep = this->Mesh.Ranges.GetStep(
-            *std::min_element(this->ChunkLeast, this->ChunkLeast + Columns * Rows));
+          this->UpdateLeast();
         }
       });
   }
 
   /// Calls function(chunk, u, v, far, near, hits, cell) where rays of a chunk go through a cell.
+  /// place: of the cell in the order of the leaves.
   /// isSkipped(chunk): chunks to leave out.
   template <class IsSkipped, class Function>
-  TETRALUX_INLINE void ClipTo(std::int32_t id, const IsSkipped& isSkipped, const Function& function)
+  TETRALUX_INLINE void ClipTo(
+    std::int32_t place, const IsSkipped& isSkipped, const Function& function)
   {
-    const std::int32_t* ids = this->Cells + 4 * static_cast<std::size_t>(id);
+    const std::int32_t* ids = this->Cells + 4 * static_cast<std::size_t>(place);
     const ChunkBounds bounds = this->GetBounds(ids);
     if (bounds.IsEmpty())
     {
@@ -438,16 +446,9 @@ public:
 
   void Write(std::vector<float>& picture) const
   {
-    for (int chunk = 0; chunk < Columns * Rows; ++chunk)
+    for (int i = 0; i < Edge * Edge; ++i)
     {
-      for (int lane = 0; lane < LaneCount; ++lane)
-      {
-        const int x =
-          this->X + chunk % Columns * RayPacket::ChunkWidth + lane % RayPacket::ChunkWidth;
-        const int y =
-          this->Y + chunk / Columns * RayPacket::ChunkHeight + lane / RayPacket::ChunkWidth;
-        picture[y * ImageSize + x] = std::max(0.f, this->Largest[chunk * LaneCount + lane]);
-      }
+      picture[this->GetPixel(i)] = std::max(0.f, this->Largest[i]);
     }
   }
 
@@ -500,24 +501,60 @@ private:
       y1 / RayPacket::ChunkHeight };
   }
 
-  /// Whether a chunk's least maximum may have changed.
-  TETRALUX_INLINE bool Raise(std::int32_t id)
+  /// Where a ray's pixel is in a picture.
+  int GetPixel(int ray) const
   {
-    const std::int32_t* ids = this->Cells + 4 * static_cast<std::size_t>(id);
+    const int chunk = ray / LaneCount;
+    const int lane = ray % LaneCount;
+    const int x = chunk % Columns * RayPacket::ChunkWidth + lane % RayPacket::ChunkWidth;
+    const int y = chunk / Columns * RayPacket::ChunkHeight + lane / RayPacket::ChunkWidth;
+    return (this->Y + y) * ImageSize + this->X + x;
+  }
+
+  TETRALUX_INLINE void UpdateLeast()
+  {
+    this->Least = *std::min_element(this->ChunkLeast, this->ChunkLeast + Columns * Rows);
+    this->LeastStep = this->Mesh.Ranges.GetStep(this->Least);
+  }
+
+  static TETRALUX_INLINE float GetLeast(const float* lanes)
+  {
+    float least = lanes[0];
+#pragma omp simd reduction(min : least)
+    for (int i = 0; i < LaneCount; ++i)
+    {
+      least = lanes[i] < least ? lanes[i] : least;
+    }
+    return least;
+  }
+
+  /// Whether a chunk's least maximum may have changed.
+  TETRALUX_INLINE bool Raise(std::int32_t place)
+  {
+    const std::int32_t* ids = this->Cells + 4 * static_cast<std::size_t>(place);
     const auto scalar = [&](int i) { return this->Mesh.Points[ids[i]].Scalar; };
     const auto most =
       static_cast<float>(std::max(std::max(scalar(0), scalar(1)), std::max(scalar(2), scalar(3))));
+    if (most <= this->Least)
+    {
+      return false;
+    }
     bool changed = false;
     this->ClipTo(
-      id, [&](int chunk) { return most <= this->ChunkLeast[chunk]; },
+      place, [&](int chunk) { return most <= this->ChunkLeast[chunk]; },
       [&](
         int chunk, Float8 u, Float8 v, Float8 far, Float8 near, Mask8 hits, const PlacedCell& cell)
       {
         float* largest = this->Largest + chunk * LaneCount;
         const Float8 before = LoadFloat8(largest);
         const Float8 found = Min(cell.GetLarger(u, v, far, near), Float8(most));
-        Store(largest, Select(hits & (before < found), found, before));
-        this->ChunkLeast[chunk] = *std::min_element(largest, largest + LaneCount);
+        const Mask8 larger = hits & (before < found);
+        if (!Any(larger))
+        {
+          return;
+        }
+        Store(largest, Select(larger, found, before));
+        this->ChunkLeast[chunk] = GetLeast(largest);
         changed = true;
       });
     return changed;
@@ -529,7 +566,8 @@ private:
   TraceLimits None;
   PacketFrustum Frustum;
   Counts& Counted;
-  std::int32_t LeastStep = -1; ///< of the least maximum
+  float Least = -std::numeric_limits<float>::infinity(); ///< of the rays' present maxima
+  std::int32_t LeastStep = -1;                           ///< MinMaxRanges::GetStep of Least
   alignas(32) float Largest[Edge * Edge];
   float ChunkLeast[Columns * Rows];
   alignas(32) float LaneU[LaneCount], LaneV[LaneCount];
@@ -557,38 +595,60 @@ Counts ForEachPacket(const Subject& subject, const Function& function)
   return all;
 }
 
+/// A way to find the largest scalars.
+struct MaximumWay
+{
+  const char* Name;
+  int Edge;
+  Order InOrder;
+};
+
 template <int Edge>
-Counts FindLargest(Subject& subject, Order order, std::vector<float>& picture)
+Counts FindLargest(Subject& subject, const MaximumWay& way, std::vector<float>& picture)
 {
   subject.ProjectPoints();
   return ForEachPacket<Edge>(subject,
     [&](Packet<Edge>& packet)
     {
-      packet.FindLargest(order);
+      packet.FindLargest(way.InOrder);
       packet.Write(picture);
     });
 }
 
-/// Median seconds of each way, by turns.
-std::vector<double> MeasureByTurns(const std::vector<std::function<void()>>& ways)
+/// Medians, in milliseconds.
+struct Times
 {
-  std::vector<std::vector<double>> times(ways.size());
+  double Wall;
+  double Processor; ///< of all threads
+};
+
+double GetMedian(std::vector<double>& times)
+{
+  std::nth_element(times.begin(), times.begin() + Runs / 2, times.end());
+  return 1e3 * times[Runs / 2];
+}
+
+/// Runs all ways by turns.
+std::vector<Times> MeasureByTurns(const std::vector<std::function<void()>>& ways)
+{
+  std::vector<std::vector<double>> wall(ways.size()), processor(ways.size());
   for (int run = 0; run < Runs; ++run)
   {
     for (std::size_t i = 0; i < ways.size(); ++i)
     {
-      Stopwatch watch;
+      const Stopwatch watch;
+      const double begin = GetProcessorTime();
       ways[i]();
-      times[i].push_back(watch.GetSeconds());
+      processor[i].push_back(GetProcessorTime() - begin);
+      wall[i].push_back(watch.GetSeconds());
     }
   }
-  std::vector<double> medians;
-  for (std::vector<double>& list : times)
+  std::vector<Times> times;
+  for (std::size_t i = 0; i < ways.size(); ++i)
   {
-    std::nth_element(list.begin(), list.begin() + Runs / 2, list.end());
-    medians.push_back(list[Runs / 2]);
+    times.push_back({ GetMedian(wall[i]), GetMedian(processor[i]) });
   }
-  return medians;
+  return times;
 }
 
 void CompareMaximum(Subject& subject)
@@ -600,36 +660,34 @@ void CompareMaximum(Subject& subject)
   function.Nodes = { { 0, zero, zero }, { 1, one, one } };
   subject.Scene.Optics.SetModel(OpticalModel::MaximumIntensity);
   subject.Scene.Optics.SetTransferFunction(function);
-  const RayCastStatistics statistics = subject.Cast();
+  const RayCastStatistics statistics = subject.Cast(Precision::Double);
   std::vector<float> expected;
   for (int i = 0; i < ImageSize * ImageSize; ++i)
   {
     expected.push_back(subject.Colors[4 * i + 3]);
   }
 
-  struct Way
-  {
-    const char* Name;
-    Counts (*Find)(Subject&, Order, std::vector<float>&);
-    Order InOrder;
-  };
-  const Way ways[] = { { "16 x 16, nearer first", FindLargest<16>, Order::Nearer },
-    { "16 x 16, larger first", FindLargest<16>, Order::Larger },
-    { "8 x 8, nearer first", FindLargest<8>, Order::Nearer },
-    { "8 x 8, larger first", FindLargest<8>, Order::Larger } };
+  const MaximumWay ways[] = { { "16 x 16, nearer first", 16, Order::Nearer },
+    { "16 x 16, larger first", 16, Order::Larger }, { "8 x 8, nearer first", 8, Order::Nearer },
+    { "8 x 8, larger first", 8, Order::Larger } };
   std::vector<float> picture(ImageSize * ImageSize);
-  std::vector<std::function<void()>> timed = { [&] { subject.Cast(); } };
-  for (const Way& way : ways)
+  const auto find = [&](const MaximumWay& way)
   {
-    timed.emplace_back([&] { way.Find(subject, way.InOrder, picture); });
+    return way.Edge == 16 ? FindLargest<16>(subject, way, picture)
+                          : FindLargest<8>(subject, way, picture);
+  };
+  std::vector<std::function<void()>> timed = { [&] { subject.Cast(); } };
+  for (const MaximumWay& way : ways)
+  {
+    timed.emplace_back([&] { find(way); });
   }
-  const std::vector<double> seconds = MeasureByTurns(timed);
+  const std::vector<Times> times = MeasureByTurns(timed);
 
-  std::printf("%-20s %-22s %8.1f %10s %10s %10s %10.2f\n", subject.Name.c_str(), "cell to cell",
-    1e3 * seconds[0], "", "", "", 1e-6 * static_cast<double>(statistics.Segments));
+  std::printf("%-18s %-22s %8.1f %8.1f %7s %7s %7s %8.2f\n", subject.Name.c_str(), "cell to cell",
+    times[0].Wall, times[0].Processor, "", "", "", 1e-6 * static_cast<double>(statistics.Segments));
   for (std::size_t i = 0; i < std::size(ways); ++i)
   {
-    const Counts counts = ways[i].Find(subject, ways[i].InOrder, picture);
+    const Counts counts = find(ways[i]);
     double most = 0;
     int different = 0;
     for (int p = 0; p < ImageSize * ImageSize; ++p)
@@ -638,8 +696,8 @@ void CompareMaximum(Subject& subject)
       most = std::max(most, difference);
       different += difference > ScalarTolerance;
     }
-    std::printf("%-20s %-22s %8.1f %10.2f %10.2f %10.2f %10.2f %10.1e %6d\n", "", ways[i].Name,
-      1e3 * seconds[i + 1], 1e-6 * static_cast<double>(counts.Nodes),
+    std::printf("%-18s %-22s %8.1f %8.1f %7.2f %7.2f %7.2f %8.2f %9.1e %5d\n", "", ways[i].Name,
+      times[i + 1].Wall, times[i + 1].Processor, 1e-6 * static_cast<double>(counts.Nodes),
       1e-6 * static_cast<double>(counts.Leaves), 1e-6 * static_cast<double>(counts.Cells),
       1e-6 * static_cast<double>(counts.Hits), most, different);
   }
@@ -678,19 +736,17 @@ Counts FindLeaves(const Subject& subject, double share, const Visit& visit)
 }
 
 /// Clips the rays to the visible cells of these leaves.
-template <int Edge>
 Counts ClipToVisible(const Subject& subject, double share, const std::vector<std::uint8_t>& visible)
 {
-  return FindLeaves<Edge>(subject, share,
-    [&](Packet<Edge>& packet, const MinMaxTree::Node& node)
+  return FindLeaves<16>(subject, share,
+    [&](Packet<16>& packet, const MinMaxTree::Node& node)
     {
       for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
       {
-        const std::int32_t cell = subject.Tree.Cells[i];
-        if (visible[cell])
+        if (visible[subject.Tree.Cells[i]])
         {
           packet.ClipTo(
-            cell, [](int) { return false; },
+            i, [](int) { return false; },
             [](int, Float8, Float8, Float8, Float8, Mask8, const PlacedCell&) {});
         }
       }
@@ -707,7 +763,7 @@ void MeasureSkipping(Subject& subject)
     subject.Scene.Optics.SetModel(OpticalModel::EmissionAbsorption);
     RayCastStatistics statistics;
     Counts leaves, clipped;
-    const std::vector<double> seconds = MeasureByTurns({ [&]
+    const std::vector<Times> times = MeasureByTurns({ [&]
       {
         subject.Scene.Optics.SetTransferFunction(function); // a new version: all is made anew
         statistics = subject.Cast();
@@ -718,7 +774,7 @@ void MeasureSkipping(Subject& subject)
       [&]
       {
         subject.ProjectPoints();
-        clipped = ClipToVisible<8>(subject, share, visible);
+        clipped = ClipToVisible(subject, share, visible);
       } });
     const auto segments = static_cast<double>(statistics.Segments);
     const auto hits = static_cast<double>(clipped.Hits);
@@ -726,10 +782,10 @@ void MeasureSkipping(Subject& subject)
       static_cast<double>(visible.size());
     std::printf("%-20s %5.0f %6.1f %6s %8.1f %8.1f %8.2f %8.2f %8.1f %8.2f %8.1f %8.1f %8.1f\n",
       share == 1 ? subject.Name.c_str() : "", 100 * share, part,
-      statistics.TransparentCells > 0 ? "yes" : "no", 1e3 * seconds[0], 1e3 * seconds[1],
+      statistics.TransparentCells > 0 ? "yes" : "no", times[0].Processor, times[1].Processor,
       1e-6 * static_cast<double>(statistics.Paths), 1e-6 * segments,
-      100 * std::max(0., segments - hits) / segments, 1e-6 * hits, 1e3 * seconds[2],
-      1e3 * seconds[3], 1e3 * seconds[4]);
+      100 * std::max(0., segments - hits) / segments, 1e-6 * hits, times[2].Processor,
+      times[3].Processor, times[4].Processor);
     std::fflush(stdout);
   }
 }
@@ -750,20 +806,23 @@ void CompareAll()
   {
     subjects.push_back(std::make_unique<Subject>(std::move(mesh)));
   }
-  std::printf("Largest scalar along each ray: ms; millions of nodes tested, leaves visited, cells\n"
-              "that rays were clipped to, rays in cells; largest difference of a scalar of 0..1,\n"
-              "and pixels where it is above %g\n\n%-20s %-22s %8s %10s %10s %10s %10s %10s %6s\n",
-    ScalarTolerance, "", "", "ms", "nodes", "leaves", "cells", "in cells", "most", "above");
+  std::printf(
+    "Largest scalar along each ray: wall and processor ms; millions of nodes tested, leaves\n"
+    "visited, cells that rays were clipped to, rays in cells; largest difference of a scalar of\n"
+    "0..1 from double precision, and pixels where it is above %g\n\n"
+    "%-18s %-22s %8s %8s %7s %7s %7s %8s %9s %5s\n",
+    ScalarTolerance, "", "", "wall", "proc.", "nodes", "leaves", "cells", "in cells", "most",
+    "above");
   for (const auto& subject : subjects)
   {
     CompareMaximum(*subject);
   }
   std::printf(
     "\nA part of the range is visible: %% of the range, %% of the cells; whether the ray\n"
-    "caster leaves the others out; its first frame of a function, and those after, ms;\n"
+    "caster leaves the others out; its first frame of a function, and those after, processor ms;\n"
     "millions of entries and of cells walked through, %% of these that are transparent;\n"
     "millions of visible cells that rays go through; ms of finding the visible leaves\n"
-    "by packets of 16 x 16 and of 8 x 8, and of clipping rays to their cells, too (8)\n\n"
+    "by packets of 16 x 16 and of 8 x 8, and of clipping rays to their cells, too (16)\n\n"
     "%-20s %5s %6s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n",
     "", "range", "cells", "left", "first", "after", "entries", "walked", "transp.", "visible",
     "leaves16", "leaves8", "clip");
