@@ -250,10 +250,16 @@ public:
   /// The larger of the scalars at both ends.
   TETRALUX_INLINE Float8 GetLarger(Float8 u, Float8 v, Float8 far, Float8 near) const
   {
-    const Float8 along = this->Along(u, v);
-    const Float8 key = Select(Float8(0.f) < along, far, near);
-    return this->Middle(u, v) - along * (key / (key + Float8(this->Key)));
+    return this->GetScalar(u, v, Select(Float8(0.f) < this->Along(u, v), far, near));
   }
+
+  TETRALUX_INLINE Float8 GetScalar(Float8 u, Float8 v, Float8 key) const
+  {
+    return this->Middle(u, v) - this->Along(u, v) * (key / this->GetKey(key));
+  }
+
+  /// The key that is not relative to the cell's.
+  TETRALUX_INLINE Float8 GetKey(Float8 key) const { return key + Float8(this->Key); }
 
   bool Empty;
 
@@ -715,46 +721,126 @@ TransferFunction MakeWindow(double share, double radius)
   return function;
 }
 
-/// Finds the leaves with visible scalars along the rays.
-template <int Edge, class Visit>
-Counts FindLeaves(const Subject& subject, double share, const Visit& visit)
+/// Tells nodes without visible scalars.
+class HiddenNodes
 {
-  const std::int32_t least = subject.Ranges.GetStep(0.5 - 0.5 * share);
-  const std::int32_t most = subject.Ranges.GetStep(0.5 + 0.5 * share);
+public:
+  HiddenNodes(const Subject& subject, double share)
+    : Ranges(subject.Ranges.Nodes)
+    , Least(subject.Ranges.GetStep(0.5 - 0.5 * share))
+    , Most(subject.Ranges.GetStep(0.5 + 0.5 * share))
+  {
+  }
+
+  TETRALUX_INLINE bool operator()(std::int32_t id) const
+  {
+    const MinMaxTree::Range range = this->Ranges[id];
+    return range.Largest < this->Least || range.Least > this->Most;
+  }
+
+private:
+  const std::vector<MinMaxTree::Range>& Ranges;
+  std::int32_t Least, Most;
+};
+
+/// Finds the leaves with visible scalars along the rays.
+template <int Edge>
+Counts FindLeaves(const Subject& subject, double share)
+{
+  const HiddenNodes hidden(subject, share);
   return ForEachPacket<Edge>(subject,
     [&](Packet<Edge>& packet)
+    { packet.Walk(Order::Nearer, hidden, [](const MinMaxTree::Node&) {}); });
+}
+
+/// Calls function as Packet::ClipTo where rays of 16 x 16 go through visible cells. begin(): is
+/// called before each packet.
+template <class Begin, class Function>
+Counts ClipToVisible(const Subject& subject, double share, const std::vector<std::uint8_t>& visible,
+  const Begin& begin, const Function& function)
+{
+  const HiddenNodes hidden(subject, share);
+  return ForEachPacket<16>(subject,
+    [&](Packet<16>& packet)
     {
-      packet.Walk(
-        Order::Nearer,
-        [&](std::int32_t id)
+      begin();
+      packet.Walk(Order::Nearer, hidden,
+        [&](const MinMaxTree::Node& node)
         {
-          const MinMaxTree::Range range = subject.Ranges.Nodes[id];
-          return range.Largest < least || range.Least > most;
-        },
-        [&](const MinMaxTree::Node& node) { visit(packet, node); });
+          for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+          {
+            if (visible[subject.Tree.Cells[i]])
+            {
+              packet.ClipTo(
+                i, [](int) { return false; }, function);
+            }
+          }
+        });
     });
 }
 
-/// Clips the rays to the visible cells of these leaves.
-Counts ClipToVisible(const Subject& subject, double share, const std::vector<std::uint8_t>& visible)
+/// What is to be integrated of a cell.
+struct Segment
 {
-  return FindLeaves<16>(subject, share,
-    [&](Packet<16>& packet, const MinMaxTree::Node& node)
+  float Near, Far; ///< keys
+  float NearScalar, FarScalar;
+};
+
+/// The segments of the rays of a packet, front to back.
+class alignas(64) SegmentLists
+{
+public:
+  void Clear()
+  {
+    for (std::vector<Segment>& list : this->Lists)
     {
-      for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+      list.clear();
+    }
+  }
+
+  /// Few segments are nearer than one that was there before, since leaves come front to back.
+  void Insert(int ray, const Segment& segment)
+  {
+    std::vector<Segment>& list = this->Lists[ray];
+    list.push_back(segment);
+    std::size_t i = list.size() - 1;
+    for (; i > 0 && list[i - 1].Near < segment.Near; --i)
+    {
+      list[i] = list[i - 1];
+    }
+    list[i] = segment;
+  }
+
+private:
+  std::vector<Segment> Lists[16 * 16];
+};
+
+/// Makes the segments of all rays, packet by packet.
+void SortSegments(const Subject& subject, double share, const std::vector<std::uint8_t>& visible,
+  std::vector<SegmentLists>& lists)
+{
+  ClipToVisible(
+    subject, share, visible, [&] { lists[omp_get_thread_num()].Clear(); },
+    [&](int chunk, Float8 u, Float8 v, Float8 far, Float8 near, Mask8 hits, const PlacedCell& cell)
+    {
+      float values[4][LaneCount];
+      Store(values[0], cell.GetKey(near));
+      Store(values[1], cell.GetKey(far));
+      Store(values[2], cell.GetScalar(u, v, near));
+      Store(values[3], cell.GetScalar(u, v, far));
+      SegmentLists& own = lists[omp_get_thread_num()];
+      for (unsigned bits = Bits(hits); bits != 0; bits &= bits - 1)
       {
-        if (visible[subject.Tree.Cells[i]])
-        {
-          packet.ClipTo(
-            i, [](int) { return false; },
-            [](int, Float8, Float8, Float8, Float8, Mask8, const PlacedCell&) {});
-        }
+        const int i = __builtin_ctz(bits);
+        own.Insert(
+          chunk * LaneCount + i, { values[0][i], values[1][i], values[2][i], values[3][i] });
       }
     });
 }
 
 void MeasureSkipping(Subject& subject)
 {
+  std::vector<SegmentLists> lists(Threads);
   for (const double share : { 1., 0.6, 0.2, 0.05 })
   {
     const TransferFunction function = MakeWindow(share, subject.Walk->GetRadius());
@@ -762,30 +848,37 @@ void MeasureSkipping(Subject& subject)
       FindVisibleCells(function, subject.Walk->GetMesh().Cells, subject.Scalars, false);
     subject.Scene.Optics.SetModel(OpticalModel::EmissionAbsorption);
     RayCastStatistics statistics;
-    Counts leaves, clipped;
+    Counts clipped;
     const std::vector<Times> times = MeasureByTurns({ [&]
       {
         subject.Scene.Optics.SetTransferFunction(function); // a new version: all is made anew
         statistics = subject.Cast();
       },
-      [&] { subject.Cast(); },
-      [&] { leaves = FindLeaves<16>(subject, share, [](Packet<16>&, const MinMaxTree::Node&) {}); },
-      [&] { leaves = FindLeaves<8>(subject, share, [](Packet<8>&, const MinMaxTree::Node&) {}); },
+      [&] { subject.Cast(); }, [&] { FindLeaves<16>(subject, share); },
+      [&] { FindLeaves<8>(subject, share); },
       [&]
       {
         subject.ProjectPoints();
-        clipped = ClipToVisible(subject, share, visible);
+        clipped = ClipToVisible(
+          subject, share, visible, [] {},
+          [](int, Float8, Float8, Float8, Float8, Mask8, const PlacedCell&) {});
+      },
+      [&]
+      {
+        subject.ProjectPoints();
+        SortSegments(subject, share, visible, lists);
       } });
     const auto segments = static_cast<double>(statistics.Segments);
     const auto hits = static_cast<double>(clipped.Hits);
     const double part = 100. * static_cast<double>(std::count(visible.begin(), visible.end(), 1)) /
       static_cast<double>(visible.size());
-    std::printf("%-20s %5.0f %6.1f %6s %8.1f %8.1f %8.2f %8.2f %8.1f %8.2f %8.1f %8.1f %8.1f\n",
+    std::printf(
+      "%-20s %5.0f %6.1f %6s %8.1f %8.1f %8.2f %8.2f %8.1f %8.2f %8.1f %8.1f %8.1f %8.1f\n",
       share == 1 ? subject.Name.c_str() : "", 100 * share, part,
       statistics.TransparentCells > 0 ? "yes" : "no", times[0].Processor, times[1].Processor,
       1e-6 * static_cast<double>(statistics.Paths), 1e-6 * segments,
       100 * std::max(0., segments - hits) / segments, 1e-6 * hits, times[2].Processor,
-      times[3].Processor, times[4].Processor);
+      times[3].Processor, times[4].Processor, times[5].Processor);
     std::fflush(stdout);
   }
 }
@@ -822,10 +915,11 @@ void CompareAll()
     "caster leaves the others out; its first frame of a function, and those after, processor ms;\n"
     "millions of entries and of cells walked through, %% of these that are transparent;\n"
     "millions of visible cells that rays go through; ms of finding the visible leaves\n"
-    "by packets of 16 x 16 and of 8 x 8, and of clipping rays to their cells, too (16)\n\n"
-    "%-20s %5s %6s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n",
+    "by packets of 16 x 16 and of 8 x 8, of clipping rays to\ntheir cells, too (16 x 16), and of "
+    "keeping what was clipped in order along each ray, too\n\n"
+    "%-20s %5s %6s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n",
     "", "range", "cells", "left", "first", "after", "entries", "walked", "transp.", "visible",
-    "leaves16", "leaves8", "clip");
+    "leaves16", "leaves8", "clip", "order");
   for (const auto& subject : subjects)
   {
     MeasureSkipping(*subject);
