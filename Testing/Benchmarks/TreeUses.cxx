@@ -50,8 +50,8 @@ constexpr float BoundsMargin = 0.003f;
 /// keys on it stay numbers.
 constexpr double LeastEyeDistance = 1e-12;
 
-/// Scalars of 0..1 that differ by less agree: a cell's variation, times what single precision
-/// rounds depths in it by.
+/// Scalars of 0..1 that differ by less agree: RayCastOptions::MaximumError, since they are shown as
+/// opacities.
 constexpr double ScalarTolerance = 1e-4;
 
 /// A point in the frame of the rays.
