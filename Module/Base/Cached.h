@@ -91,8 +91,9 @@ template <class T>
 class Cached
 {
 public:
-  /// Replaces the value by build(), unless it was made from an equal key. Returns whether it was
-  /// replaced. Where build throws, the value is gone.
+  /// Replaces the value by build(), or by build of the old value if it takes one, for its memory;
+  /// unless the value was made from an equal key. Returns whether it was replaced. Where build
+  /// throws, the value is gone.
   template <class Build>
   bool Update(CacheKey key, const Build& build)
   {
@@ -101,8 +102,15 @@ public:
       return false;
     }
     this->Stamp.Reset();
-    this->Value = T();
-    this->Value = build();
+    if constexpr (std::is_invocable_v<Build, T>)
+    {
+      this->Value = build(std::exchange(this->Value, T()));
+    }
+    else
+    {
+      this->Value = T();
+      this->Value = build();
+    }
     this->Stamp.Set(std::move(key));
     return true;
   }

@@ -45,12 +45,13 @@ struct Task
 class ActiveTreeBuilder
 {
 public:
-  ActiveTreeBuilder(
-    const MinMaxTree& tree, const MinMaxRanges& ranges, const IsopolygonSource& source)
+  ActiveTreeBuilder(const MinMaxTree& tree, const MinMaxRanges& ranges,
+    const IsopolygonSource& source, RawVector<Isopolygon> memory)
     : Tree(tree)
     , Ranges(ranges)
     , Source(source)
   {
+    this->Result.Polygons = std::move(memory);
     for (int i = 0; i < source.NumberOfValues; ++i)
     {
       this->Steps.push_back(ranges.GetStep(source.Values[i]));
@@ -346,10 +347,10 @@ private:
 
 } // namespace
 
-ActiveTree MakeActiveTree(
-  const MinMaxTree& tree, const MinMaxRanges& ranges, const IsopolygonSource& source, int threads)
+ActiveTree MakeActiveTree(const MinMaxTree& tree, const MinMaxRanges& ranges,
+  const IsopolygonSource& source, int threads, RawVector<Isopolygon> memory)
 {
-  return ActiveTreeBuilder(tree, ranges, source).Build(threads);
+  return ActiveTreeBuilder(tree, ranges, source, std::move(memory)).Build(threads);
 }
 
 RawVector<CellField<1>> MakeScalarFields(
@@ -379,10 +380,12 @@ RawVector<CellField<3>> MakeGradientFields(
 }
 
 RawVector<GradientRow> MakePolygonGradients(const ActiveTree& tree, const TetrahedralMesh& mesh,
-  Span<const double> scalars, double length, double scalar, int threads)
+  Span<const double> scalars, double length, double scalar, int threads,
+  RawVector<GradientRow> memory)
 {
   const auto count = static_cast<std::int64_t>(tree.Polygons.size());
-  RawVector<GradientRow> gradients(count);
+  RawVector<GradientRow> gradients = std::move(memory);
+  gradients.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::int64_t i = 0; i < count; ++i)
   {

@@ -24,9 +24,10 @@ struct ActiveTree
   RawVector<Isopolygon> Polygons;
 };
 
-/// threads is at least 1; the tree is the same for any number.
-TETRALUXCORE_EXPORT ActiveTree MakeActiveTree(
-  const MinMaxTree& tree, const MinMaxRanges& ranges, const IsopolygonSource& source, int threads);
+/// threads is at least 1; the tree is the same for any number. memory: of polygons that are of no
+/// use any more.
+TETRALUXCORE_EXPORT ActiveTree MakeActiveTree(const MinMaxTree& tree, const MinMaxRanges& ranges,
+  const IsopolygonSource& source, int threads, RawVector<Isopolygon> memory = {});
 
 /// The scalars of points in each polygon's cell.
 TETRALUXCORE_EXPORT RawVector<CellField<1>> MakeScalarFields(
@@ -36,10 +37,10 @@ TETRALUXCORE_EXPORT RawVector<CellField<1>> MakeScalarFields(
 TETRALUXCORE_EXPORT RawVector<CellField<3>> MakeGradientFields(const ActiveTree& tree,
   const IsopolygonSource& source, const GradientRow* gradients, int threads);
 
-/// MakeCellGradient of each polygon's cell.
+/// MakeCellGradient of each polygon's cell. memory: of gradients that are of no use any more.
 TETRALUXCORE_EXPORT RawVector<GradientRow> MakePolygonGradients(const ActiveTree& tree,
   const TetrahedralMesh& mesh, Span<const double> scalars, double length, double scalar,
-  int threads);
+  int threads, RawVector<GradientRow> memory = {});
 
 } // namespace tetralux
 

@@ -173,7 +173,9 @@ void IsosurfaceSteps::UpdatePolygons(VolumeScene& scene, const IsosurfaceOptions
   if (precomputed)
   {
     update(step.Active, values, "isopolygons",
-      [&] { return MakeActiveTree(*step.Tree, step.Ranges, source, threads); });
+      [&](ActiveTree old) {
+        return MakeActiveTree(*step.Tree, step.Ranges, source, threads, std::move(old.Polygons));
+      });
   }
   const bool lit = IsLit(scene, options);
   if (precomputed && lit && options.SmoothShading)
@@ -189,11 +191,11 @@ void IsosurfaceSteps::UpdatePolygons(VolumeScene& scene, const IsosurfaceOptions
   if (precomputed && lit && !options.SmoothShading)
   {
     update(step.CellGradients, CacheKey::Of(step.Active.GetVersion()), "gradients",
-      [&]
+      [&](RawVector<GradientRow> old)
       {
         const WalkMesh& mesh = *scene.Mesh.GetMesh();
         return MakePolygonGradients(step.Active.Get(), mesh.GetMesh(), scene.Mesh.GetScalars(),
-          mesh.GetRadius(), scene.Mesh.GetGradientUnit(), threads);
+          mesh.GetRadius(), scene.Mesh.GetGradientUnit(), threads, std::move(old));
       });
   }
   const std::vector<double>& colors = scene.Mesh.GetColorScalars();

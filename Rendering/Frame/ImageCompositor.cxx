@@ -49,10 +49,10 @@ void ImageCompositor::CompositeOpaque(vtkOpenGLRenderWindow* window,
   this->SetWindow(window);
   this->Upload(rectangle, { depths, VTK_FLOAT, 1, width, height }, covered, this->DepthTexture);
   const PixelRectangle target = this->Upload(
-    rectangle, { colors, VTK_UNSIGNED_CHAR, 4, width, height }, covered, this->Texture);
-  this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  this->DrawDepth(target, this->OpaqueQuad, CompositeOpaqueFS, this->Texture);
+    rectangle, { colors, VTK_UNSIGNED_CHAR, 4, width, height }, covered, this->ByteTexture);
+  this->ByteTexture->SetMinificationFilter(vtkTextureObject::Nearest);
+  this->ByteTexture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  this->DrawDepth(target, this->OpaqueQuad, CompositeOpaqueFS, this->ByteTexture);
 }
 
 /// Draws the depth texture over what the buffers hold, with colours if there are any.
@@ -198,6 +198,7 @@ void ImageCompositor::ReleaseGraphicsResources(vtkWindow* window)
     return;
   }
   this->Texture->ReleaseGraphicsResources(window);
+  this->ByteTexture->ReleaseGraphicsResources(window);
   this->DepthTexture->ReleaseGraphicsResources(window);
   this->Quad.reset();
   this->DepthQuad.reset();

@@ -77,7 +77,9 @@ private:
     vtkTextureObject* picture, vtkTextureObject* depths);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  // One for each type: a texture object keeps the first one that it is made of.
   vtkNew<vtkTextureObject> Texture;
+  vtkNew<vtkTextureObject> ByteTexture;
   vtkNew<vtkTextureObject> DepthTexture;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   std::unique_ptr<vtkOpenGLQuadHelper> DepthQuad;

@@ -10,6 +10,7 @@
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkWindowToImageFilter.h"
 
 #include <algorithm>
@@ -62,6 +63,43 @@ TEST(IsosurfaceMapperWindow, WindowHoldsDepthsOfOpaqueSurfaces)
       EXPECT_GT(hits, 300);
       EXPECT_LT(largest, DepthRounding);
     }
+  }
+}
+
+/// The largest difference between what the window shows and the picture over a black background.
+int FindLargestDifference(IsosurfaceScene& scene)
+{
+  scene.Window->Render();
+  const int* size = scene.Window->GetSize();
+  vtkNew<vtkUnsignedCharArray> shown;
+  scene.Window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, shown, 0);
+  vtkDataArray* colors = scene.Tracer->GetOutputImage()->GetPointData()->GetArray("RGBA");
+  EXPECT_EQ(colors->GetNumberOfTuples(), shown->GetNumberOfTuples());
+  int largest = 0;
+  for (vtkIdType pixel = 0; pixel < colors->GetNumberOfTuples(); ++pixel)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      const int expected = static_cast<int>(std::lround(255 * colors->GetComponent(pixel, c)));
+      largest =
+        std::max(largest, std::abs(expected - static_cast<int>(shown->GetComponent(pixel, c))));
+    }
+  }
+  return largest;
+}
+
+// Opaque pictures go another way into the window than translucent ones.
+TEST(IsosurfaceMapperWindow, ShowsThePicture)
+{
+  IsosurfaceScene scene;
+  scene.Renderer->SetBackground(0, 0, 0);
+  scene.Renderer->GradientBackgroundOff();
+  constexpr int Rounding = 1; // of 255 steps
+  for (const double opacity : { 1., 0.5, 1., 0.7 })
+  {
+    scene.SetSurfaces({ { -0.4, opacity }, { 0.3, 1 } });
+    EXPECT_LE(FindLargestDifference(scene), Rounding) << opacity;
+    EXPECT_GT(Sum(scene.Render()), 300) << opacity;
   }
 }
 
