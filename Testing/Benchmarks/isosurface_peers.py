@@ -13,14 +13,15 @@ tetrahedra, and on the blunt fin if TETRALUX_DATA names its folder. Each run mea
   shadows       nothing changes; one positional light casts shadows
   two layers    nothing changes; the surface is translucent
 by these ways, which take turns frame by frame, each on the same number of threads
-  isosurface mapper        rays of vtkTetrahedraIsosurfaceMapper, if the program has it
+  isosurface mapper        rays of vtkTetrahedraIsosurfaceMapper
+  isosurface mapper alone  the same without the window: until the picture is in memory
   ray caster               rays of vtkTetrahedraRayCastMapper; it has no shadows, and blends all
                            layers
   extraction + rasteriser  triangles of vtkContour3DLinearGrid that OpenGL draws
   extraction + Embree      the same triangles, traced by Embree: hierarchies of low and of medium
                            quality, and of low quality where VTK's scalar tree finds the cells
-All but Embree draw into a window without a display; the empty frame is the window's own part of
-their time. Embree's picture stays in memory. A frame's time is the median.
+All others but Embree draw into a window without a display; the empty frame is the window's own part
+of their time. Embree's picture stays in memory. A frame's time is the median.
 
 Writes isosurface_peers.csv and the chart isosurface_peers.svg, which has the rings, and of Embree
 the fastest setting of each case and mesh. Prints a table of all.
@@ -36,12 +37,14 @@ from benchmark_chart import BLACK, BLUE, GREEN, RED, Axis, Panel, write_chart
 from benchmark_tables import make_table, write_csv
 
 CASES = ("same view", "new isovalue", "new step", "shadows", "two layers")
-# How the names of a way begin; Embree has several settings.
+# Names of ways, or how they begin: Embree has several settings.
+# Colour, and whether the line is dashed: pictures that go into no window.
 WAYS = {
-    "isosurface mapper": RED,
-    "ray caster": GREEN,
-    "extraction + rasteriser": BLUE,
-    "extraction + Embree": BLACK,
+    "isosurface mapper": (RED, False),
+    "isosurface mapper alone": (RED, True),
+    "ray caster": (GREEN, False),
+    "extraction + rasteriser": (BLUE, False),
+    "extraction + Embree": (BLACK, True),
 }
 
 SIZES = (1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7)
@@ -89,7 +92,7 @@ def find_fastest(rows, case, way):
     """Seconds of the fastest setting of a way on each number of tetrahedra."""
     seconds = {}
     for row in rows:
-        if row["case"] == case and row["way"].startswith(way):
+        if row["case"] == case and (row["way"] == way or row["way"].startswith(way + ",")):
             cells = int(row["tetrahedra"])
             seconds[cells] = min(seconds.get(cells, float("inf")), float(row["seconds"]))
     return seconds
@@ -99,21 +102,25 @@ def make_chart(path, rows, options):
     cells = [int(row["tetrahedra"]) for row in rows]
     lines = {(case, way): find_fastest(rows, case, way) for case in CASES for way in WAYS}
     milliseconds = [1000 * seconds for line in lines.values() for seconds in line.values()]
-    x = Axis("tetrahedra", min(cells), max(cells), base=10)
+    x = Axis("thousands of tetrahedra", min(cells) / 1000, round(max(cells), -6) / 1000, base=10)
     y = Axis("time of a frame, ms", min(milliseconds), max(milliseconds), base=10)
     panels = []
     for case in CASES:
         panel = Panel(case, x, y)
-        for way, color in WAYS.items():
-            points = [(n, 1000 * s) for n, s in sorted(lines[case, way].items())]
+        for way, style in WAYS.items():
+            points = [(n / 1000, 1000 * s) for n, s in sorted(lines[case, way].items())]
             if points:
-                panel.add_line(points, color)
+                panel.add_line(points, *style)
         panels.append(panel)
     rows_of_panels = [
         panels[k : k + PANELS_IN_A_ROW] for k in range(0, len(panels), PANELS_IN_A_ROW)
     ]
     drawn = {way for (_, way), line in lines.items() if line}
-    legend = [(way, color, False) for way, color in WAYS.items() if way in drawn]
+    legend = [
+        (way.replace("isosurface mapper alone", "in memory"), *style)
+        for way, style in WAYS.items()
+        if way in drawn
+    ]
     title = f"Isosurfaces of a ring, {options.size} x {options.size}, {options.threads} threads"
     write_chart(path, title, rows_of_panels, legend)
 
