@@ -68,7 +68,9 @@ void IsosurfaceSteps::ChooseStep(
     return;
   }
   this->Numbers.Set(std::move(numbers));
-  CacheKey points = MakeNumbersKey(scene.Mesh.GetMesh()->GetMesh().Points);
+  this->Points.Update(CacheKey::Of(scene.Mesh.GetPointsVersion()),
+    [&] { return MakeNumbersKey(scene.Mesh.GetMesh()->GetMesh().Points); });
+  CacheKey points = this->Points.Get();
   CacheKey key = MakeNumbersKey(scene.Mesh.GetScalars());
   const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
     [&](const Entry& entry) { return entry.Key == key && entry.PointsKey == points; });

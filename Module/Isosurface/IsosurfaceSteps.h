@@ -40,6 +40,7 @@ private:
 
   CacheStamp Cells;         ///< that all steps are of
   CacheStamp Numbers;       ///< points and scalars of the last frame
+  Cached<CacheKey> Points;  ///< the numbers of the points
   std::list<Entry> Entries; ///< the present step first, then by last use
   bool IsNew = false;       ///< the present step
 };
