@@ -32,8 +32,7 @@ std::size_t GetBytes(const MinMaxTree& tree)
 const IsosurfaceStep& IsosurfaceSteps::Update(VolumeScene& scene, const IsosurfaceOptions& options,
   int threads, IsosurfaceStatistics& statistics)
 {
-  this->ChooseStep(scene, options, statistics);
-  this->UpdateTree(scene, options, threads, statistics);
+  this->ChooseStep(scene, options, threads, statistics);
   this->UpdatePolygons(scene, options, threads, statistics);
   this->Forget(options.StepCacheBytes);
 
@@ -49,9 +48,9 @@ const IsosurfaceStep& IsosurfaceSteps::Update(VolumeScene& scene, const Isosurfa
   return step;
 }
 
-/// Brings the entry of the scene's numbers to the front, or makes an empty one there.
-void IsosurfaceSteps::ChooseStep(
-  const VolumeScene& scene, const IsosurfaceOptions& options, IsosurfaceStatistics& statistics)
+/// Brings the entry of the scene's numbers to the front, or makes one there.
+void IsosurfaceSteps::ChooseStep(const VolumeScene& scene, const IsosurfaceOptions& options,
+  int threads, IsosurfaceStatistics& statistics)
 {
   const Stopwatch stopwatch;
   CacheKey cells = CacheKey::Of(scene.Mesh.GetCellsVersion(), options.Build);
@@ -62,53 +61,49 @@ void IsosurfaceSteps::ChooseStep(
     this->Numbers.Reset();
   }
   CacheKey numbers = CacheKey::Of(scene.Mesh.GetPointsVersion(), scene.Mesh.GetScalarsVersion());
-  this->IsNew = false;
   if (this->Numbers.Has(numbers))
   {
     return;
   }
-  this->Numbers.Set(std::move(numbers));
+  this->Numbers.Reset(); // what follows may run out of memory
   this->Points.Update(CacheKey::Of(scene.Mesh.GetPointsVersion()),
     [&] { return MakeNumbersKey(scene.Mesh.GetMesh()->GetMesh().Points); });
-  CacheKey points = this->Points.Get();
-  CacheKey key = MakeNumbersKey(scene.Mesh.GetScalars());
+  Entry entry;
+  entry.PointsKey = this->Points.Get();
+  entry.Key = MakeNumbersKey(scene.Mesh.GetScalars());
   const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
-    [&](const Entry& entry) { return entry.Key == key && entry.PointsKey == points; });
+    [&](const Entry& other)
+    { return other.Key == entry.Key && other.PointsKey == entry.PointsKey; });
+  statistics.RangesSeconds += stopwatch.GetSeconds();
   if (found != this->Entries.end())
   {
     this->Entries.splice(this->Entries.begin(), this->Entries, found);
   }
   else
   {
-    this->Entries.emplace_front();
-    this->Entries.front().Key = std::move(key);
-    this->Entries.front().PointsKey = std::move(points);
-    this->IsNew = true;
+    this->MakeStep(entry, scene, options, threads, statistics);
+    this->Entries.push_front(std::move(entry));
   }
-  statistics.RangesSeconds += stopwatch.GetSeconds();
+  this->Numbers.Set(std::move(numbers));
 }
 
-void IsosurfaceSteps::UpdateTree(const VolumeScene& scene, const IsosurfaceOptions& options,
-  int threads, IsosurfaceStatistics& statistics)
+/// Makes the tree and the ranges of an entry that has its keys. Takes from the entries what depends
+/// on points or scalars alone that did not change.
+void IsosurfaceSteps::MakeStep(Entry& entry, const VolumeScene& scene,
+  const IsosurfaceOptions& options, int threads, IsosurfaceStatistics& statistics)
 {
-  if (!this->IsNew)
-  {
-    return;
-  }
   const WalkMesh& walk = *scene.Mesh.GetMesh();
   const TetrahedralMesh& mesh = walk.GetMesh();
-  Entry& entry = this->Entries.front();
   const Stopwatch treeStopwatch;
-  // Of the steps before, what depends on points or scalars alone that did not change.
   std::shared_ptr<MinMaxTree> other;
   bool hasRanges = false;
   for (const Entry& before : this->Entries)
   {
-    if (before.Step.Tree && before.PointsKey == entry.PointsKey)
+    if (before.PointsKey == entry.PointsKey)
     {
       entry.Step.Tree = before.Step.Tree;
     }
-    if (before.Step.Tree && !hasRanges && before.Key == entry.Key)
+    if (!hasRanges && before.Key == entry.Key)
     {
       entry.Step.Ranges = before.Step.Ranges;
       hasRanges = true;
@@ -117,7 +112,7 @@ void IsosurfaceSteps::UpdateTree(const VolumeScene& scene, const IsosurfaceOptio
   }
   if (options.StepCacheBytes == 0)
   {
-    this->Entries.resize(1);
+    this->Entries.clear();
   }
   if (!entry.Step.Tree && other)
   {

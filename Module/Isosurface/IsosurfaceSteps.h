@@ -25,15 +25,15 @@ public:
 private:
   struct Entry
   {
-    CacheKey Key; ///< of points and scalars, by their numbers
-    CacheKey PointsKey;
+    CacheKey Key;       ///< the numbers of the scalars
+    CacheKey PointsKey; ///< the numbers of the points
     IsosurfaceStep Step;
   };
 
-  void ChooseStep(
-    const VolumeScene& scene, const IsosurfaceOptions& options, IsosurfaceStatistics& statistics);
-  void UpdateTree(const VolumeScene& scene, const IsosurfaceOptions& options, int threads,
+  void ChooseStep(const VolumeScene& scene, const IsosurfaceOptions& options, int threads,
     IsosurfaceStatistics& statistics);
+  void MakeStep(Entry& entry, const VolumeScene& scene, const IsosurfaceOptions& options,
+    int threads, IsosurfaceStatistics& statistics);
   void UpdatePolygons(VolumeScene& scene, const IsosurfaceOptions& options, int threads,
     IsosurfaceStatistics& statistics);
   void Forget(std::size_t bytes);
@@ -42,7 +42,6 @@ private:
   CacheStamp Numbers;       ///< points and scalars of the last frame
   Cached<CacheKey> Points;  ///< the numbers of the points
   std::list<Entry> Entries; ///< the present step first, then by last use
-  bool IsNew = false;       ///< the present step
 };
 
 } // namespace tetralux
