@@ -18,8 +18,9 @@ constexpr int LeafSize = 8;
 
 CacheKey MakeNumbersKey(const std::vector<double>& numbers)
 {
-  const std::array<std::uint64_t, 2> digest = MakeDigest(numbers);
-  return CacheKey::Of(digest[0], digest[1]);
+  Digester digester;
+  digester.Add(numbers.data(), numbers.size() * sizeof(double));
+  return CacheKey::Of(digester.Get()[0], digester.Get()[1]);
 }
 
 std::size_t GetBytes(const MinMaxTree& tree)

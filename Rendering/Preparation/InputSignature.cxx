@@ -24,7 +24,6 @@
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace tetralux
 {
@@ -86,50 +85,15 @@ void AddCells(CacheKey& key, vtkDataSet* dataSet)
   Add(key, dataSet->GetCellData()->GetArray(ghosts));
 }
 
-/// Two independent multiplicative hashes of 64-bit words.
-class Digester
+void Add(Digester& digester, vtkDataArray* array)
 {
-public:
-  void Add(std::uint64_t word)
+  digester.Add(static_cast<std::uint64_t>(array ? array->GetDataType() : 0));
+  if (array)
   {
-    constexpr std::uint64_t FirstFactor = 0x9e3779b97f4a7c15;
-    constexpr std::uint64_t SecondFactor = 0xc2b2ae3d27d4eb4f;
-    this->State[0] = Rotate((this->State[0] ^ word) * FirstFactor);
-    this->State[1] = Rotate((this->State[1] + word) * SecondFactor);
-  }
-
-  void Add(const void* bytes, std::size_t size)
-  {
-    this->Add(size);
-    const auto* next = static_cast<const unsigned char*>(bytes);
-    for (; size > 0; size -= std::min(size, sizeof(std::uint64_t)))
-    {
-      std::uint64_t word = 0;
-      std::memcpy(&word, next, std::min(size, sizeof(word)));
-      next += std::min(size, sizeof(word));
-      this->Add(word);
-    }
-  }
-
-  void Add(vtkDataArray* array)
-  {
-    if (!array)
-    {
-      this->Add(std::uint64_t{ 0 });
-      return;
-    }
-    this->Add(static_cast<std::uint64_t>(array->GetDataType()));
-    this->Add(array->GetVoidPointer(0),
+    digester.Add(array->GetVoidPointer(0),
       static_cast<std::size_t>(array->GetNumberOfValues()) * array->GetDataTypeSize());
   }
-
-  const CellsDigest& Get() const { return this->State; }
-
-private:
-  static std::uint64_t Rotate(std::uint64_t x) { return (x << 31) | (x >> 33); }
-
-  CellsDigest State{ 0x243f6a8885a308d3, 0x13198a2e03707344 };
-};
+}
 
 } // namespace
 
@@ -168,7 +132,7 @@ CacheKey GetPointsKey(const std::vector<DataSetBlock>& blocks)
   return key;
 }
 
-CellsDigest DigestCells(const std::vector<DataSetBlock>& blocks)
+Digest DigestCells(const std::vector<DataSetBlock>& blocks)
 {
   Digester digester;
   for (const DataSetBlock& block : blocks)
@@ -179,11 +143,11 @@ CellsDigest DigestCells(const std::vector<DataSetBlock>& blocks)
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(dataSet))
     {
       vtkCellArray* cells = grid->GetCells();
-      digester.Add(cells ? cells->GetConnectivityArray() : nullptr);
-      digester.Add(cells ? cells->GetOffsetsArray() : nullptr);
-      digester.Add(grid->GetCellTypesArray());
-      digester.Add(grid->GetFaces());
-      digester.Add(grid->GetFaceLocations());
+      Add(digester, cells ? cells->GetConnectivityArray() : nullptr);
+      Add(digester, cells ? cells->GetOffsetsArray() : nullptr);
+      Add(digester, grid->GetCellTypesArray());
+      Add(digester, grid->GetFaces());
+      Add(digester, grid->GetFaceLocations());
       const bool hasWeights = grid->GetPointData()->GetRationalWeights() != nullptr;
       digester.Add(static_cast<std::uint64_t>(hasWeights));
     }
@@ -204,8 +168,8 @@ CellsDigest DigestCells(const std::vector<DataSetBlock>& blocks)
       digester.Add(MakeVersion()); // never the same
     }
     const char* ghosts = vtkDataSetAttributes::GhostArrayName();
-    digester.Add(dataSet->GetPointData()->GetArray(ghosts));
-    digester.Add(dataSet->GetCellData()->GetArray(ghosts));
+    Add(digester, dataSet->GetPointData()->GetArray(ghosts));
+    Add(digester, dataSet->GetCellData()->GetArray(ghosts));
   }
   return digester.Get();
 }

@@ -3,11 +3,10 @@
 #define tetralux_InputSignature_h
 
 #include "Base/Cached.h"
+#include "Base/Digest.h"
 #include "Intake/DataSetBlocks.h"
 #include "Intake/ScalarExtraction.h"
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 class vtkVolumeProperty;
@@ -25,10 +24,9 @@ CacheKey GetCellsKey(const std::vector<DataSetBlock>& blocks);
 /// Of the coordinates of the points.
 CacheKey GetPointsKey(const std::vector<DataSetBlock>& blocks);
 
-/// 128 bits of what GetCellsKey is of, by content: a reader of a time series makes new arrays of
-/// the same cells in every step. Linear time, some five milliseconds a million tetrahedra.
-using CellsDigest = std::array<std::uint64_t, 2>;
-CellsDigest DigestCells(const std::vector<DataSetBlock>& blocks);
+/// Of what GetCellsKey is of, by content: a reader of a time series makes new arrays of the same
+/// cells in every step. Linear time, some five milliseconds a million tetrahedra.
+Digest DigestCells(const std::vector<DataSetBlock>& blocks);
 
 /// Of all that scalars depend on beside the mesh: the selected array of each data set.
 CacheKey GetScalarsKey(const std::vector<DataSetBlock>& blocks, const ScalarSelection& selection);

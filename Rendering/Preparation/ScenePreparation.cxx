@@ -115,7 +115,7 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
     return true;
   }
   const Stopwatch intakeStopwatch;
-  const CellsDigest digest = sameCells ? this->Cells : DigestCells(blocks);
+  const Digest digest = sameCells ? this->Cells : DigestCells(blocks);
   if (hasMesh && digest == this->Cells && this->MovePoints(input))
   {
     this->CellsKey = std::move(cellsKey);
@@ -138,7 +138,7 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   // What is found belongs to this input: if it is aborted, the mesh of the last one is of no use.
   this->CellsKey = CacheKey();
   this->PointsKey = CacheKey();
-  this->Cells = CellsDigest();
+  this->Cells = Digest();
   this->Merger.Start(settings.Merging, input, intake.Mesh);
   this->Merging.Reset();
   const CoincidentPoints merged = this->Merger.Choose(settings.Merging, input, settings.Scalars);

@@ -99,7 +99,7 @@ private:
 
   // What the stages were made from.
   CacheKey CellsKey;
-  CellsDigest Cells{};
+  Digest Cells{};
   CacheKey PointsKey;
   CacheStamp Merging;
   PointMerger Merger;
