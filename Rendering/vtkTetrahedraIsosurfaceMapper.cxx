@@ -172,7 +172,7 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     options.WindowDepths = this->Private->WindowDepths;
     frame.WindowDepths = this->Private->WindowDepths;
   }
-  const bool sampled = options.AmbientOcclusion || options.ShadowSoftness > 0;
+  const bool sampled = options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0);
   if (!frame.WindowDepths.empty() && picture.IsWindowSized && !sampled &&
     HasOnlyOpaqueSurfaces(*frame.Scene))
   {

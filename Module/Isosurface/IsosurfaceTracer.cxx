@@ -151,14 +151,14 @@ void FillLight(const VolumeScene& scene, const IsosurfaceStep& step, const RayGr
     in.Light.NumberOfGradients = static_cast<std::int32_t>(gradients.size());
   }
   in.Lighting = &in.Light;
-  if (options.Shadows)
+  if (options.Shadows && samples.Count > 0)
   {
     in.ShadowSources =
       MakeShadowSources(options.Lights, grid, mesh, options.ShadowSoftness, samples);
     in.Shadows = in.ShadowSources.data();
     in.NumberOfShadows = static_cast<int>(in.ShadowSources.size());
   }
-  if (options.AmbientOcclusion)
+  if (options.AmbientOcclusion && samples.Count > 0)
   {
     in.OcclusionSamples = MakeOcclusionSamples(grid, mesh, samples);
     in.Occlusion = in.OcclusionSamples.data();
@@ -200,7 +200,7 @@ public:
   PictureMean Mean;
 };
 
-/// The samples of the next picture of a mean.
+/// The samples of the next picture of a mean: none when the mean is of all.
 SampleRange IsosurfaceTracer::Internals::ChooseSamples(const VolumeScene& scene,
   const RayGrid& grid, const RayLimits& limits, const IsosurfaceOptions& options)
 {
@@ -210,7 +210,8 @@ SampleRange IsosurfaceTracer::Internals::ChooseSamples(const VolumeScene& scene,
   {
     this->Mean.Start(MakePictureKey(scene, grid, limits, options));
     const int frames = options.MaximumSamples / samples.Count;
-    samples.First = std::min(this->Mean.GetCount(), frames - 1) * samples.Count;
+    samples.First = this->Mean.GetCount() * samples.Count;
+    samples.Count = this->Mean.GetCount() < frames ? samples.Count : 0;
   }
   else
   {
@@ -326,7 +327,14 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   this->Private->TraceTiles(in, options, threads, statistics);
   if (IsSampled(scene, options) && !statistics.Aborted)
   {
-    this->Private->Mean.Add(colors, samples.First / samples.Count);
+    if (samples.Count > 0)
+    {
+      this->Private->Mean.Add(colors);
+    }
+    else
+    {
+      this->Private->Mean.CopyTo(colors);
+    }
     statistics.Samples = samples.First + samples.Count;
   }
   if (precomputed)

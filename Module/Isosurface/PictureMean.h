@@ -29,16 +29,10 @@ public:
   /// Pictures that the mean is of.
   int GetCount() const { return this->Count; }
 
-  /// Makes a picture the one of this index, from 0 up, and replaces it by the mean: a picture that
-  /// is in the mean already changes nothing.
-  void Add(Span<float> colors, int index)
+  /// Adds a picture, and replaces it by the mean.
+  void Add(Span<float> colors)
   {
     this->Colors.resize(colors.size());
-    if (index < this->Count)
-    {
-      std::copy(this->Colors.begin(), this->Colors.end(), colors.begin());
-      return;
-    }
     ++this->Count;
     const float share = 1.f / static_cast<float>(this->Count);
     for (std::size_t i = 0; i < colors.size(); ++i)
@@ -46,6 +40,12 @@ public:
       this->Colors[i] += (colors[i] - this->Colors[i]) * share;
       colors[i] = this->Colors[i];
     }
+  }
+
+  /// Of the pictures that were added: one at least.
+  void CopyTo(Span<float> colors) const
+  {
+    std::copy(this->Colors.begin(), this->Colors.end(), colors.begin());
   }
 
   void Reset() { *this = PictureMean(); }

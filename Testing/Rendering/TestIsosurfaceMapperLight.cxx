@@ -83,6 +83,9 @@ TEST(IsosurfaceMapperLight, RestingPicturesAreRefined)
       pictures.push_back(scene.Render());
       EXPECT_EQ(scene.Get("rays", "light_samples"), std::to_string(samples));
       EXPECT_LE(FindLargestExcess(pictures.back(), lit), Rounding);
+      const bool isComplete = pictures.size() > 4;
+      const std::string shadow = scene.Get("traversal", "shadow");
+      EXPECT_EQ(shadow.find("\"packets\":0,") != std::string::npos, isComplete) << shadow;
     }
     EXPECT_GT(FindLargestExcess(lit, pictures[0]), 0.1);
     EXPECT_NE(pictures[0], pictures[1]);
