@@ -9,6 +9,7 @@
 
 #include "Isosurface/FramePolygon.h"
 #include "Isosurface/IsopolygonExtraction.h"
+#include "Isosurface/PlacedPolygon.h"
 #include "Isosurface/PolygonLimits.h"
 #include "Isosurface/TraceInput.h"
 
@@ -18,6 +19,16 @@ namespace TETRALUX_ISA
 {
 namespace
 {
+
+/// A polygon takes two cache lines.
+TETRALUX_INLINE void PrefetchPolygons(const TraceTree& tree, const MinMaxTree::Node& node)
+{
+  for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+  {
+    __builtin_prefetch(tree.Polygons[i].X);
+    __builtin_prefetch(tree.Polygons[i].Z);
+  }
+}
 
 /// Planes that bound what a packet can hit, one a lane, in the mesh's frame.
 class PacketFrustum
