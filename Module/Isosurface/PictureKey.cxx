@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Isosurface/PictureKey.h"
 
+#include "Base/Digest.h"
+
 #include <array>
 
 namespace tetralux
@@ -37,10 +39,11 @@ CacheKey MakePictureKey(const VolumeScene& scene, const RayGrid& grid, const Ray
     add(plane);
   }
   add(limits.CroppingPlanes);
-  const std::size_t pixels = static_cast<std::size_t>(grid.Width) * grid.Height;
-  for (std::size_t i = 0; limits.MaximumDistances && i < pixels; ++i)
+  if (limits.MaximumDistances)
   {
-    key.Add(limits.MaximumDistances[i]);
+    Digester distances;
+    distances.Add(limits.MaximumDistances, sizeof(float) * grid.Width * grid.Height);
+    add(distances.Get());
   }
   const Material& surface = options.Surface;
   add(std::array<float, 4>{
