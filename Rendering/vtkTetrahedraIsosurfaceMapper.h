@@ -111,6 +111,7 @@ public:
   ///@{
   /**
    * Set the samples after which a picture is not refined any more, 1 to 100000. Default 256.
+   * Further frames trace neither shadows nor occlusion.
    */
   virtual void SetMaximumSamples(int samples);
   vtkGetMacro(MaximumSamples, int);

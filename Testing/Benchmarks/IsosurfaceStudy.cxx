@@ -24,6 +24,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -106,6 +107,8 @@ struct Study
     settings.Options.NumberOfThreads = this->Options.Threads;
     // As the paper does by default (section 7).
     settings.Options.SmoothShading = false;
+    // So that each frame traces its light, however many are measured.
+    settings.Options.MaximumSamples = std::numeric_limits<int>::max();
     return settings;
   }
 
