@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ImageCasterOptions_h
+#define tetralux_ImageCasterOptions_h
+
+#include "TriangleCaster/SlicePlanes.h"
+
+#include <functional>
+
+namespace tetralux
+{
+
+struct ImageCasterOptions
+{
+  double SampleDistance = 1; ///< from slice to slice, world units, above 0
+  SliceShape Shape = SliceShape::Planes;
+
+  /// Whether a sample's opacity is that of its own ray's step. Else it is that of the step of a ray
+  /// along the normal of the planes (section 1.1).
+  bool CorrectOpacity = true;
+
+  /// A pixel is opaque when its translucency is below this, 0..1 (section 3.2).
+  double Threshold = 1. / 255;
+  bool EndTriangles = true; ///< TT: an S-triangle ends when all its pixels are opaque
+  bool SkipPixels = true;   ///< OP: opaque pixels of others are not sampled any more
+
+  bool SkipEmptySpace = true; ///< slices of an S-triangle that meet nothing visible are left out
+
+  /// Tiles are squares of this many pixels, 4 to 64.
+  int TileSize = 8;
+  bool Triangles = false; ///< tiles are cast in two triangles; else as they are
+
+  int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
+
+  /// Use the kernels that run on any processor even where there are faster ones; the pictures
+  /// differ by rounding. For tests of those kernels.
+  bool PortableKernels = false;
+
+  /// As in RayCastOptions. May be empty.
+  std::function<bool(double)> Progress;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ImageOptics_h
+#define tetralux_ImageOptics_h
+
+#include "Optics/TransferFunction.h"
+
+namespace tetralux
+{
+
+/// How the opacity of a step follows from the scalar opacity a of the transfer function, 0..1, and
+/// the step's length l in unit distances.
+enum class StepOpacity
+{
+  Power,      ///< 1 - (1 - a)^l: the model of VTK's mappers of image data
+  Attenuation ///< 1 - exp(-a l): that of mappers of unstructured grids
+};
+
+/// What the rays gather in an image volume.
+struct ImageOptics
+{
+  /// Colours, and the scalar opacity a in place of the attenuation: 0..1, or for
+  /// StepOpacity::Attenuation at least 0.
+  TransferFunction Function;
+  StepOpacity Opacity = StepOpacity::Power;
+  double UnitDistance = 1; ///< world units, above 0
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_SlicePlanes_h
+#define tetralux_SlicePlanes_h
+
+#include "TetraluxCoreModule.h"
+#include "TriangleCaster/ImageVolume.h"
+#include "View/RayGrid.h"
+
+#include <cstdint>
+
+namespace tetralux
+{
+
+/// What a volume is cut by (Knittel 1999, sections 1.1 and 2).
+enum class SliceShape
+{
+  Planes, ///< parallel to the plane of the picture: under perspective, oblique rays have longer
+          ///< steps
+  Shells  ///< spheres around the eye: all rays have the same step. Planes in a parallel projection.
+};
+
+/// The slabs of a picture: slab n is what is between depths Origin + n Distance and Origin +
+/// (n + 1) Distance. A ray has one sample in each slab, at the middle of its way through the part
+/// of the slab that is in the volume and within the ray's limits; that way is the sample's length.
+///
+/// The depth of a point is its distance from the plane of the camera that the rays start at, or for
+/// shells from the eye.
+struct SlicePlanes
+{
+  SliceShape Shape = SliceShape::Planes;
+  double Distance = 1; ///< from one to the next, world units, above 0
+  double Origin = 0;   ///< depth of the front of the volume's box, but not in front of the camera
+  std::int32_t Count = 0; ///< slabs up to the back of the volume's box
+
+  /// What the depth grows by along a ray's Direction of RayGrid, that is the depth of Direction.
+  /// direction: of the ray.
+  double GetDepthOfDirection(const double direction[3]) const;
+
+  double Normal[3] = { 0, 0, -1 }; ///< of the planes, away from the camera, of length 1
+};
+
+/// The slabs of a picture of this volume; grid.MeshFromWorld leads to its coordinates. Throws
+/// std::invalid_argument, with one line, if distance is not above 0, or so short that there are
+/// more than 2^24 slabs.
+TETRALUXCORE_EXPORT SlicePlanes MakeSlicePlanes(
+  const ImageVolume& volume, const RayGrid& grid, SliceShape shape, double distance);
+
+} // namespace tetralux
+
+#endif
