@@ -58,7 +58,8 @@
 //   GatherPairs        two consecutive integers from base + 2 * index of each lane, transposed.
 //                      Indices are at least 0.
 //   GatherWords        32 bits from base + index of each lane, which counts bytes, at any alignment
-//   GatherNeighbors    two consecutive floats from base + index of each lane. Indices are at least 0.
+//   GatherNeighbors    two consecutive floats from base + index of each lane. Indices are at least
+//                      0.
 //   LookUp(t, index)   t[index] of each lane, of a table of LaneCount or of two times as many.
 //                      Unspecified where an index is not in the table.
 //   Lane(a, i)         one lane

@@ -2,7 +2,8 @@
 #ifndef tetralux_VoxelLanes_h
 #define tetralux_VoxelLanes_h
 
-// Values of a volume in lanes: two neighbours along x in one load, and eight of a cell interpolated.
+// Values of a volume in lanes: two neighbours along x in one load, and eight of a cell
+// interpolated.
 
 #include "Simd/Lanes.h"
 

@@ -17,8 +17,8 @@ struct CroppedRay
   double Begin[MostCroppedParts], End[MostCroppedParts]; ///< ascending
 };
 
-/// Cuts [begin, end] of the ray origin + t direction. Either end may be infinite. A point on a plane
-/// belongs to the region above it.
+/// Cuts [begin, end] of the ray origin + t direction. Either end may be infinite. A point on a
+/// plane belongs to the region above it.
 inline CroppedRay CropRay(const double (&planes)[6], std::uint32_t flags, const double (&origin)[3],
   const double (&direction)[3], double begin, double end)
 {
