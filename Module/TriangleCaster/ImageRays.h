@@ -48,7 +48,22 @@ struct ImageRays
   float Color[3][LaneCount];
   float Translucency[LaneCount];
   float Front[LaneCount]; ///< slab position of what contributes first, or -1
-  bool Ended;             ///< all rays are opaque
+  bool Ended;             ///< nothing changes any ray any more
+
+  /// Nothing gathered, and no part to go through.
+  void Clear()
+  {
+    for (int l = 0; l < LaneCount; ++l)
+    {
+      this->Color[0][l] = this->Color[1][l] = this->Color[2][l] = 0.f;
+      this->Translucency[l] = 1.f;
+      this->Front[l] = -1.f;
+      this->WorldLength[l] = 0;
+    }
+    this->FirstSlab = NoSlab;
+    this->LastSlab = -1;
+    this->Ended = true;
+  }
 };
 
 /// Where the rays go, and the slab positions between which they are in the volume and its limits.
@@ -175,12 +190,6 @@ TETRALUX_NOINLINE void SetUpRays(const ImageKernelInput& in, ImageRays& rays)
         rays.InnerLast = std::min(rays.InnerLast, last - 1);
       }
     }
-  }
-  for (int l = 0; l < LaneCount; ++l)
-  {
-    rays.Color[0][l] = rays.Color[1][l] = rays.Color[2][l] = 0.f;
-    rays.Translucency[l] = 1.f;
-    rays.Front[l] = -1.f;
   }
   rays.Ended = rays.LastSlab < 0;
 }
