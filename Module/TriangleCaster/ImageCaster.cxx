@@ -27,16 +27,16 @@ constexpr int WorkSize = 32;
 constexpr int SmallestTile = 4;
 constexpr int LargestTile = 64;
 
-ImageKernel GetKernel(InstructionSet set, ImageScalar type)
+ImageKernel GetKernel(InstructionSet set, const ImageKernelInput& in)
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
   if (set == InstructionSet::Avx2)
   {
-    return GetImageKernelAvx2(type);
+    return GetImageKernelAvx2(in);
   }
 #endif
   static_cast<void>(set);
-  return GetImageKernelGeneric(type);
+  return GetImageKernelGeneric(in);
 }
 
 void CheckVolume(const ImageVolume& volume)
@@ -237,6 +237,7 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options)
 {
   ImageKernelInput in{};
+  in.Type = this->Volume.Type;
   in.Values = this->Volume.Values;
   in.Row = this->Volume.Dimensions[0];
   in.Slice = this->Volume.Dimensions[0] * this->Volume.Dimensions[1];
@@ -316,7 +317,7 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
 
   const InstructionSet set =
     options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();
-  const ImageKernel kernel = GetKernel(set, self.Volume.Type);
+  const ImageKernel kernel = GetKernel(set, in);
   struct alignas(64) Counts : ImageKernelCounts
   {
   };
@@ -332,7 +333,6 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   for (const Counts& count : counts)
   {
     statistics.Triangles += count.Triangles;
-    statistics.SkippedSlices += count.SkippedSlices;
     statistics.Samples += count.Samples;
   }
   statistics.TerminationError = in.Threshold;

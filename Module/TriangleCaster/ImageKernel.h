@@ -61,6 +61,7 @@ struct TransferLookup
 struct ImageKernelInput
 {
   // The volume.
+  ImageScalar Type;
   const void* Values;
   std::int32_t Row;   ///< values from one row to the next
   std::int32_t Slice; ///< values from one slice of the grid to the next
@@ -101,17 +102,19 @@ struct ImageKernelInput
 struct ImageKernelCounts
 {
   std::int64_t Triangles = 0;
-  std::int64_t SkippedSlices = 0;
   std::int64_t Samples = 0;
 };
 
 /// Casts the pixels of a tile, whose edges are multiples of TileSize or those of the picture.
 using ImageKernel = void (*)(const ImageKernelInput&, const Tile&, ImageKernelCounts&);
 
-ImageKernel GetImageKernelGeneric(ImageScalar type);
+/// The kernel that does what an input asks for.
+///@{
+ImageKernel GetImageKernelGeneric(const ImageKernelInput& in);
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-ImageKernel GetImageKernelAvx2(ImageScalar type);
+ImageKernel GetImageKernelAvx2(const ImageKernelInput& in);
 #endif
+///@}
 
 } // namespace tetralux
 

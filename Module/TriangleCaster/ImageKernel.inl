@@ -190,7 +190,7 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
       const Tile box{ x, y, std::min(x + in.TileSize, tile.X1),
         std::min(y + in.TileSize, tile.Y1) };
       blocks.clear();
-      FindVisibleBlocks(in, box, 0, blockCount, blocks);
+      FindVisibleBlocks(in, TileBeam(in, box), 0, blockCount, blocks);
       for (int triangle = in.Triangles ? 0 : -1; triangle < (in.Triangles ? 2 : 0); ++triangle)
       {
         const int count = TakePixels(box, triangle, rays.data());
@@ -212,38 +212,41 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
   }
 }
 
-/// The composite model with the fastest lookup for this transfer function.
-template <class Value>
-void CastComposite(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& counts)
+/// The kernel of a model, with the fastest lookup for the transfer function.
+template <class Value, template <class, class> class Model>
+ImageKernel ChooseLookup(const ImageKernelInput& in)
 {
   if (in.Transfer.Count <= LaneCount)
   {
-    CastTile<Value, CompositeModel<Value, FewIntervals<LaneCount>>>(in, tile, counts);
+    return &CastTile<Value, Model<Value, FewIntervals<LaneCount>>>;
   }
-  else if (in.Transfer.Count <= TransferLookup::MostFew)
+  if (in.Transfer.Count <= TransferLookup::MostFew)
   {
-    CastTile<Value, CompositeModel<Value, FewIntervals<TransferLookup::MostFew>>>(in, tile, counts);
+    return &CastTile<Value, Model<Value, FewIntervals<TransferLookup::MostFew>>>;
   }
-  else
-  {
-    CastTile<Value, CompositeModel<Value, ManyIntervals>>(in, tile, counts);
-  }
+  return &CastTile<Value, Model<Value, ManyIntervals>>;
 }
 
-ImageKernel ChooseImageKernel(ImageScalar type)
+template <class Value>
+ImageKernel ChooseModel(const ImageKernelInput& in)
 {
-  switch (type)
+  return ChooseLookup<Value, CompositeModel>(in);
+}
+
+ImageKernel ChooseImageKernel(const ImageKernelInput& in)
+{
+  switch (in.Type)
   {
     case ImageScalar::Int8:
-      return &CastComposite<std::int8_t>;
+      return ChooseModel<std::int8_t>(in);
     case ImageScalar::UInt8:
-      return &CastComposite<std::uint8_t>;
+      return ChooseModel<std::uint8_t>(in);
     case ImageScalar::Int16:
-      return &CastComposite<std::int16_t>;
+      return ChooseModel<std::int16_t>(in);
     case ImageScalar::UInt16:
-      return &CastComposite<std::uint16_t>;
+      return ChooseModel<std::uint16_t>(in);
     default:
-      return &CastComposite<float>;
+      return ChooseModel<float>(in);
   }
 }
 

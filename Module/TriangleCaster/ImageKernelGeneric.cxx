@@ -6,7 +6,10 @@
 namespace tetralux
 {
 
-ImageKernel GetImageKernelGeneric(ImageScalar type)
+ImageKernel GetImageKernelGeneric(const ImageKernelInput& in)
+{
+  return TETRALUX_ISA::ChooseImageKernel(in);
+}
 {
   return TETRALUX_ISA::ChooseImageKernel(type);
 }
