@@ -10,8 +10,5 @@ ImageKernel GetImageKernelGeneric(const ImageKernelInput& in)
 {
   return TETRALUX_ISA::ChooseImageKernel(in);
 }
-{
-  return TETRALUX_ISA::ChooseImageKernel(type);
-}
 
 } // namespace tetralux
