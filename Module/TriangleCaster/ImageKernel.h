@@ -6,8 +6,10 @@
 // The kernels themselves (ImageKernel.inl) are compiled once for each instruction set.
 
 #include "Base/Tile.h"
+#include "Lighting/KernelLighting.h"
 #include "Optics/IntervalTable.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/ImageOptics.h"
 #include "TriangleCaster/ImageVolume.h"
 #include "TriangleCaster/SlicePlanes.h"
 #include "View/RayGrid.h"
@@ -79,12 +81,25 @@ struct ImageKernelInput
   bool CorrectOpacity;
   float Threshold;
 
+  // Gradients.
+  const KernelLighting* Lighting;  ///< nullptr: no lights
+  TransferLookup GradientTransfer; ///< of no intervals: opacity does not depend on gradients
+  GradientNorm Norm;
+  /// Takes a gradient in values a point to scalars a GradientLength of the world, and the length of
+  /// that to where it lies in the intervals of GradientTransfer.
+  ///@{
+  float WorldGradient[3][3];
+  float GradientScale;
+  float GradientOffset;
+  ///@}
+
   // Rays: their starts and directions in coordinates of the volume, and directions in the world.
   PixelLinear Start[3];
   PixelLinear Direction[3];
   PixelLinear WorldDirection[3];
   SlicePlanes Slices;
   std::vector<PlaneAlongRays> Planes;
+  const RayGrid* Grid;
   const RayLimits* Limits;
   int Width; ///< of the picture
 

@@ -75,6 +75,7 @@ TETRALUX_NOINLINE void CastBlock(
         const Int8 cell =
           RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[a]), positions.High[a]));
         sample.Place[a] = x - ToFloat(cell);
+        sample.Cell[a] = ToFloat(cell) - positions.Low[a];
         sample.Index = sample.Index + cell * Int8(strides[a]);
       }
       counts.Samples += __builtin_popcount(Bits(sample.Active));
@@ -230,7 +231,8 @@ ImageKernel ChooseLookup(const ImageKernelInput& in)
 template <class Value>
 ImageKernel ChooseModel(const ImageKernelInput& in)
 {
-  return ChooseLookup<Value, CompositeModel>(in);
+  return in.Lighting || in.GradientTransfer.Count > 0 ? ChooseLookup<Value, GradientComposite>(in)
+                                                      : ChooseLookup<Value, PlainComposite>(in);
 }
 
 ImageKernel ChooseImageKernel(const ImageKernelInput& in)

@@ -20,6 +20,7 @@ struct ImageSample
 {
   Int8 Index;      ///< of the first value of the cell
   Float8 Place[3]; ///< where in the cell, 0..1
+  Float8 Cell[3];  ///< which cell, counted along each axis
   Mask8 Active;    ///< rays that have a sample here
   Float8 Front;    ///< slab position of where its stretch begins
   Float8 Share;    ///< of a slab that its stretch has, 0..1
