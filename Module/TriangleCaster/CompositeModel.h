@@ -2,11 +2,11 @@
 #ifndef tetralux_CompositeModel_h
 #define tetralux_CompositeModel_h
 
-// What emits and absorbs, composited front to back (Knittel 1999, section 3.2).
+// What emits and absorbs, looked up at each sample.
 
 #include "Simd/LaneFunctions.h"
+#include "TriangleCaster/CompositingBuffer.h"
 #include "TriangleCaster/GradientModel.h"
-#include "TriangleCaster/ImageRays.h"
 #include "TriangleCaster/ImageSample.h"
 #include "TriangleCaster/TransferLanes.h"
 
@@ -26,36 +26,19 @@ struct NoGradients
   NoGradients(const ImageKernelInput&, const ImageRays&) {}
 };
 
-/// The compositing buffer of one vector, in registers. Gradients: NoGradients, or GradientModel
-/// where lights shine or opacity depends on gradients.
+/// Samples at the middle of stretches. Gradients: NoGradients, or GradientModel where lights shine
+/// or opacity depends on gradients.
 template <class Value, class Intervals, class Gradients>
-class CompositeModel
+class CompositeModel : public CompositingBuffer
 {
 public:
+  static constexpr bool AtEnds = false;
+
   CompositeModel(const ImageKernelInput& in, const ImageRays& rays)
-    : Gradient(in, rays)
-    , Translucency(LoadFloat8(rays.Translucency))
-    , Front(LoadFloat8(rays.Front))
-    , Threshold(in.Threshold)
+    : CompositingBuffer(in, rays)
+    , Gradient(in, rays)
   {
-    for (int c = 0; c < 3; ++c)
-    {
-      this->Color[c] = LoadFloat8(rays.Color[c]);
-    }
   }
-
-  void StoreTo(ImageRays& rays) const
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      Store(rays.Color[c], this->Color[c]);
-    }
-    Store(rays.Translucency, this->Translucency);
-    Store(rays.Front, this->Front);
-  }
-
-  /// Rays that what is behind can still change.
-  TETRALUX_INLINE Mask8 GetOpen() const { return this->Threshold <= this->Translucency; }
 
   TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample)
   {
@@ -93,35 +76,17 @@ public:
         this->Gradient.Light(in, sample, gradient, color);
       }
     }
-    const Mask8 first = (zero < opacity) & (this->Front < zero);
-    this->Front = Select(first, sample.Front, this->Front);
-    // Equation 5.
-    const Float8 share = this->Translucency * opacity;
-    for (int c = 0; c < 3; ++c)
+    for (Float8& channel : color)
     {
-      this->Color[c] = Fma(share, Keep(visible, color[c]), this->Color[c]);
+      channel = Keep(visible, channel);
     }
-    this->Translucency = this->Translucency - share;
-  }
-
-  /// The picture's pixel of a lane.
-  static void GetPixel(const ImageKernelInput&, const ImageRays& rays, int lane, float (&pixel)[4])
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      pixel[c] = rays.Color[c][lane];
-    }
-    pixel[3] = 1.f - rays.Translucency[lane];
+    this->AddSample(sample, opacity, color);
   }
 
 private:
   static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
 
   Gradients Gradient;
-  Float8 Color[3];
-  Float8 Translucency;
-  Float8 Front;
-  Float8 Threshold;
 };
 
 template <class Value, class Intervals>

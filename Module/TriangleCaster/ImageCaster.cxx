@@ -6,6 +6,7 @@
 #include "Simd/InstructionSet.h"
 #include "TriangleCaster/EmptySpace.h"
 #include "TriangleCaster/ImageKernel.h"
+#include "TriangleCaster/SlabTable.h"
 #include "View/MeshToWorld.h"
 
 #include <algorithm>
@@ -196,7 +197,9 @@ public:
       (this->Volume.Offset - this->Function.Table.Offset) / this->Function.Table.Scale);
   }
   ///@}
-  void PrepareSpace(int threads);
+  void PrepareBlocks(int threads);
+  void PrepareSpace();
+  void PrepareSlabs(const ImageCasterOptions& options);
   void FillGradients(const RayGrid& grid, ImageKernelInput& in) const;
   void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
   ImageKernelInput MakeInput(
@@ -208,6 +211,8 @@ public:
   bool HasOptics = false;
   FunctionLookup Function;
   FunctionLookup GradientFunction;
+
+  SlabTable Slabs; ///< of Optics, and the scalars of Volume
 
   BlockRanges Blocks;
   bool BlocksValid = false; ///< of Volume
@@ -226,20 +231,41 @@ void ImageCaster::Internals::CheckReady() const
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareSpace(int threads)
+void ImageCaster::Internals::PrepareBlocks(int threads)
 {
   if (!this->BlocksValid)
   {
     this->Blocks.Build(this->Volume, threads);
     this->BlocksValid = true;
     this->SpaceValid = false;
+    this->Slabs.Invalidate();
   }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareSpace()
+{
   if (!this->SpaceValid)
   {
     this->Space.Build(
       this->Blocks, this->Function.Table, this->GetValueScale(), this->GetValueOffset());
     this->SpaceValid = true;
   }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options)
+{
+  if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty())
+  {
+    throw std::invalid_argument(
+      "pre-integrated slabs have no gradients: shading and gradient opacity need them off");
+  }
+  const BlockRanges::Range range = this->Blocks.GetRange();
+  const double a = this->Volume.Offset + this->Volume.Scale * range.Low;
+  const double b = this->Volume.Offset + this->Volume.Scale * range.High;
+  const double scalars[2] = { std::min(a, b), std::max(a, b) };
+  this->Slabs.Update(this->Optics, options.SampleDistance, scalars);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -309,6 +335,15 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.ValueScale = this->GetValueScale();
   in.ValueOffset = this->GetValueOffset();
   in.Transfer = this->Function.Lookup;
+  if (options.PreIntegrated)
+  {
+    in.Slab.Texels = this->Slabs.GetTexels();
+    in.Slab.Size = SlabTable::Size;
+    in.Slab.CoordinateScale = static_cast<float>(this->Volume.Scale * this->Slabs.GetScale());
+    in.Slab.CoordinateOffset =
+      static_cast<float>(this->Volume.Offset * this->Slabs.GetScale() + this->Slabs.GetOffset());
+    in.Slab.PerLength = static_cast<float>(this->Optics.UnitDistance / this->Slabs.GetLength());
+  }
   in.Power = this->Optics.Opacity == StepOpacity::Power;
   in.UnitDistance = this->Optics.UnitDistance;
   in.CorrectOpacity = options.CorrectOpacity;
@@ -362,6 +397,7 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
   this->Private->Optics = optics;
   this->Private->HasOptics = true;
   this->Private->SpaceValid = false;
+  this->Private->Slabs.Invalidate();
 }
 
 //------------------------------------------------------------------------------------------------
@@ -376,9 +412,17 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   Internals& self = *this->Private;
   self.CheckReady();
   const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
+  if (options.SkipEmptySpace || options.PreIntegrated)
+  {
+    self.PrepareBlocks(threads);
+  }
   if (options.SkipEmptySpace)
   {
-    self.PrepareSpace(threads);
+    self.PrepareSpace();
+  }
+  if (options.PreIntegrated)
+  {
+    self.PrepareSlabs(options);
   }
   ImageKernelInput in = self.MakeInput(grid, limits, options);
   in.Colors = colors.data();

@@ -20,6 +20,11 @@ struct ImageCasterOptions
   /// along the normal of the planes (section 1.1).
   bool CorrectOpacity = true;
 
+  /// Whether what is between two slices comes from a table over the scalars at both (SlabTable.h),
+  /// so that thin features of the transfer function are not missed. Not with Shaded, nor where
+  /// opacity depends on gradients.
+  bool PreIntegrated = false;
+
   /// Whether lights shine on samples, from the side of the viewer, by gradients as normals: ambient
   /// and diffuse light times the colour, and Blinn's highlights. What is lit is not clamped.
   bool Shaded = false;

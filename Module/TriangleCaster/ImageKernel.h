@@ -60,6 +60,19 @@ struct TransferLookup
   ///@}
 };
 
+/// A SlabTable as a kernel reads it.
+struct SlabLookup
+{
+  const float* Texels = nullptr; ///< nullptr: samples are looked up one by one
+  int Size = 0;                  ///< texels along each scalar
+  /// The texel coordinate of a value v is CoordinateOffset + CoordinateScale v.
+  ///@{
+  float CoordinateScale = 1;
+  float CoordinateOffset = 0;
+  ///@}
+  float PerLength = 1; ///< 1 over the length of the table's slabs, in unit distances
+};
+
 struct ImageKernelInput
 {
   // The volume.
@@ -76,6 +89,7 @@ struct ImageKernelInput
 
   // Optics.
   TransferLookup Transfer;
+  SlabLookup Slab;
   bool Power; ///< StepOpacity::Power
   double UnitDistance;
   bool CorrectOpacity;

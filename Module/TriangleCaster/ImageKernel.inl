@@ -7,6 +7,7 @@
 #include "TriangleCaster/ImageKernel.h"
 #include "TriangleCaster/ImageRays.h"
 #include "TriangleCaster/ImageSample.h"
+#include "TriangleCaster/SlabModel.h"
 #include "TriangleCaster/TileSpace.h"
 
 #include <algorithm>
@@ -19,6 +20,23 @@ namespace TETRALUX_ISA
 {
 namespace
 {
+
+/// Finds the cells of a vector's samples. way: slabs from the start of the block.
+TETRALUX_INLINE void PlaceSample(
+  const ImageKernelInput& in, const BlockPositions& positions, Float8 way, ImageSample& sample)
+{
+  const std::int32_t strides[3] = { 1, in.Row, in.Slice };
+  sample.Index = positions.Index;
+  for (int a = 0; a < 3; ++a)
+  {
+    const Float8 x = Fma(positions.Step[a], way, positions.Base[a]);
+    // The cell, and at its border either of two.
+    const Int8 cell = RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[a]), positions.High[a]));
+    sample.Place[a] = x - ToFloat(cell);
+    sample.Cell[a] = ToFloat(cell) - positions.Low[a];
+    sample.Index = sample.Index + cell * Int8(strides[a]);
+  }
+}
 
 /// Casts the rays of a vector through the slabs of one block.
 template <class Value, class Model>
@@ -46,8 +64,7 @@ TETRALUX_NOINLINE void CastBlock(
         return;
       }
       Float8 from = 0.f;
-      Float8 middle = 0.5f;
-      sample.Share = 1.f;
+      Float8 to = 1.f;
       if (!inner)
       {
         const Int8 n = slab;
@@ -59,27 +76,29 @@ TETRALUX_NOINLINE void CastBlock(
           continue;
         }
         from = Select(first == n, LoadFloat8(rays.Begin[p]), Float8(0.f));
-        const Float8 to = Select(last == n, LoadFloat8(rays.End[p]), Float8(1.f));
-        middle = Float8(0.5f) * (from + to);
-        sample.Share = to - from;
+        to = Select(last == n, LoadFloat8(rays.End[p]), Float8(1.f));
       }
+      const Float8 position = static_cast<float>(slab - start);
       sample.Front = Float8(static_cast<float>(slab)) + from;
+      sample.Share = to - from;
       sample.Length = stepLength * sample.Share;
-      const Float8 way = Float8(static_cast<float>(slab - start)) + middle;
-      sample.Index = positions.Index;
-      const std::int32_t strides[3] = { 1, in.Row, in.Slice };
-      for (int a = 0; a < 3; ++a)
-      {
-        const Float8 x = Fma(positions.Step[a], way, positions.Base[a]);
-        // The cell, and at its border either of two.
-        const Int8 cell =
-          RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[a]), positions.High[a]));
-        sample.Place[a] = x - ToFloat(cell);
-        sample.Cell[a] = ToFloat(cell) - positions.Low[a];
-        sample.Index = sample.Index + cell * Int8(strides[a]);
-      }
       counts.Samples += __builtin_popcount(Bits(sample.Active));
-      model.Add(in, sample);
+      if constexpr (Model::AtEnds)
+      {
+        PlaceSample(in, positions, position + to, sample);
+        model.Add(in, sample,
+          [&]()
+          {
+            ImageSample front = sample;
+            PlaceSample(in, positions, position + from, front);
+            return front;
+          });
+      }
+      else
+      {
+        PlaceSample(in, positions, position + Float8(0.5f) * (from + to), sample);
+        model.Add(in, sample);
+      }
     }
   }
   model.StoreTo(rays);
@@ -231,6 +250,10 @@ ImageKernel ChooseLookup(const ImageKernelInput& in)
 template <class Value>
 ImageKernel ChooseModel(const ImageKernelInput& in)
 {
+  if (in.Slab.Texels)
+  {
+    return &CastTile<Value, SlabModel<Value>>;
+  }
   return in.Lighting || in.GradientTransfer.Count > 0 ? ChooseLookup<Value, GradientComposite>(in)
                                                       : ChooseLookup<Value, PlainComposite>(in);
 }
