@@ -665,12 +665,15 @@ std::vector<Real> FindPieces(const Cubic& cubic, const TransferFunction& functio
   return ends;
 }
 
+/// Pixels for which threads bring more than they cost.
+constexpr std::size_t ManyPixels = 1024;
+
 /// Calls render(i, j) for each pixel.
 template <class RenderT>
 std::vector<ReferencePixel> RenderPixels(const RayGrid& grid, const RenderT& render)
 {
   std::vector<ReferencePixel> pixels(static_cast<std::size_t>(grid.Width) * grid.Height);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (pixels.size() >= ManyPixels)
   for (int j = 0; j < grid.Height; ++j)
   {
     for (int i = 0; i < grid.Width; ++i)
