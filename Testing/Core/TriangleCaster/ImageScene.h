@@ -81,6 +81,7 @@ struct ImageDifference
   double Largest = 0; ///< of a channel
   int Visible = 0;    ///< pixels
   int Off = 0;        ///< pixels beyond ErrorOfMost
+  int FarOff = 0;     ///< pixels beyond ErrorOfAll
   int DepthsOff = 0;  ///< pixels whose depth is that of another slab
 };
 
@@ -88,8 +89,8 @@ struct ImageDifference
 constexpr double SampleRounding = 2e-5;
 /// Of a channel: what most pixels are within, even where the function is steep.
 constexpr double ErrorOfMost = 1e-4;
-/// Of a channel: a step of a picture of 8 bits. No pixel is off by more, unless a sample is at a
-/// step of the function or at an empty cell.
+/// Of a channel: a step of a picture of 8 bits. No pixel is off by more, unless a sample is where
+/// the function steps, or changes as much within the rounding of a scalar, or at an empty cell.
 constexpr double ErrorOfAll = 1. / 255;
 
 /// Fails where a picture of threshold 0 differs from the reference by more than its samples may be

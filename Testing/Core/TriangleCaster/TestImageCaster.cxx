@@ -64,10 +64,11 @@ std::vector<ImageScene> MakeScenes(int count)
 
 TEST(ImageCaster, DrawsRandomScenes)
 {
-  constexpr int Rounds = 600;
+  constexpr int Rounds = 3000;
   constexpr int Seed = 1999;
   int visible = 0;
   int off = 0;
+  int farOff = 0;
   int depthsOff = 0;
   std::set<std::pair<ImageScalar, bool>> kinds;
   for (int round = 0; round < Rounds; ++round)
@@ -78,6 +79,7 @@ TEST(ImageCaster, DrawsRandomScenes)
     const ImageDifference difference = ExpectReference(scene, Cast(scene));
     visible += difference.Visible;
     off += difference.Off;
+    farOff += difference.FarOff;
     depthsOff += difference.DepthsOff;
     kinds.insert({ scene.Type, scene.Options.PortableKernels });
     if (HasFailure())
@@ -88,9 +90,10 @@ TEST(ImageCaster, DrawsRandomScenes)
   EXPECT_EQ(kinds.size(), 10u); // each type by each kernel
   EXPECT_GT(visible, Rounds * 20);
   // Steep functions of 300 nodes over noise, and samples at steps.
-  EXPECT_LE(off, 0.01 * visible);
+  EXPECT_LE(off, 1e-3 * visible);
+  EXPECT_LE(farOff, 1e-4 * visible);
   // Where the opacity begins just at a sample.
-  EXPECT_LE(depthsOff, 0.001 * visible);
+  EXPECT_LE(depthsOff, 1e-4 * visible);
 }
 
 TEST(ImageCaster, DrawsWorldsOfAllSizes)
