@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <omp.h>
@@ -388,12 +389,17 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
   {
     throw std::invalid_argument("the length that gradients are measured over is not above 0");
   }
-  this->Private->HasOptics = false; // until both functions are found valid
-  this->Private->Function.Set(optics.Function);
+  // A function that is not valid changes nothing.
+  FunctionLookup function;
+  FunctionLookup gradientFunction;
+  function.Set(optics.Function);
   if (!optics.GradientOpacity.Nodes.empty())
   {
-    this->Private->GradientFunction.Set(optics.GradientOpacity);
+    gradientFunction.Set(optics.GradientOpacity);
   }
+  // What lookups point to moves with them.
+  this->Private->Function = std::move(function);
+  this->Private->GradientFunction = std::move(gradientFunction);
   this->Private->Optics = optics;
   this->Private->HasOptics = true;
   this->Private->SpaceValid = false;
