@@ -38,6 +38,7 @@ constexpr const char* Scalars = "Scalars";
 constexpr const char* Rays = "Rays";
 constexpr const char* Cropping = "Cropping";
 constexpr const char* Projection = "Projection";
+constexpr const char* Slices = "Slices";
 
 MapperProperty MakeBoolean(
   const char* name, unsigned kinds, const char* group, bool advanced, bool on, const char* meaning)
@@ -66,19 +67,20 @@ MapperProperty MakeTableSize(const char* name, const char* meaning)
 
 MapperProperty MakeSampleDistance(const char* name, double value, const char* meaning)
 {
-  return { name, PropertyType::Real, RayCastKind | IsosurfaceKind, Rays, true, {}, 0.1, 100,
-    { value }, "", "pixels", meaning };
+  return { name, PropertyType::Real, ProcessorKinds, Rays, true, {}, 0.1, 100, { value }, "",
+    "pixels", meaning };
 }
 
 std::vector<MapperProperty> MakeProperties()
 {
   return {
-    MakeEnumeration("BlendMode", VolumeKinds, Model, false,
+    MakeEnumeration("BlendMode", VolumeKinds | TriangleCasterKind, Model, false,
       { { "composite", 0, "emission and absorption" },
-        { "maximum-intensity", 1, "colour and opacity of the largest scalar along a ray" },
-        { "additive", 4, "emission without absorption" },
-        { "isosurface", 5, "the surfaces of the property's IsoSurfaceValues" },
-        { "absorption", 16, "absorption without emission" } },
+        { "maximum-intensity", 1, "colour and opacity of the largest scalar along a ray",
+          CellKinds },
+        { "additive", 4, "emission without absorption", CellKinds },
+        { "isosurface", 5, "the surfaces of the property's IsoSurfaceValues", CellKinds },
+        { "absorption", 16, "absorption without emission", CellKinds } },
       "What rays gather."),
     { "MaximumError", PropertyType::Real, AllKinds, Quality, false, {}, 0, 1, { 1e-4 }, "", "",
       "Largest absolute error of a premultiplied channel that is aimed at." },
@@ -104,9 +106,9 @@ std::vector<MapperProperty> MakeProperties()
       "Format that a table's texels are rounded to."),
     { "TableMaximumBytes", PropertyType::Size, VolumeKinds, Table, true, {}, SmallestTableBytes,
       LargestTableBytes, { DefaultTableBytes }, "", "bytes", "Largest size of a table." },
-    MakeBoolean("SmoothShading", AllKinds, Quality, false, true,
+    MakeBoolean("SmoothShading", CellKinds, Quality, false, true,
       "Take the normals of lighting from gradients that are interpolated between points."),
-    MakeEnumeration("MergePoints", AllKinds, Cells, true,
+    MakeEnumeration("MergePoints", CellKinds, Cells, true,
       { { "automatic", 2, "all or none: none if scalars differ or cells overlap" },
         { "off", 0, "points stay apart" }, { "on", 1, "all whose scalars agree" } },
       "Whether points at the same place are taken as one."),
@@ -154,7 +156,7 @@ std::vector<MapperProperty> MakeProperties()
       "MinimumImageSampleDistance", 1, "Smallest distance of rays that the adjustment chooses."),
     MakeSampleDistance(
       "MaximumImageSampleDistance", 10, "Largest distance of rays that the adjustment chooses."),
-    MakeBoolean("AutoAdjustSampleDistances", RayCastKind | IsosurfaceKind, Rays, true, true,
+    MakeBoolean("AutoAdjustSampleDistances", ProcessorKinds, Rays, true, true,
       "Adjust the distance of rays to the time that the renderer allocates."),
 
     { "ColorArrayComponent", PropertyType::Integer, IsosurfaceKind, Scalars, false,
