@@ -91,7 +91,7 @@ void FillRays(const RayGrid& grid, const RayLimits& limits, KernelInput& in)
   in.Grid = &grid;
   in.Planes = limits.Planes.empty() ? nullptr : &limits.Planes.front();
   in.NumberOfPlanes = static_cast<int>(limits.Planes.size());
-  in.CroppingPlanes = limits.Cropping ? limits.CroppingPlanes : nullptr;
+  in.CroppingPlanes = limits.Cropping ? &limits.CroppingPlanes : nullptr;
   in.CroppingFlags = limits.CroppingFlags;
   in.MaximumDistances = limits.MaximumDistances;
 }

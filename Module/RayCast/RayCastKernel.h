@@ -79,7 +79,7 @@ struct KernelInput
   const RayGrid* Grid;
   const std::array<double, 4>* Planes;
   int NumberOfPlanes;
-  const double* CroppingPlanes; ///< nullptr: no cropping
+  const double (*CroppingPlanes)[6]; ///< nullptr: no cropping
   std::uint32_t CroppingFlags;
   const float* MaximumDistances; ///< nullptr: none
 

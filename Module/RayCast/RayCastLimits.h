@@ -5,6 +5,7 @@
 // Which part of each ray of a packet counts: planes, opaque geometry, cropping.
 
 #include "RayCast/RayCastFrame.h"
+#include "View/CroppedRay.h"
 
 #include <cstdint>
 #include <limits>
@@ -16,78 +17,13 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// The most intervals that six cropping planes can leave of a ray.
-constexpr int MaximumIntervals = 4;
-
 /// The part of each ray that counts, or the parts if it is cropped. Distances are from the ray's
 /// point nearest to the centre of the mesh.
 struct Intervals
 {
   int Count;
-  Double8 Begin[MaximumIntervals], End[MaximumIntervals];
+  Double8 Begin[MostCroppedParts], End[MostCroppedParts];
 };
-
-/// The parts of one ray that the cropping regions keep: intersects [begin, end] with them.
-inline int CropRay(const KernelInput& in, const double origin[3], const double direction[3],
-  double begin, double end, double (&begins)[MaximumIntervals], double (&ends)[MaximumIntervals])
-{
-  // Where the ray crosses the planes, ascending.
-  double cuts[8];
-  int n = 0;
-  cuts[n++] = begin;
-  for (int p = 0; p < 6; ++p)
-  {
-    const int a = p / 2;
-    const double t = (in.CroppingPlanes[p] - origin[a]) / direction[a];
-    if (begin < t && t < end)
-    {
-      int i = n++;
-      for (; i > 1 && cuts[i - 1] > t; --i)
-      {
-        cuts[i] = cuts[i - 1];
-      }
-      cuts[i] = t;
-    }
-  }
-  cuts[n] = end;
-  int count = 0;
-  bool open = false;
-  for (int i = 0; i < n; ++i)
-  {
-    if (!(cuts[i] < cuts[i + 1]))
-    {
-      continue;
-    }
-    // The region of the middle; beyond the largest number there is no middle, but also no mesh.
-    constexpr double Far = 1e150;
-    const double lo = cuts[i] > -Far ? cuts[i] : -Far;
-    const double hi = cuts[i + 1] < Far ? cuts[i + 1] : Far;
-    const double t = lo + 0.5 * (hi - lo);
-    int region = 0;
-    int weight = 1;
-    for (int a = 0; a < 3; ++a)
-    {
-      const double x = origin[a] + t * direction[a];
-      region += weight * ((x >= in.CroppingPlanes[2 * a]) + (x >= in.CroppingPlanes[2 * a + 1]));
-      weight *= 3;
-    }
-    if (!((in.CroppingFlags >> region) & 1u))
-    {
-      open = false;
-    }
-    else if (open)
-    {
-      ends[count - 1] = cuts[i + 1];
-    }
-    else if (count < MaximumIntervals)
-    {
-      open = true;
-      begins[count] = cuts[i];
-      ends[count++] = cuts[i + 1];
-    }
-  }
-  return count;
-}
 
 /// start: distance of z = 0 along the rays.
 TETRALUX_INLINE Intervals LimitRays(
@@ -139,18 +75,19 @@ TETRALUX_INLINE Intervals LimitRays(
     }
     Store(b, begin);
     Store(e, end);
-    double begins[MaximumIntervals][LaneCount], ends[MaximumIntervals][LaneCount];
+    double begins[MostCroppedParts][LaneCount], ends[MostCroppedParts][LaneCount];
     result.Count = 0;
     for (int i = 0; i < LaneCount; ++i)
     {
       const double origin1[3] = { o[0][i], o[1][i], o[2][i] };
       const double direction1[3] = { d[0][i], d[1][i], d[2][i] };
-      double begins1[MaximumIntervals], ends1[MaximumIntervals];
-      const int count = CropRay(in, origin1, direction1, b[i], e[i], begins1, ends1);
-      for (int k = 0; k < MaximumIntervals; ++k)
+      const CroppedRay cropped =
+        CropRay(*in.CroppingPlanes, in.CroppingFlags, origin1, direction1, b[i], e[i]);
+      const int count = cropped.Count;
+      for (int k = 0; k < MostCroppedParts; ++k)
       {
-        begins[k][i] = k < count ? begins1[k] : Infinity;
-        ends[k][i] = k < count ? ends1[k] : -Infinity;
+        begins[k][i] = k < count ? cropped.Begin[k] : Infinity;
+        ends[k][i] = k < count ? cropped.End[k] : -Infinity;
       }
       result.Count = count > result.Count ? count : result.Count;
     }

@@ -42,6 +42,40 @@ TETRALUX_INLINE Float8 MinusLog(Float8 x)
   return Max(Float8(0.f), Float8(0.f) - log);
 }
 
+/// -ln(1 - x) for x of 0 or more, relative error 3e-7, near 0 too; LargestDepth from x = 1 on.
+constexpr float LargestDepth = 1e37f;
+TETRALUX_INLINE Float8 MinusLogOfRest(Float8 x)
+{
+  // As MinusLog of 1 - x. Near 0 the difference is rounded, but 1 - m is not there.
+  constexpr float Mantissa = 8388608.f; // 2^23
+  const Float8 one = 1.f;
+  const Float8 rest = one - x;
+  const Int8 bits = ToBits(rest);
+  const Int8 n = RoundToInt(ToFloat(bits - ToBits(one)) * Float8(1 / Mantissa));
+  const Float8 m = FromBits(bits - ShiftLeft(n, 23));
+  static constexpr float c[] = { 2.f, 2.f / 3, 2.f / 5, 2.f / 7, 2.f / 9 };
+  const Float8 difference = Select(n == Int8(0), x, one - m);
+  const Float8 s = difference / (Select(n == Int8(0), rest, m) + one);
+  const Float8 log = Fma(ToFloat(n), Float8(-0.693147181f), s * Polynomial(s * s, c));
+  return Select(x < one, log, Float8(LargestDepth));
+}
+
+/// 1 - exp(-x) for x >= 0, relative error 3e-7, near 0 too; 1 from x = 87.
+TETRALUX_INLINE Float8 OneMinusExp(Float8 x)
+{
+  // exp(-x) = 2^-n (1 - r q(r)), so 1 - exp(-x) = (1 - 2^-n) + 2^-n r q(r), where both are exact
+  // for n = 0.
+  static constexpr float q[] = { 1.f, -1.f / 2, 1.f / 6, -1.f / 24, 1.f / 120, -1.f / 720,
+    1.f / 5040 };
+  const Float8 bounded = Min(x, Float8(87.f));
+  const Int8 n = RoundToInt(bounded * Float8(1.44269504f)); // 1 / ln 2
+  const Float8 nf = ToFloat(n);
+  Float8 r = Fma(nf, Float8(-0.693359375f), bounded);
+  r = Fma(nf, Float8(2.12194440e-4f), r);
+  const Float8 power = FromBits(ShiftLeft(Int8(127) - n, 23)); // 2^-n
+  return Fma(power * r, Polynomial(r, q), Float8(1.f) - power);
+}
+
 /// x^power for x in 0..1 and a power of 0 or more; below 1e-30 as at 1e-30. Relative error 2e-7 for
 /// each e-fold that the result is below 1.
 TETRALUX_INLINE Float8 Power(Float8 x, Float8 power)

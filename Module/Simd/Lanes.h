@@ -38,7 +38,10 @@
 //   Select(m, a, b)    a where the mask is set, else b; bits are copied
 //   Keep(m, a)         a where the mask is set, else +0; bits are copied
 //   Ones(m)            1 where the mask is set, else 0
-//   ShiftLeft(a, n)    of Int8, by n bits, as of an unsigned number
+//   ShiftLeft(a, n)    of Int8, by n bits, as of an unsigned number; n may be a vector, 0..31 each
+//   ShiftRight(a, n)   of Int8, by n bits, as of an unsigned number
+//   ShiftRightSigned(a, n)
+//                      of Int8, by n bits, copies of the sign moving in
 //   RoundToInt(a)      the nearest integer, ties to even. Unspecified where a is not a number, and
 //                      where Int8 does not hold it.
 //   ToFloat, ToDouble  conversions, rounded as IEEE 754 says
@@ -54,6 +57,11 @@
 //                      are aligned to their size. Indices are in 0..2^29 - 1.
 //   GatherPairs        two consecutive integers from base + 2 * index of each lane, transposed.
 //                      Indices are at least 0.
+//   GatherWords        32 bits from base + index of each lane, which counts bytes, at any alignment
+//   GatherNeighbors    two consecutive floats from base + index of each lane. Indices are at least
+//                      0.
+//   LookUp(t, index)   t[index] of each lane, of a table of LaneCount or of two times as many.
+//                      Unspecified where an index is not in the table.
 //   Lane(a, i)         one lane
 //   Polynomial(x, c)   Horner's scheme, with Fma
 

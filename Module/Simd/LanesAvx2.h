@@ -8,6 +8,7 @@
 #include "Simd/LaneCount.h"
 
 #include <cstdint>
+#include <cstring>
 
 #include <immintrin.h>
 
@@ -85,6 +86,12 @@ TETRALUX_INLINE Mask8 operator>(Int8 a, Int8 b) { return { _mm256_cmpgt_epi32(a.
 TETRALUX_INLINE Mask8 operator==(Int8 a, Int8 b) { return { _mm256_cmpeq_epi32(a.v, b.v) }; }
 TETRALUX_INLINE Int8 operator*(Int8 a, Int8 b) { return Int8(_mm256_mullo_epi32(a.v, b.v)); }
 TETRALUX_INLINE Int8 ShiftLeft(Int8 a, int bits) { return Int8(_mm256_slli_epi32(a.v, bits)); }
+TETRALUX_INLINE Int8 ShiftLeft(Int8 a, Int8 bits) { return Int8(_mm256_sllv_epi32(a.v, bits.v)); }
+TETRALUX_INLINE Int8 ShiftRight(Int8 a, int bits) { return Int8(_mm256_srli_epi32(a.v, bits)); }
+TETRALUX_INLINE Int8 ShiftRightSigned(Int8 a, int bits)
+{
+  return Int8(_mm256_srai_epi32(a.v, bits));
+}
 TETRALUX_INLINE Int8 Ones(Mask8 m) { return Int8(_mm256_srli_epi32(m.v, 31)); }
 TETRALUX_INLINE Int8 Select(Mask8 m, Int8 a, Int8 b)
 {
@@ -313,6 +320,50 @@ TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& fir
   const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
   first.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0)));
   second.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(3, 1, 3, 1)));
+}
+
+TETRALUX_INLINE Int8 GatherWords(const void* base, Int8 index)
+{
+  alignas(32) std::uint32_t i[LaneCount];
+  Store(reinterpret_cast<std::int32_t*>(i), index);
+  KeepInMemory(i);
+  const auto at = [&](int lane)
+  {
+    std::int32_t word;
+    std::memcpy(&word, static_cast<const char*>(base) + i[lane], sizeof(word));
+    return word;
+  };
+  const auto four = [&](int first)
+  {
+    const __m128i a = _mm_insert_epi32(_mm_cvtsi32_si128(at(first)), at(first + 1), 1);
+    return _mm_insert_epi32(_mm_insert_epi32(a, at(first + 2), 2), at(first + 3), 3);
+  };
+  return Int8(_mm256_set_m128i(four(4), four(0)));
+}
+TETRALUX_INLINE void GatherNeighbors(const float* base, Int8 index, Float8& first, Float8& second)
+{
+  alignas(32) std::uint32_t i[LaneCount];
+  Store(reinterpret_cast<std::int32_t*>(i), index);
+  KeepInMemory(i);
+  const auto at = [&](int lane) { return reinterpret_cast<const double*>(base + i[lane]); };
+  const auto two = [&](int a, int b)
+  { return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(at(a)), at(b))); };
+  const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
+  const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
+  first.v = _mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0));
+  second.v = _mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(3, 1, 3, 1));
+}
+
+TETRALUX_INLINE Float8 LookUp(const float (&table)[LaneCount], Int8 index)
+{
+  return Float8(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index.v));
+}
+TETRALUX_INLINE Float8 LookUp(const float (&table)[2 * LaneCount], Int8 index)
+{
+  const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index.v);
+  const __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + LaneCount), index.v);
+  // Bit 3 of an index, as the sign.
+  return Float8(_mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(index.v, 28))));
 }
 
 } // namespace TETRALUX_ISA

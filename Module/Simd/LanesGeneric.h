@@ -181,6 +181,21 @@ TETRALUX_INLINE Int8 ShiftLeft(Int8 a, int bits)
   return Int8::Each(
     [&](int i) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v[i]) << bits); });
 }
+TETRALUX_INLINE Int8 ShiftLeft(Int8 a, Int8 bits)
+{
+  return Int8::Each(
+    [&](int i)
+    { return static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v[i]) << bits.v[i]); });
+}
+TETRALUX_INLINE Int8 ShiftRight(Int8 a, int bits)
+{
+  return Int8::Each(
+    [&](int i) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v[i]) >> bits); });
+}
+TETRALUX_INLINE Int8 ShiftRightSigned(Int8 a, int bits)
+{
+  return Int8::Each([&](int i) { return a.v[i] >> bits; });
+}
 TETRALUX_INLINE Int8 Ones(Mask8 m)
 {
   return Int8::Each([&](int i) { return m.v[i] & 1; });
@@ -256,6 +271,31 @@ TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& fir
     first.v[i] = pair[0];
     second.v[i] = pair[1];
   }
+}
+TETRALUX_INLINE Int8 GatherWords(const void* base, Int8 index)
+{
+  Int8 words;
+  for (int i = 0; i < LaneCount; ++i)
+  {
+    std::memcpy(
+      &words.v[i], static_cast<const char*>(base) + static_cast<std::uint32_t>(index.v[i]), 4);
+  }
+  return words;
+}
+TETRALUX_INLINE void GatherNeighbors(const float* base, Int8 index, Float8& first, Float8& second)
+{
+  for (int i = 0; i < LaneCount; ++i)
+  {
+    const float* pair = base + index.v[i];
+    first.v[i] = pair[0];
+    second.v[i] = pair[1];
+  }
+}
+
+template <int N>
+TETRALUX_INLINE Float8 LookUp(const float (&table)[N], Int8 index)
+{
+  return Float8::Each([&](int i) { return table[index.v[i]]; });
 }
 
 } // namespace TETRALUX_ISA

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TriangleCaster/ImageCaster.h"
+
+#include "Base/ParallelTiles.h"
+#include "Optics/IntervalTable.h"
+#include "Simd/InstructionSet.h"
+#include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/ImageKernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include <omp.h>
+
+namespace tetralux
+{
+namespace
+{
+
+/// Pixels along the edge of what a thread takes at once: enough of them to balance threads, and
+/// large enough for neighbouring S-triangles to find voxels in the second-level cache.
+constexpr int WorkSize = 32;
+
+constexpr int SmallestTile = 4;
+constexpr int LargestTile = 64;
+
+ImageKernel GetKernel(InstructionSet set, ImageScalar type)
+{
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+  if (set == InstructionSet::Avx2)
+  {
+    return GetImageKernelAvx2(type);
+  }
+#endif
+  static_cast<void>(set);
+  return GetImageKernelGeneric(type);
+}
+
+void CheckVolume(const ImageVolume& volume)
+{
+  const char* const axes[] = { "x", "y", "z" };
+  double values = 1;
+  for (int a = 0; a < 3; ++a)
+  {
+    if (volume.Dimensions[a] < 2)
+    {
+      throw std::invalid_argument("the image has " + std::to_string(volume.Dimensions[a]) +
+        " points along " + axes[a] + "; a volume has at least 2");
+    }
+    values *= volume.Dimensions[a];
+  }
+  if (values > std::numeric_limits<std::int32_t>::max())
+  {
+    throw std::invalid_argument(
+      "the image has more than 2^31 - 1 points, the most that the triangle caster takes");
+  }
+  if (!volume.Values)
+  {
+    throw std::invalid_argument("the image has no values");
+  }
+  if (!std::isfinite(volume.Scale) || volume.Scale == 0 || !std::isfinite(volume.Offset))
+  {
+    throw std::invalid_argument("the scale of an image's values is 0, or not finite");
+  }
+}
+
+/// For each bucket of equal width over [-1, 1] the interval that its lower end lies in, or one
+/// below.
+struct IntervalBuckets
+{
+  std::vector<std::int32_t> First;
+  int MostSteps = 0; ///< the most intervals that a scalar of a bucket lies above that
+};
+
+IntervalBuckets MakeBuckets(const std::vector<IntervalTable::Interval>& intervals, int count)
+{
+  // The bucket of a scalar is rounded; a scalar may lie this far outside of its own.
+  constexpr double Rounding = 1e-5; // of the whole range
+  IntervalBuckets buckets;
+  buckets.First.resize(count);
+  std::size_t first = 0;
+  std::size_t last = 0;
+  for (int b = 0; b < count; ++b)
+  {
+    const double low = 2. * b / count - 1 - Rounding;
+    const double high = 2. * (b + 1) / count - 1 + Rounding;
+    while (intervals[first].Hi <= low)
+    {
+      ++first;
+    }
+    while (last + 1 < intervals.size() && intervals[last].Hi <= high)
+    {
+      ++last;
+    }
+    // The first and last bucket take what is beyond.
+    const std::size_t begin = b == 0 ? 0 : first;
+    const std::size_t end = b + 1 == count ? intervals.size() - 1 : last;
+    buckets.First[b] = static_cast<std::int32_t>(begin);
+    buckets.MostSteps = std::max(buckets.MostSteps, static_cast<int>(end - begin));
+  }
+  return buckets;
+}
+
+PixelLinear MakeLinear(double value, double stepX, double stepY) { return { value, stepX, stepY }; }
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+class ImageCaster::Internals
+{
+public:
+  void CheckReady() const;
+  void FillTransfer();
+  void PrepareSpace(int threads);
+  void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
+  ImageKernelInput MakeInput(
+    const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options);
+
+  ImageVolume Volume;
+  bool HasVolume = false;
+  ImageOptics Optics;
+  bool HasOptics = false;
+  IntervalTable Table;
+  IntervalBuckets Buckets;
+  TransferLookup Transfer;
+
+  BlockRanges Blocks;
+  bool BlocksValid = false; ///< of Volume
+  EmptySpace Space;
+  bool SpaceValid = false; ///< of Blocks and Table
+};
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::CheckReady() const
+{
+  if (!this->HasVolume || !this->HasOptics)
+  {
+    throw std::invalid_argument(
+      this->HasVolume ? "the image caster has no optics" : "the image caster has no volume");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillTransfer()
+{
+  const std::vector<IntervalTable::Interval>& intervals = this->Table.Intervals;
+  TransferLookup& transfer = this->Transfer;
+  transfer = TransferLookup();
+  transfer.Count = static_cast<int>(intervals.size());
+  transfer.Intervals = intervals.data();
+  for (int k = 0; k < TransferLookup::MostFew; ++k)
+  {
+    const IntervalTable::Interval& interval =
+      intervals[std::min<std::size_t>(k, intervals.size() - 1)];
+    transfer.Lower[k] = interval.Lo;
+    transfer.Reference[k] = interval.Reference;
+    transfer.Opacity[k] = interval.Attenuation;
+    transfer.OpacitySlope[k] = interval.AttenuationSlope;
+    for (int c = 0; c < 3; ++c)
+    {
+      transfer.Color[c][k] = interval.Color[c];
+      transfer.ColorSlope[c][k] = interval.ColorSlope[c];
+    }
+  }
+  if (transfer.Count > TransferLookup::MostFew)
+  {
+    // A step to the next interval costs as much as looking up a bucket; nodes that are closer
+    // together than the smallest buckets cost more steps.
+    constexpr int FewSteps = 2;
+    constexpr int FirstCount = 1024;
+    constexpr int LargestCount = 65536;
+    for (int count = FirstCount; count <= LargestCount; count *= 4)
+    {
+      this->Buckets = MakeBuckets(intervals, count);
+      if (this->Buckets.MostSteps <= FewSteps)
+      {
+        break;
+      }
+    }
+    transfer.Buckets = this->Buckets.First.data();
+    transfer.NumberOfBuckets = static_cast<float>(this->Buckets.First.size());
+    transfer.MostSteps = this->Buckets.MostSteps;
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareSpace(int threads)
+{
+  if (!this->BlocksValid)
+  {
+    this->Blocks.Build(this->Volume, threads);
+    this->BlocksValid = true;
+    this->SpaceValid = false;
+  }
+  if (!this->SpaceValid)
+  {
+    this->Space.Build(this->Blocks, this->Table,
+      static_cast<float>(this->Volume.Scale / this->Table.Scale),
+      static_cast<float>((this->Volume.Offset - this->Table.Offset) / this->Table.Scale));
+    this->SpaceValid = true;
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillRays(
+  const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    const double* row = grid.MeshFromWorld[a];
+    const auto apply = [row](const double v[3])
+    { return row[0] * v[0] + row[1] * v[1] + row[2] * v[2]; };
+    in.Start[a] =
+      MakeLinear(apply(grid.Origin) + row[3], apply(grid.OriginStepX), apply(grid.OriginStepY));
+    in.Direction[a] =
+      MakeLinear(apply(grid.Direction), apply(grid.DirectionStepX), apply(grid.DirectionStepY));
+    in.WorldDirection[a] =
+      MakeLinear(grid.Direction[a], grid.DirectionStepX[a], grid.DirectionStepY[a]);
+  }
+  for (const std::array<double, 4>& plane : limits.Planes)
+  {
+    const auto apply = [&plane](const double v[3])
+    { return plane[0] * v[0] + plane[1] * v[1] + plane[2] * v[2]; };
+    in.Planes.push_back({ MakeLinear(apply(grid.Origin) + plane[3], apply(grid.OriginStepX),
+                            apply(grid.OriginStepY)),
+      MakeLinear(apply(grid.Direction), apply(grid.DirectionStepX), apply(grid.DirectionStepY)) });
+  }
+  in.Limits = &limits;
+  in.Width = grid.Width;
+}
+
+//------------------------------------------------------------------------------------------------
+ImageKernelInput ImageCaster::Internals::MakeInput(
+  const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options)
+{
+  ImageKernelInput in{};
+  in.Values = this->Volume.Values;
+  in.Row = this->Volume.Dimensions[0];
+  in.Slice = this->Volume.Dimensions[0] * this->Volume.Dimensions[1];
+  for (int a = 0; a < 3; ++a)
+  {
+    in.LastCell[a] = this->Volume.Dimensions[a] - 2;
+  }
+  in.ValueScale = static_cast<float>(this->Volume.Scale / this->Table.Scale);
+  in.ValueOffset =
+    static_cast<float>((this->Volume.Offset - this->Table.Offset) / this->Table.Scale);
+  in.Transfer = this->Transfer;
+  in.Power = this->Optics.Opacity == StepOpacity::Power;
+  in.UnitDistance = this->Optics.UnitDistance;
+  in.CorrectOpacity = options.CorrectOpacity;
+  in.Threshold = static_cast<float>(std::max(options.Threshold, 0.));
+  in.Slices = MakeSlicePlanes(this->Volume, grid, options.Shape, options.SampleDistance);
+  this->FillRays(grid, limits, in);
+  in.EndTriangles = options.EndTriangles;
+  in.SkipPixels = options.SkipPixels;
+  in.Space = options.SkipEmptySpace ? &this->Space : nullptr;
+  in.TileSize = std::clamp(options.TileSize, SmallestTile, LargestTile);
+  in.Triangles = options.Triangles;
+  return in;
+}
+
+//------------------------------------------------------------------------------------------------
+ImageCaster::ImageCaster()
+  : Private(std::make_unique<Internals>())
+{
+}
+
+//------------------------------------------------------------------------------------------------
+ImageCaster::~ImageCaster() = default;
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::SetVolume(const ImageVolume& volume)
+{
+  CheckVolume(volume);
+  this->Private->Volume = volume;
+  this->Private->HasVolume = true;
+  this->Private->BlocksValid = false;
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::SetOptics(const ImageOptics& optics)
+{
+  if (!(optics.UnitDistance > 0) || !std::isfinite(optics.UnitDistance))
+  {
+    throw std::invalid_argument("the unit distance of opacity is not above 0");
+  }
+  this->Private->Table = MakeIntervalTable(optics.Function);
+  this->Private->Optics = optics;
+  this->Private->HasOptics = true;
+  this->Private->SpaceValid = false;
+  this->Private->FillTransfer();
+}
+
+//------------------------------------------------------------------------------------------------
+ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limits,
+  const ImageCasterOptions& options, Span<float> colors, Span<float> depths)
+{
+  const std::size_t pixels = static_cast<std::size_t>(grid.Width) * grid.Height;
+  if (colors.size() != 4 * pixels || depths.size() != pixels)
+  {
+    throw std::invalid_argument("the image arrays do not have the size of the ray grid");
+  }
+  Internals& self = *this->Private;
+  self.CheckReady();
+  const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
+  if (options.SkipEmptySpace)
+  {
+    self.PrepareSpace(threads);
+  }
+  ImageKernelInput in = self.MakeInput(grid, limits, options);
+  in.Colors = colors.data();
+  in.Depths = depths.data();
+
+  const InstructionSet set =
+    options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();
+  const ImageKernel kernel = GetKernel(set, self.Volume.Type);
+  struct alignas(64) Counts : ImageKernelCounts
+  {
+  };
+  std::vector<Counts> counts(threads);
+  const TileGrid tiles{ grid.Width, grid.Height, std::max(WorkSize, in.TileSize) };
+  ImageCastStatistics statistics;
+  statistics.Aborted = !ForEachTile(tiles, threads, options.Progress,
+    [&](const Tile& tile, int thread) { kernel(in, tile, counts[thread]); });
+  statistics.InstructionSet = GetName(set);
+  statistics.NumberOfThreads = threads;
+  statistics.Rays = static_cast<std::int64_t>(pixels);
+  statistics.Slices = in.Slices.Count;
+  for (const Counts& count : counts)
+  {
+    statistics.Triangles += count.Triangles;
+    statistics.SkippedSlices += count.SkippedSlices;
+    statistics.Samples += count.Samples;
+  }
+  statistics.TerminationError = in.Threshold;
+  return statistics;
+}
+
+} // namespace tetralux

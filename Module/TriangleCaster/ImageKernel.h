@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ImageKernel_h
+#define tetralux_ImageKernel_h
+
+// What the kernels of the triangle caster read and write: plain pointers, filled by ImageCaster.
+// The kernels themselves (ImageKernel.inl) are compiled once for each instruction set.
+
+#include "Base/Tile.h"
+#include "Optics/IntervalTable.h"
+#include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/ImageVolume.h"
+#include "TriangleCaster/SlicePlanes.h"
+#include "View/RayGrid.h"
+#include "View/RayLimits.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tetralux
+{
+
+/// What is linear over the pixels (i, j) of a picture.
+struct PixelLinear
+{
+  double Value = 0;
+  double StepX = 0;
+  double StepY = 0;
+  double At(double i, double j) const { return this->Value + i * this->StepX + j * this->StepY; }
+};
+
+/// A world half-space as a ray meets it: its height above the plane at the ray's start, and what it
+/// gains along Direction.
+struct PlaneAlongRays
+{
+  PixelLinear Height;
+  PixelLinear Slope;
+};
+
+/// The transfer function as a kernel looks it up: which interval a scalar lies in is found by
+/// comparisons where there are few, and by a grid of buckets where there are many.
+struct TransferLookup
+{
+  /// The most intervals that are compared with.
+  static constexpr int MostFew = 16;
+
+  int Count = 0; ///< intervals
+  /// Fields of the first MostFew intervals, in arrays. Lower ends; the first one's is left out.
+  float Lower[MostFew], Reference[MostFew], Opacity[MostFew], OpacitySlope[MostFew];
+  float Color[3][MostFew], ColorSlope[3][MostFew];
+
+  const IntervalTable::Interval* Intervals = nullptr; ///< all
+  /// Of many: for each bucket of equal width over [-1, 1] an interval that is not above that of any
+  /// scalar in it, and the most intervals that a scalar may be above it.
+  ///@{
+  const std::int32_t* Buckets = nullptr;
+  float NumberOfBuckets = 0;
+  int MostSteps = 0;
+  ///@}
+};
+
+struct ImageKernelInput
+{
+  // The volume.
+  const void* Values;
+  std::int32_t Row;   ///< values from one row to the next
+  std::int32_t Slice; ///< values from one slice of the grid to the next
+  std::int32_t LastCell[3];
+  /// Where a value lies in the transfer function's intervals: x = ValueOffset + ValueScale v.
+  ///@{
+  float ValueScale;
+  float ValueOffset;
+  ///@}
+
+  // Optics.
+  TransferLookup Transfer;
+  bool Power; ///< StepOpacity::Power
+  double UnitDistance;
+  bool CorrectOpacity;
+  float Threshold;
+
+  // Rays: their starts and directions in coordinates of the volume, and directions in the world.
+  PixelLinear Start[3];
+  PixelLinear Direction[3];
+  PixelLinear WorldDirection[3];
+  SlicePlanes Slices;
+  std::vector<PlaneAlongRays> Planes;
+  const RayLimits* Limits;
+  int Width; ///< of the picture
+
+  // The order of work.
+  bool EndTriangles;
+  bool SkipPixels;
+  const EmptySpace* Space; ///< nullptr: nothing is skipped
+  int TileSize;
+  bool Triangles;
+
+  float* Colors;
+  float* Depths;
+};
+
+struct ImageKernelCounts
+{
+  std::int64_t Triangles = 0;
+  std::int64_t SkippedSlices = 0;
+  std::int64_t Samples = 0;
+};
+
+/// Casts the pixels of a tile, whose edges are multiples of TileSize or those of the picture.
+using ImageKernel = void (*)(const ImageKernelInput&, const Tile&, ImageKernelCounts&);
+
+ImageKernel GetImageKernelGeneric(ImageScalar type);
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+ImageKernel GetImageKernelAvx2(ImageScalar type);
+#endif
+
+} // namespace tetralux
+
+#endif

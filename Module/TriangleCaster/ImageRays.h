@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ImageRays_h
+#define tetralux_ImageRays_h
+
+// The rays of one vector: which slabs they go through, and where.
+
+#include "Simd/Lanes.h"
+#include "TriangleCaster/ImageKernel.h"
+#include "View/CroppedRay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+/// Slabs between two places at which positions are computed in double precision: their rounding in
+/// single precision then stays below 1e-6 of the way through them.
+constexpr int SlabsOfBlock = 16;
+
+/// No slab, on either side.
+constexpr std::int32_t NoSlab = std::numeric_limits<std::int32_t>::max();
+
+/// Rays in lanes, and what they have gathered.
+struct ImageRays
+{
+  std::int32_t X[LaneCount], Y[LaneCount]; ///< pixels; X is -1 where a lane has none
+
+  // Coordinates of the volume at slab position 0, and what they grow by in a slab.
+  double Base[3][LaneCount], Step[3][LaneCount];
+  double WorldLength[LaneCount]; ///< of a ray's way through a depth of 1
+  float StepLength[LaneCount];   ///< the length that counts for opacity, of a whole slab
+
+  // Parts of the ray, ascending: first and last slab, and where in those it begins and ends.
+  std::int32_t First[MostCroppedParts][LaneCount], Last[MostCroppedParts][LaneCount];
+  float Begin[MostCroppedParts][LaneCount], End[MostCroppedParts][LaneCount];
+  int PartCount;
+  std::int32_t FirstSlab, LastSlab;   ///< of all rays and parts
+  std::int32_t InnerFirst, InnerLast; ///< slabs that each ray of one part goes through wholly
+  std::int32_t HasPart[LaneCount];    ///< all bits set, or none
+
+  float Color[3][LaneCount];
+  float Translucency[LaneCount];
+  float Front[LaneCount]; ///< slab position of what contributes first, or -1
+  bool Ended;             ///< all rays are opaque
+};
+
+/// Where the rays go, and the slab positions between which they are in the volume and its limits.
+TETRALUX_NOINLINE void PlaceRays(
+  const ImageKernelInput& in, ImageRays& rays, double (&begin)[LaneCount], double (&end)[LaneCount])
+{
+  const SlicePlanes& slices = in.Slices;
+  const double origin = slices.Origin;
+  const double distance = slices.Distance;
+  const bool planes = slices.Shape == SliceShape::Planes;
+  double depthOf[LaneCount]; // of a Direction
+#pragma omp simd
+  for (int l = 0; l < LaneCount; ++l)
+  {
+    const double i = rays.X[l], j = rays.Y[l];
+    double way[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      way[a] = in.WorldDirection[a].At(i, j);
+    }
+    const double length = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    const double normal =
+      way[0] * slices.Normal[0] + way[1] * slices.Normal[1] + way[2] * slices.Normal[2];
+    const double depth = planes ? normal : length;
+    depthOf[l] = depth;
+    rays.WorldLength[l] = length / depth;
+    const double counted = distance / in.UnitDistance * (in.CorrectOpacity ? length / depth : 1);
+    constexpr double Largest = 1e37; // opacity is 1 long before
+    rays.StepLength[l] = static_cast<float>(counted < Largest ? counted : Largest);
+    double from = 0;
+    double to = slices.Count;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double start = in.Start[a].At(i, j);
+      const double direction = in.Direction[a].At(i, j);
+      const double base = start + origin / depth * direction;
+      const double step = distance / depth * direction;
+      rays.Base[a][l] = base;
+      rays.Step[a][l] = step;
+      const double most = in.LastCell[a] + 1.;
+      const double low = -base / step;
+      const double high = (most - base) / step;
+      const bool inside = (base >= 0) & (base <= most);
+      const double enter = step > 0 ? low : high;
+      const double leave = step > 0 ? high : low;
+      from = step != 0 && enter > from ? enter : from;
+      to = step != 0 ? (leave < to ? leave : to) : inside ? to : -1;
+    }
+    begin[l] = from;
+    end[l] = to;
+  }
+  for (const PlaneAlongRays& plane : in.Planes)
+  {
+#pragma omp simd
+    for (int l = 0; l < LaneCount; ++l)
+    {
+      const double i = rays.X[l], j = rays.Y[l];
+      const double slope = plane.Slope.At(i, j);
+      const double height = plane.Height.At(i, j) + origin / depthOf[l] * slope;
+      const double u = -height / (distance / depthOf[l] * slope);
+      begin[l] = slope > 0 && u > begin[l] ? u : begin[l];
+      end[l] = slope < 0 && u < end[l] ? u : end[l];
+      // Parallel to the plane: all or nothing.
+      end[l] = slope == 0 && height < 0 ? -1 : end[l];
+    }
+  }
+  if (in.Limits->MaximumDistances)
+  {
+    for (int l = 0; l < LaneCount; ++l)
+    {
+      const std::int64_t pixel = static_cast<std::int64_t>(rays.Y[l]) * in.Width + rays.X[l];
+      const double farthest = rays.X[l] < 0 ? 0 : in.Limits->MaximumDistances[pixel];
+      const double u = (farthest / rays.WorldLength[l] - origin) / distance;
+      end[l] = u < end[l] ? u : end[l];
+    }
+  }
+}
+
+/// Sets up rays whose X and Y are set.
+TETRALUX_NOINLINE void SetUpRays(const ImageKernelInput& in, ImageRays& rays)
+{
+  double begins[MostCroppedParts][LaneCount], ends[MostCroppedParts][LaneCount];
+  PlaceRays(in, rays, begins[0], ends[0]);
+  rays.PartCount = 1;
+  if (in.Limits->Cropping)
+  {
+    for (int l = 0; l < LaneCount; ++l)
+    {
+      const double base[3] = { rays.Base[0][l], rays.Base[1][l], rays.Base[2][l] };
+      const double step[3] = { rays.Step[0][l], rays.Step[1][l], rays.Step[2][l] };
+      const CroppedRay parts = CropRay(
+        in.Limits->CroppingPlanes, in.Limits->CroppingFlags, base, step, begins[0][l], ends[0][l]);
+      for (int p = 0; p < MostCroppedParts; ++p)
+      {
+        begins[p][l] = p < parts.Count ? parts.Begin[p] : 0;
+        ends[p][l] = p < parts.Count ? parts.End[p] : -1;
+      }
+      rays.PartCount = std::max(rays.PartCount, parts.Count);
+    }
+  }
+  rays.FirstSlab = NoSlab;
+  rays.LastSlab = -1;
+  rays.InnerFirst = rays.PartCount == 1 ? 0 : NoSlab;
+  rays.InnerLast = NoSlab;
+  for (int p = 0; p < rays.PartCount; ++p)
+  {
+    for (int l = 0; l < LaneCount; ++l)
+    {
+      const double from = begins[p][l];
+      const double to = ends[p][l];
+      const bool exists = rays.X[l] >= 0 && from < to;
+      const std::int32_t first = exists ? static_cast<std::int32_t>(from) : NoSlab;
+      const std::int32_t last = exists ? static_cast<std::int32_t>(std::ceil(to)) - 1 : -1;
+      rays.First[p][l] = first;
+      rays.Last[p][l] = last;
+      rays.Begin[p][l] = exists ? static_cast<float>(from - first) : 0.f;
+      rays.End[p][l] = exists ? static_cast<float>(to - last) : 0.f;
+      rays.HasPart[l] = (p > 0 ? rays.HasPart[l] : 0) | (exists ? -1 : 0);
+      if (exists)
+      {
+        rays.FirstSlab = std::min(rays.FirstSlab, first);
+        rays.LastSlab = std::max(rays.LastSlab, last);
+        rays.InnerFirst = std::max(rays.InnerFirst, first + 1);
+        rays.InnerLast = std::min(rays.InnerLast, last - 1);
+      }
+    }
+  }
+  for (int l = 0; l < LaneCount; ++l)
+  {
+    rays.Color[0][l] = rays.Color[1][l] = rays.Color[2][l] = 0.f;
+    rays.Translucency[l] = 1.f;
+    rays.Front[l] = -1.f;
+  }
+  rays.Ended = rays.LastSlab < 0;
+}
+
+/// Positions within a block of slabs, in single precision, relative to a cell near them.
+struct BlockPositions
+{
+  Float8 Base[3], Step[3]; ///< from the cell's corner at the first slab of the block
+  Float8 Low[3], High[3];  ///< what a cell may have of an index, seen from that cell
+  Int8 Index;              ///< of that cell's first value
+};
+
+TETRALUX_INLINE BlockPositions FindPositions(
+  const ImageKernelInput& in, const ImageRays& rays, std::int32_t slab)
+{
+  float base[3][LaneCount], step[3][LaneCount], low[3][LaneCount], high[3][LaneCount];
+  std::int32_t index[LaneCount];
+  const std::int32_t strides[3] = { 1, in.Row, in.Slice };
+  for (int a = 0; a < 3; ++a)
+  {
+    const double last = in.LastCell[a];
+#pragma omp simd
+    for (int l = 0; l < LaneCount; ++l)
+    {
+      const double x = rays.Base[a][l] + slab * rays.Step[a][l];
+      const double inside = x < last ? x : last;
+      const auto cell = static_cast<std::int32_t>(inside > 0 ? inside : 0);
+      base[a][l] = static_cast<float>(x - cell);
+      step[a][l] = static_cast<float>(rays.Step[a][l]);
+      low[a][l] = static_cast<float>(-cell);
+      high[a][l] = static_cast<float>(in.LastCell[a] - cell);
+      index[l] = cell * strides[a] + (a > 0 ? index[l] : 0);
+    }
+  }
+  BlockPositions positions;
+  for (int a = 0; a < 3; ++a)
+  {
+    positions.Base[a] = LoadFloat8(base[a]);
+    positions.Step[a] = LoadFloat8(step[a]);
+    positions.Low[a] = LoadFloat8(low[a]);
+    positions.High[a] = LoadFloat8(high[a]);
+  }
+  positions.Index = LoadInt8(index);
+  return positions;
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif
