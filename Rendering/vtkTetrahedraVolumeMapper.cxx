@@ -30,7 +30,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 using tetralux::Json;
@@ -428,11 +427,6 @@ void vtkTetrahedraVolumeMapper::PrintResults(ostream& os, vtkIndent indent)
   os << indent << "ErrorEstimate: " << this->GetErrorEstimate() << "\n"
      << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n"
      << indent << "NumberOfRemovedCells: " << this->GetNumberOfRemovedCells() << "\n"
-     << indent << "NumberOfBlankCells: " << this->GetNumberOfBlankCells() << "\n"
-     << indent << "Statistics:\n";
-  std::istringstream lines(this->GetStatistics());
-  for (std::string line; std::getline(lines, line);)
-  {
-    os << indent.GetNextIndent() << line << "\n";
-  }
+     << indent << "NumberOfBlankCells: " << this->GetNumberOfBlankCells() << "\n";
+  this->Private->Record.PrintStatistics(os, indent);
 }

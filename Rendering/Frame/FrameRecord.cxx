@@ -193,6 +193,16 @@ vtkImageData* FrameRecord::GetPicture()
   return this->Image;
 }
 
+void FrameRecord::PrintStatistics(std::ostream& os, vtkIndent indent) const
+{
+  os << indent << "Statistics:\n";
+  std::istringstream lines(this->Statistics);
+  for (std::string line; std::getline(lines, line);)
+  {
+    os << indent.GetNextIndent() << line << "\n";
+  }
+}
+
 bool FrameRecord::IsErrorKept(double maximumError) const
 {
   return maximumError < SmallestMaximumError || this->ErrorEstimate <= maximumError;

@@ -6,9 +6,11 @@
 #include "Report/OnceWarning.h"
 #include "TetraluxRenderingModule.h"
 
+#include "vtkIndent.h"
 #include "vtkNew.h"
 
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,9 @@ public:
   vtkImageData* GetPicture();
   const std::string& GetStatistics() const { return this->Statistics; }
   double GetErrorEstimate() const { return this->ErrorEstimate; }
+
+  /// For PrintSelf.
+  void PrintStatistics(std::ostream& os, vtkIndent indent) const;
 
   /// Whether the estimated error is at most this; true below what single precision reaches.
   bool IsErrorKept(double maximumError) const;
