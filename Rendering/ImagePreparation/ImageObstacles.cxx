@@ -3,6 +3,7 @@
 
 #include "vtkDataArrayRange.h"
 #include "vtkImageData.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVolumeProperty.h"
 
@@ -23,6 +24,27 @@ bool HasFlags(vtkUnsignedCharArray* ghosts)
   }
   const auto flags = vtk::DataArrayValueRange(ghosts);
   return std::any_of(flags.begin(), flags.end(), [](unsigned char flag) { return flag != 0; });
+}
+
+/// Whether a property has a function of gradients that changes opacities: VTK's mappers make one
+/// that does not.
+bool HasGradientOpacity(vtkVolumeProperty* property)
+{
+  if (property->GetDisableGradientOpacity(0) != 0 || !property->HasGradientOpacity(0))
+  {
+    return false;
+  }
+  vtkPiecewiseFunction* function = property->GetGradientOpacity(0);
+  double node[4];
+  for (int i = 0; i < function->GetSize(); ++i)
+  {
+    function->GetNodeValue(i, node);
+    if (node[1] != 1)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 } // namespace
@@ -79,8 +101,7 @@ std::string DescribeUnused(vtkVolumeProperty* property, int numberOfComponents, 
   const auto add = [&unused](bool isUnused, const char* text)
   { unused += isUnused ? (unused.empty() ? "" : "; ") + std::string(text) : ""; };
   add(property->GetShade(0) != 0, "Shade is not used");
-  add(property->GetDisableGradientOpacity(0) == 0 && property->HasGradientOpacity(0),
-    "gradient opacity is not used");
+  add(HasGradientOpacity(property), "gradient opacity is not used");
   add(property->GetNumberOfLabels() > 0, "functions of labels are not used");
   add(numberOfComponents > 1 && vectorMode == DisabledVectorMode,
     property->GetIndependentComponents() != 0
