@@ -77,6 +77,17 @@ void BlockRanges::Build(const ImageVolume& volume, int threads)
   }
 }
 
+BlockRanges::Range BlockRanges::GetRange() const
+{
+  Range all{ std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity() };
+  for (const Range& range : this->Ranges)
+  {
+    all.Low = std::min(all.Low, range.Low);
+    all.High = std::max(all.High, range.High);
+  }
+  return std::isfinite(all.Low) && std::isfinite(all.High) ? all : Range{ 0, 0 };
+}
+
 void EmptySpace::Build(
   const BlockRanges& blocks, const IntervalTable& table, float scale, float offset)
 {

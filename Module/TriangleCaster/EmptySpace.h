@@ -34,6 +34,9 @@ public:
   const std::int32_t* GetSize() const { return this->Size; }
   const std::vector<Range>& GetRanges() const { return this->Ranges; }
 
+  /// Of the whole volume; 0..0 where no value is a finite number.
+  Range GetRange() const;
+
 private:
   std::int32_t Size[3] = { 0, 0, 0 }; ///< blocks along each axis
   std::vector<Range> Ranges;          ///< x fastest

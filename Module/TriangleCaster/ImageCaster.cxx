@@ -6,11 +6,14 @@
 #include "Simd/InstructionSet.h"
 #include "TriangleCaster/EmptySpace.h"
 #include "TriangleCaster/ImageKernel.h"
+#include "TriangleCaster/SlabTable.h"
+#include "View/MeshToWorld.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <omp.h>
@@ -27,16 +30,16 @@ constexpr int WorkSize = 32;
 constexpr int SmallestTile = 4;
 constexpr int LargestTile = 64;
 
-ImageKernel GetKernel(InstructionSet set, ImageScalar type)
+ImageKernel GetKernel(InstructionSet set, const ImageKernelInput& in)
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
   if (set == InstructionSet::Avx2)
   {
-    return GetImageKernelAvx2(type);
+    return GetImageKernelAvx2(in);
   }
 #endif
   static_cast<void>(set);
-  return GetImageKernelGeneric(type);
+  return GetImageKernelGeneric(in);
 }
 
 void CheckVolume(const ImageVolume& volume)
@@ -104,50 +107,27 @@ IntervalBuckets MakeBuckets(const std::vector<IntervalTable::Interval>& interval
   return buckets;
 }
 
-PixelLinear MakeLinear(double value, double stepX, double stepY) { return { value, stepX, stepY }; }
-
-} // namespace
-
-//------------------------------------------------------------------------------------------------
-class ImageCaster::Internals
+/// A transfer function, and what its lookup points to.
+struct FunctionLookup
 {
-public:
-  void CheckReady() const;
-  void FillTransfer();
-  void PrepareSpace(int threads);
-  void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
-  ImageKernelInput MakeInput(
-    const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options);
-
-  ImageVolume Volume;
-  bool HasVolume = false;
-  ImageOptics Optics;
-  bool HasOptics = false;
   IntervalTable Table;
   IntervalBuckets Buckets;
-  TransferLookup Transfer;
+  TransferLookup Lookup;
 
-  BlockRanges Blocks;
-  bool BlocksValid = false; ///< of Volume
-  EmptySpace Space;
-  bool SpaceValid = false; ///< of Blocks and Table
+  void Set(const TransferFunction& function);
+
+  /// Where a scalar lies in the intervals: x = scale s + offset.
+  ///@{
+  double GetScale() const { return 1 / this->Table.Scale; }
+  double GetOffset() const { return -this->Table.Offset / this->Table.Scale; }
+  ///@}
 };
 
-//------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::CheckReady() const
+void FunctionLookup::Set(const TransferFunction& function)
 {
-  if (!this->HasVolume || !this->HasOptics)
-  {
-    throw std::invalid_argument(
-      this->HasVolume ? "the image caster has no optics" : "the image caster has no volume");
-  }
-}
-
-//------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::FillTransfer()
-{
+  this->Table = MakeIntervalTable(function);
   const std::vector<IntervalTable::Interval>& intervals = this->Table.Intervals;
-  TransferLookup& transfer = this->Transfer;
+  TransferLookup& transfer = this->Lookup;
   transfer = TransferLookup();
   transfer.Count = static_cast<int>(intervals.size());
   transfer.Intervals = intervals.data();
@@ -186,22 +166,107 @@ void ImageCaster::Internals::FillTransfer()
   }
 }
 
+/// About half of the volume's size, in world units.
+double FindRadius(const ImageVolume& volume, const RayGrid& grid)
+{
+  double squared = 0;
+  for (const int points : volume.Dimensions)
+  {
+    squared += 0.25 * points * points;
+  }
+  return std::sqrt(squared) * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+}
+
+PixelLinear MakeLinear(double value, double stepX, double stepY) { return { value, stepX, stepY }; }
+
+} // namespace
+
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareSpace(int threads)
+class ImageCaster::Internals
+{
+public:
+  void CheckReady() const;
+  /// Where a value lies in the intervals of Function.
+  ///@{
+  float GetValueScale() const
+  {
+    return static_cast<float>(this->Volume.Scale * this->Function.GetScale());
+  }
+  float GetValueOffset() const
+  {
+    return static_cast<float>(
+      (this->Volume.Offset - this->Function.Table.Offset) / this->Function.Table.Scale);
+  }
+  ///@}
+  void PrepareBlocks(int threads);
+  void PrepareSpace();
+  void PrepareSlabs(const ImageCasterOptions& options);
+  void FillGradients(const RayGrid& grid, ImageKernelInput& in) const;
+  void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
+  ImageKernelInput MakeInput(
+    const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options);
+
+  ImageVolume Volume;
+  bool HasVolume = false;
+  ImageOptics Optics;
+  bool HasOptics = false;
+  FunctionLookup Function;
+  FunctionLookup GradientFunction;
+
+  SlabTable Slabs; ///< of Optics, and the scalars of Volume
+
+  BlockRanges Blocks;
+  bool BlocksValid = false; ///< of Volume
+  EmptySpace Space;
+  bool SpaceValid = false; ///< of Blocks and Table
+};
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::CheckReady() const
+{
+  if (!this->HasVolume || !this->HasOptics)
+  {
+    throw std::invalid_argument(
+      this->HasVolume ? "the image caster has no optics" : "the image caster has no volume");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareBlocks(int threads)
 {
   if (!this->BlocksValid)
   {
     this->Blocks.Build(this->Volume, threads);
     this->BlocksValid = true;
     this->SpaceValid = false;
+    this->Slabs.Invalidate();
   }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareSpace()
+{
   if (!this->SpaceValid)
   {
-    this->Space.Build(this->Blocks, this->Table,
-      static_cast<float>(this->Volume.Scale / this->Table.Scale),
-      static_cast<float>((this->Volume.Offset - this->Table.Offset) / this->Table.Scale));
+    this->Space.Build(
+      this->Blocks, this->Function.Table, this->GetValueScale(), this->GetValueOffset());
     this->SpaceValid = true;
   }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options)
+{
+  if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty())
+  {
+    throw std::invalid_argument(
+      "pre-integrated slabs have no gradients: shading and gradient opacity need them off");
+  }
+  const BlockRanges::Range range = this->Blocks.GetRange();
+  const double a = this->Volume.Offset + this->Volume.Scale * range.Low;
+  const double b = this->Volume.Offset + this->Volume.Scale * range.High;
+  const double scalars[2] = { std::min(a, b), std::max(a, b) };
+  this->Slabs.Update(this->Optics, options.SampleDistance, scalars);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -229,7 +294,30 @@ void ImageCaster::Internals::FillRays(
       MakeLinear(apply(grid.Direction), apply(grid.DirectionStepX), apply(grid.DirectionStepY)) });
   }
   in.Limits = &limits;
+  in.Grid = &grid;
   in.Width = grid.Width;
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput& in) const
+{
+  if (this->Optics.GradientOpacity.Nodes.empty())
+  {
+    return;
+  }
+  in.GradientTransfer = this->GradientFunction.Lookup;
+  in.Norm = this->Optics.Norm;
+  const double factor = this->Volume.Scale * this->Optics.GradientLength;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      // Gradients are transformed by the transpose of what takes positions into the volume.
+      in.WorldGradient[row][column] = static_cast<float>(factor * grid.MeshFromWorld[column][row]);
+    }
+  }
+  in.GradientScale = static_cast<float>(this->GradientFunction.GetScale());
+  in.GradientOffset = static_cast<float>(this->GradientFunction.GetOffset());
 }
 
 //------------------------------------------------------------------------------------------------
@@ -237,6 +325,7 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options)
 {
   ImageKernelInput in{};
+  in.Type = this->Volume.Type;
   in.Values = this->Volume.Values;
   in.Row = this->Volume.Dimensions[0];
   in.Slice = this->Volume.Dimensions[0] * this->Volume.Dimensions[1];
@@ -244,16 +333,25 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   {
     in.LastCell[a] = this->Volume.Dimensions[a] - 2;
   }
-  in.ValueScale = static_cast<float>(this->Volume.Scale / this->Table.Scale);
-  in.ValueOffset =
-    static_cast<float>((this->Volume.Offset - this->Table.Offset) / this->Table.Scale);
-  in.Transfer = this->Transfer;
+  in.ValueScale = this->GetValueScale();
+  in.ValueOffset = this->GetValueOffset();
+  in.Transfer = this->Function.Lookup;
+  if (options.PreIntegrated)
+  {
+    in.Slab.Texels = this->Slabs.GetTexels();
+    in.Slab.Size = SlabTable::Size;
+    in.Slab.CoordinateScale = static_cast<float>(this->Volume.Scale * this->Slabs.GetScale());
+    in.Slab.CoordinateOffset =
+      static_cast<float>(this->Volume.Offset * this->Slabs.GetScale() + this->Slabs.GetOffset());
+    in.Slab.PerLength = static_cast<float>(this->Optics.UnitDistance / this->Slabs.GetLength());
+  }
   in.Power = this->Optics.Opacity == StepOpacity::Power;
   in.UnitDistance = this->Optics.UnitDistance;
   in.CorrectOpacity = options.CorrectOpacity;
   in.Threshold = static_cast<float>(std::max(options.Threshold, 0.));
   in.Slices = MakeSlicePlanes(this->Volume, grid, options.Shape, options.SampleDistance);
   this->FillRays(grid, limits, in);
+  this->FillGradients(grid, in);
   in.EndTriangles = options.EndTriangles;
   in.SkipPixels = options.SkipPixels;
   in.Space = options.SkipEmptySpace ? &this->Space : nullptr;
@@ -287,11 +385,25 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
   {
     throw std::invalid_argument("the unit distance of opacity is not above 0");
   }
-  this->Private->Table = MakeIntervalTable(optics.Function);
+  if (!(optics.GradientLength > 0) || !std::isfinite(optics.GradientLength))
+  {
+    throw std::invalid_argument("the length that gradients are measured over is not above 0");
+  }
+  // A function that is not valid changes nothing.
+  FunctionLookup function;
+  FunctionLookup gradientFunction;
+  function.Set(optics.Function);
+  if (!optics.GradientOpacity.Nodes.empty())
+  {
+    gradientFunction.Set(optics.GradientOpacity);
+  }
+  // What lookups point to moves with them.
+  this->Private->Function = std::move(function);
+  this->Private->GradientFunction = std::move(gradientFunction);
   this->Private->Optics = optics;
   this->Private->HasOptics = true;
   this->Private->SpaceValid = false;
-  this->Private->FillTransfer();
+  this->Private->Slabs.Invalidate();
 }
 
 //------------------------------------------------------------------------------------------------
@@ -306,17 +418,33 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   Internals& self = *this->Private;
   self.CheckReady();
   const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
+  if (options.SkipEmptySpace || options.PreIntegrated)
+  {
+    self.PrepareBlocks(threads);
+  }
   if (options.SkipEmptySpace)
   {
-    self.PrepareSpace(threads);
+    self.PrepareSpace();
+  }
+  if (options.PreIntegrated)
+  {
+    self.PrepareSlabs(options);
   }
   ImageKernelInput in = self.MakeInput(grid, limits, options);
   in.Colors = colors.data();
   in.Depths = depths.data();
+  KernelLighting lighting{};
+  std::vector<KernelLight> lights;
+  if (options.Shaded)
+  {
+    FillKernelLighting(
+      options.Lights, options.Surface, grid, FindRadius(self.Volume, grid), lighting, lights);
+    in.Lighting = &lighting;
+  }
 
   const InstructionSet set =
     options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();
-  const ImageKernel kernel = GetKernel(set, self.Volume.Type);
+  const ImageKernel kernel = GetKernel(set, in);
   struct alignas(64) Counts : ImageKernelCounts
   {
   };
@@ -332,7 +460,6 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   for (const Counts& count : counts)
   {
     statistics.Triangles += count.Triangles;
-    statistics.SkippedSlices += count.SkippedSlices;
     statistics.Samples += count.Samples;
   }
   statistics.TerminationError = in.Threshold;

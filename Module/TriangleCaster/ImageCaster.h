@@ -23,11 +23,10 @@ struct ImageCastStatistics
   std::string InstructionSet;
   int NumberOfThreads = 0;
   std::int64_t Rays = 0;
-  std::int64_t Slices = 0;        ///< planes or shells of the picture
-  std::int64_t Triangles = 0;     ///< P-triangles that were cast
-  std::int64_t Samples = 0;       ///< interpolated, over all rays
-  std::int64_t SkippedSlices = 0; ///< P-triangles in empty space, between others
-  double TerminationError = 0;    ///< at most, by ending rays early
+  std::int64_t Slices = 0;     ///< planes or shells of the picture
+  std::int64_t Triangles = 0;  ///< P-triangles that were cast
+  std::int64_t Samples = 0;    ///< interpolated, over all rays
+  double TerminationError = 0; ///< at most, by ending rays early
 };
 
 /// Image data in tiles (Knittel 1999): the picture is cut into S-triangles, and all slices of one

@@ -2,9 +2,11 @@
 #ifndef tetralux_ImageCasterOptions_h
 #define tetralux_ImageCasterOptions_h
 
+#include "Optics/OpticalModel.h"
 #include "TriangleCaster/SlicePlanes.h"
 
 #include <functional>
+#include <vector>
 
 namespace tetralux
 {
@@ -17,6 +19,17 @@ struct ImageCasterOptions
   /// Whether a sample's opacity is that of its own ray's step. Else it is that of the step of a ray
   /// along the normal of the planes (section 1.1).
   bool CorrectOpacity = true;
+
+  /// Whether what is between two slices comes from a table over the scalars at both (SlabTable.h),
+  /// so that thin features of the transfer function are not missed. Not with Shaded, nor where
+  /// opacity depends on gradients.
+  bool PreIntegrated = false;
+
+  /// Whether lights shine on samples, from the side of the viewer, by gradients as normals: ambient
+  /// and diffuse light times the colour, and Blinn's highlights. What is lit is not clamped.
+  bool Shaded = false;
+  std::vector<Light> Lights;
+  Material Surface;
 
   /// A pixel is opaque when its translucency is below this, 0..1 (section 3.2).
   double Threshold = 1. / 255;

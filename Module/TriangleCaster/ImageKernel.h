@@ -6,8 +6,10 @@
 // The kernels themselves (ImageKernel.inl) are compiled once for each instruction set.
 
 #include "Base/Tile.h"
+#include "Lighting/KernelLighting.h"
 #include "Optics/IntervalTable.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/ImageOptics.h"
 #include "TriangleCaster/ImageVolume.h"
 #include "TriangleCaster/SlicePlanes.h"
 #include "View/RayGrid.h"
@@ -58,9 +60,23 @@ struct TransferLookup
   ///@}
 };
 
+/// A SlabTable as a kernel reads it.
+struct SlabLookup
+{
+  const float* Texels = nullptr; ///< nullptr: samples are looked up one by one
+  int Size = 0;                  ///< texels along each scalar
+  /// The texel coordinate of a value v is CoordinateOffset + CoordinateScale v.
+  ///@{
+  float CoordinateScale = 1;
+  float CoordinateOffset = 0;
+  ///@}
+  float PerLength = 1; ///< 1 over the length of the table's slabs, in unit distances
+};
+
 struct ImageKernelInput
 {
   // The volume.
+  ImageScalar Type;
   const void* Values;
   std::int32_t Row;   ///< values from one row to the next
   std::int32_t Slice; ///< values from one slice of the grid to the next
@@ -73,10 +89,23 @@ struct ImageKernelInput
 
   // Optics.
   TransferLookup Transfer;
+  SlabLookup Slab;
   bool Power; ///< StepOpacity::Power
   double UnitDistance;
   bool CorrectOpacity;
   float Threshold;
+
+  // Gradients.
+  const KernelLighting* Lighting;  ///< nullptr: no lights
+  TransferLookup GradientTransfer; ///< of no intervals: opacity does not depend on gradients
+  GradientNorm Norm;
+  /// Takes a gradient in values a point to scalars a GradientLength of the world, and the length of
+  /// that to where it lies in the intervals of GradientTransfer.
+  ///@{
+  float WorldGradient[3][3];
+  float GradientScale;
+  float GradientOffset;
+  ///@}
 
   // Rays: their starts and directions in coordinates of the volume, and directions in the world.
   PixelLinear Start[3];
@@ -84,6 +113,7 @@ struct ImageKernelInput
   PixelLinear WorldDirection[3];
   SlicePlanes Slices;
   std::vector<PlaneAlongRays> Planes;
+  const RayGrid* Grid;
   const RayLimits* Limits;
   int Width; ///< of the picture
 
@@ -101,17 +131,19 @@ struct ImageKernelInput
 struct ImageKernelCounts
 {
   std::int64_t Triangles = 0;
-  std::int64_t SkippedSlices = 0;
   std::int64_t Samples = 0;
 };
 
 /// Casts the pixels of a tile, whose edges are multiples of TileSize or those of the picture.
 using ImageKernel = void (*)(const ImageKernelInput&, const Tile&, ImageKernelCounts&);
 
-ImageKernel GetImageKernelGeneric(ImageScalar type);
+/// The kernel that does what an input asks for.
+///@{
+ImageKernel GetImageKernelGeneric(const ImageKernelInput& in);
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-ImageKernel GetImageKernelAvx2(ImageScalar type);
+ImageKernel GetImageKernelAvx2(const ImageKernelInput& in);
 #endif
+///@}
 
 } // namespace tetralux
 

@@ -3,17 +3,15 @@
 // The triangle caster for one instruction set: S-triangles, blocks of slabs, vectors of rays
 // (Knittel 1999, sections 2 and 3).
 
+#include "TriangleCaster/CompositeModel.h"
 #include "TriangleCaster/ImageKernel.h"
 #include "TriangleCaster/ImageRays.h"
-#include "TriangleCaster/TransferLanes.h"
-#include "TriangleCaster/VoxelLanes.h"
-
-#include "Simd/LaneFunctions.h"
+#include "TriangleCaster/ImageSample.h"
+#include "TriangleCaster/SlabModel.h"
+#include "TriangleCaster/TileSpace.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace tetralux
@@ -23,186 +21,94 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// The compositing buffer of one vector (section 3.2), in registers.
-struct CompositingBuffer
+/// Finds the cells of a vector's samples. way: slabs from the start of the block.
+TETRALUX_INLINE void PlaceSample(
+  const ImageKernelInput& in, const BlockPositions& positions, Float8 way, ImageSample& sample)
 {
-  Float8 Color[3];
-  Float8 Translucency;
-  Float8 Front;
-
-  explicit CompositingBuffer(const ImageRays& rays)
-    : Translucency(LoadFloat8(rays.Translucency))
-    , Front(LoadFloat8(rays.Front))
+  const std::int32_t strides[3] = { 1, in.Row, in.Slice };
+  sample.Index = positions.Index;
+  for (int a = 0; a < 3; ++a)
   {
-    for (int c = 0; c < 3; ++c)
-    {
-      this->Color[c] = LoadFloat8(rays.Color[c]);
-    }
+    const Float8 x = Fma(positions.Step[a], way, positions.Base[a]);
+    // The cell, and at its border either of two.
+    const Int8 cell = RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[a]), positions.High[a]));
+    sample.Place[a] = x - ToFloat(cell);
+    sample.Cell[a] = ToFloat(cell) - positions.Low[a];
+    sample.Index = sample.Index + cell * Int8(strides[a]);
   }
-  void StoreTo(ImageRays& rays) const
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      Store(rays.Color[c], this->Color[c]);
-    }
-    Store(rays.Translucency, this->Translucency);
-    Store(rays.Front, this->Front);
-  }
-  /// Equation 5.
-  TETRALUX_INLINE void Add(Float8 opacity, const Float8 (&color)[3])
-  {
-    const Float8 share = this->Translucency * opacity;
-    for (int c = 0; c < 3; ++c)
-    {
-      this->Color[c] = Fma(share, color[c], this->Color[c]);
-    }
-    this->Translucency = this->Translucency - share;
-  }
-};
-
-/// Classifies samples and composites them. x: their scalars, as the intervals map them. position:
-/// slab positions of where they begin. length: of their steps, in unit distances.
-template <class Intervals>
-TETRALUX_INLINE void Composite(const ImageKernelInput& in, Float8 x, Mask8 active, Float8 position,
-  Float8 length, CompositingBuffer& buffer)
-{
-  const Intervals intervals(in.Transfer, x);
-  const Float8 zero = 0.f;
-  const Float8 scalarOpacity = intervals.GetOpacity();
-  // False where the scalar is not a number.
-  const Mask8 visible = active & (zero < scalarOpacity);
-  if (!Any(visible))
-  {
-    return;
-  }
-  const Float8 depth =
-    (in.Power ? MinusLogOfRest(Max(scalarOpacity, zero)) : scalarOpacity) * length;
-  const Float8 opacity = Keep(visible, OneMinusExp(Max(depth, zero)));
-  Float8 color[3];
-  intervals.GetColor(color);
-  for (Float8& channel : color)
-  {
-    channel = Keep(visible, channel);
-  }
-  buffer.Front = Select((zero < opacity) & (buffer.Front < zero), position, buffer.Front);
-  buffer.Add(opacity, color);
 }
 
-/// Casts the rays of a vector through the slabs [begin, end) of one block.
-template <class Value, class Intervals>
-TETRALUX_NOINLINE void CastBlock(const ImageKernelInput& in, ImageRays& rays, std::int32_t begin,
-  std::int32_t end, ImageKernelCounts& counts)
+/// Casts the rays of a vector through the slabs of one block.
+template <class Value, class Model>
+TETRALUX_NOINLINE void CastBlock(
+  const ImageKernelInput& in, ImageRays& rays, std::int32_t block, ImageKernelCounts& counts)
 {
-  // The same positions whatever the slabs that are skipped.
-  const std::int32_t block = begin / SlabsOfBlock * SlabsOfBlock;
-  const BlockPositions positions = FindPositions(in, rays, block);
+  const std::int32_t start = block * SlabsOfBlock;
+  const BlockPositions positions = FindPositions(in, rays, start);
   const Float8 stepLength = LoadFloat8(rays.StepLength);
   const Mask8 hasPart = LoadInt8(rays.HasPart) == Int8(-1);
-  const Float8 threshold = in.Threshold;
-  CompositingBuffer buffer(rays);
-  for (std::int32_t slab = std::max(begin, rays.FirstSlab); slab < end && slab <= rays.LastSlab;
-       ++slab)
+  const std::int32_t begin = std::max(start, rays.FirstSlab);
+  const std::int32_t end = std::min(start + SlabsOfBlock, rays.LastSlab + 1);
+  Model model(in, rays);
+  for (std::int32_t slab = begin; slab < end; ++slab)
   {
     const bool inner = rays.InnerFirst <= slab && slab <= rays.InnerLast;
     for (int p = 0; p < rays.PartCount; ++p)
     {
-      Mask8 active = hasPart & (threshold <= buffer.Translucency);
-      if (!Any(active) && in.SkipPixels)
+      ImageSample sample;
+      sample.Active = hasPart & model.GetOpen();
+      if (!Any(sample.Active) && in.SkipPixels)
       {
-        buffer.StoreTo(rays);
+        model.StoreTo(rays);
         rays.Ended = true;
         return;
       }
       Float8 from = 0.f;
-      Float8 middle = 0.5f;
-      Float8 width = 1.f;
+      Float8 to = 1.f;
       if (!inner)
       {
         const Int8 n = slab;
         const Int8 first = LoadInt8(rays.First[p]);
         const Int8 last = LoadInt8(rays.Last[p]);
-        active = AndNot(AndNot(active, first > n), n > last);
-        if (!Any(active))
+        sample.Active = AndNot(AndNot(sample.Active, first > n), n > last);
+        if (!Any(sample.Active))
         {
           continue;
         }
         from = Select(first == n, LoadFloat8(rays.Begin[p]), Float8(0.f));
-        const Float8 to = Select(last == n, LoadFloat8(rays.End[p]), Float8(1.f));
-        middle = Float8(0.5f) * (from + to);
-        width = to - from;
+        to = Select(last == n, LoadFloat8(rays.End[p]), Float8(1.f));
       }
-      const Float8 way = Float8(static_cast<float>(slab - block)) + middle;
-      Int8 index = positions.Index;
-      Float8 w[3];
-      const std::int32_t strides[3] = { 1, in.Row, in.Slice };
-      for (int a = 0; a < 3; ++a)
+      const Float8 position = static_cast<float>(slab - start);
+      sample.Front = Float8(static_cast<float>(slab)) + from;
+      sample.Share = to - from;
+      sample.Length = stepLength * sample.Share;
+      counts.Samples += __builtin_popcount(Bits(sample.Active));
+      if constexpr (Model::AtEnds)
       {
-        const Float8 x = Fma(positions.Step[a], way, positions.Base[a]);
-        // The cell, and at its border either of two.
-        const Int8 cell =
-          RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[a]), positions.High[a]));
-        w[a] = x - ToFloat(cell);
-        index = index + cell * Int8(strides[a]);
+        PlaceSample(in, positions, position + to, sample);
+        model.Add(in, sample,
+          [&]()
+          {
+            ImageSample front = sample;
+            PlaceSample(in, positions, position + from, front);
+            return front;
+          });
       }
-      const Float8 value = Interpolate<Value>(in.Values, index, in.Row, in.Slice, w);
-      counts.Samples += __builtin_popcount(Bits(active));
-      Composite<Intervals>(in, Fma(value, Float8(in.ValueScale), Float8(in.ValueOffset)), active,
-        Float8(static_cast<float>(slab)) + from, stepLength * width, buffer);
+      else
+      {
+        PlaceSample(in, positions, position + Float8(0.5f) * (from + to), sample);
+        model.Add(in, sample);
+      }
     }
   }
-  buffer.StoreTo(rays);
-  rays.Ended = !Any((LoadInt8(rays.HasPart) == Int8(-1)) & (threshold <= buffer.Translucency)) ||
-    end > rays.LastSlab;
-}
-
-/// Whether what an S-triangle sees between two slab positions is empty.
-bool IsEmpty(const ImageKernelInput& in, const Tile& box, double begin, double end)
-{
-  const SlicePlanes& slices = in.Slices;
-  double low[3], high[3];
-  std::fill(low, low + 3, std::numeric_limits<double>::infinity());
-  std::fill(high, high + 3, -std::numeric_limits<double>::infinity());
-  const bool planes = slices.Shape == SliceShape::Planes;
-  // Positions are linear over the pixels and along Direction: corners bound them.
-  double longest = 0, shortest = std::numeric_limits<double>::infinity();
-  for (int corner = 0; corner < 4; ++corner)
-  {
-    const double i = (corner & 1) != 0 ? box.X1 - 1 : box.X0;
-    const double j = (corner & 2) != 0 ? box.Y1 - 1 : box.Y0;
-    double way[3];
-    for (int a = 0; a < 3; ++a)
-    {
-      way[a] = in.WorldDirection[a].At(i, j);
-    }
-    const double normal =
-      way[0] * slices.Normal[0] + way[1] * slices.Normal[1] + way[2] * slices.Normal[2];
-    // No direction between is shorter than its part along the normal.
-    longest = std::max(longest, planes ? normal : std::hypot(way[0], way[1], way[2]));
-    shortest = std::min(shortest, normal);
-  }
-  const double near = (slices.Origin + begin * slices.Distance) / longest;
-  const double far = (slices.Origin + end * slices.Distance) / shortest;
-  for (int corner = 0; corner < 4; ++corner)
-  {
-    const double i = (corner & 1) != 0 ? box.X1 - 1 : box.X0;
-    const double j = (corner & 2) != 0 ? box.Y1 - 1 : box.Y0;
-    for (int a = 0; a < 3; ++a)
-    {
-      const double start = in.Start[a].At(i, j);
-      const double direction = in.Direction[a].At(i, j);
-      const double x0 = start + near * direction;
-      const double x1 = start + far * direction;
-      low[a] = std::min({ low[a], x0, x1 });
-      high[a] = std::max({ high[a], x0, x1 });
-    }
-  }
-  return in.Space->IsEmpty(low, high);
+  model.StoreTo(rays);
+  rays.Ended = !Any(hasPart & model.GetOpen()) || start + SlabsOfBlock > rays.LastSlab;
 }
 
 /// Casts one S-triangle, or one tile: rays are set up.
-template <class Value, class Intervals>
-void CastTriangle(const ImageKernelInput& in, const Tile& box, ImageRays* rays, int count,
-  ImageKernelCounts& counts)
+template <class Value, class Model>
+void CastTriangle(const ImageKernelInput& in, const std::vector<std::int32_t>& blocks,
+  ImageRays* rays, int count, ImageKernelCounts& counts)
 {
   std::int32_t first = NoSlab;
   std::int32_t last = -1;
@@ -211,13 +117,12 @@ void CastTriangle(const ImageKernelInput& in, const Tile& box, ImageRays* rays, 
     first = std::min(first, rays[v].FirstSlab);
     last = std::max(last, rays[v].LastSlab);
   }
-  for (std::int32_t begin = first; begin <= last;)
+  for (const std::int32_t block : blocks)
   {
-    const std::int32_t end = std::min(begin / SlabsOfBlock * SlabsOfBlock + SlabsOfBlock, last + 1);
-    if (in.Space && IsEmpty(in, box, begin, end))
+    const std::int32_t begin = std::max(block * SlabsOfBlock, first);
+    const std::int32_t end = std::min((block + 1) * SlabsOfBlock, last + 1);
+    if (begin >= end)
     {
-      counts.SkippedSlices += end - begin;
-      begin = end;
       continue;
     }
     counts.Triangles += end - begin;
@@ -226,7 +131,7 @@ void CastTriangle(const ImageKernelInput& in, const Tile& box, ImageRays* rays, 
     {
       if (!(rays[v].Ended && in.SkipPixels))
       {
-        CastBlock<Value, Intervals>(in, rays[v], begin, end, counts);
+        CastBlock<Value, Model>(in, rays[v], block, counts);
       }
       ended = ended && rays[v].Ended;
     }
@@ -234,10 +139,11 @@ void CastTriangle(const ImageKernelInput& in, const Tile& box, ImageRays* rays, 
     {
       return;
     }
-    begin = end;
   }
 }
 
+/// Stores the pixels of a vector; of rays that were not set up, if there is nothing to see.
+template <class Model>
 void StorePixels(const ImageKernelInput& in, const ImageRays& rays)
 {
   for (int l = 0; l < LaneCount; ++l)
@@ -247,24 +153,22 @@ void StorePixels(const ImageKernelInput& in, const ImageRays& rays)
       continue;
     }
     const std::int64_t pixel = static_cast<std::int64_t>(rays.Y[l]) * in.Width + rays.X[l];
-    float* color = in.Colors + 4 * pixel;
-    for (int c = 0; c < 3; ++c)
-    {
-      color[c] = rays.Color[c][l];
-    }
-    color[3] = 1.f - rays.Translucency[l];
+    float color[4];
+    Model::GetPixel(in, rays, l, color);
+    std::copy(color, color + 4, in.Colors + 4 * pixel);
     const double depth = in.Slices.Origin + rays.Front[l] * in.Slices.Distance;
     in.Depths[pixel] = rays.Front[l] < 0.f ? -1.f : static_cast<float>(depth * rays.WorldLength[l]);
   }
 }
 
-/// Pixels of a tile in vectors of 4 x 2, so that the rays of a vector stay close together. Calls
-/// add(x, y) for each.
-template <class AddT>
-void ForEachPixel(const Tile& box, const AddT& add)
+/// Takes the pixels of a tile, or of one of its two S-triangles, into vectors of 4 x 2, so that the
+/// rays of a vector stay close together. triangle: 0 or 1, or -1 for the tile. Returns the number
+/// of vectors.
+inline int TakePixels(const Tile& box, int triangle, ImageRays* rays)
 {
   constexpr int Columns = 4;
   constexpr int Rows = LaneCount / Columns;
+  int pixels = 0;
   for (int y = box.Y0; y < box.Y1; y += Rows)
   {
     for (int x = box.X0; x < box.X1; x += Columns)
@@ -273,92 +177,101 @@ void ForEachPixel(const Tile& box, const AddT& add)
       {
         const int px = x + l % Columns;
         const int py = y + l / Columns;
-        if (px < box.X1 && py < box.Y1)
+        const int side = px - box.X0 < py - box.Y0 ? 1 : 0;
+        if (px < box.X1 && py < box.Y1 && (triangle < 0 || side == triangle))
         {
-          add(px, py);
+          rays[pixels / LaneCount].X[pixels % LaneCount] = px;
+          rays[pixels / LaneCount].Y[pixels % LaneCount] = py;
+          ++pixels;
         }
       }
     }
   }
+  const int count = (pixels + LaneCount - 1) / LaneCount;
+  for (int l = pixels; l < count * LaneCount; ++l)
+  {
+    rays[l / LaneCount].X[l % LaneCount] = -1;
+    rays[l / LaneCount].Y[l % LaneCount] = 0;
+  }
+  return count;
 }
 
-template <class Value, class Intervals>
+template <class Value, class Model>
 void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& counts)
 {
   const int edge = std::min(in.TileSize, std::max(tile.X1 - tile.X0, tile.Y1 - tile.Y0));
   std::vector<ImageRays> rays((edge * edge + LaneCount - 1) / LaneCount);
+  std::vector<std::int32_t> blocks;
+  const std::int32_t blockCount = (in.Slices.Count + SlabsOfBlock - 1) / SlabsOfBlock;
   for (int y = tile.Y0; y < tile.Y1; y += in.TileSize)
   {
     for (int x = tile.X0; x < tile.X1; x += in.TileSize)
     {
       const Tile box{ x, y, std::min(x + in.TileSize, tile.X1),
         std::min(y + in.TileSize, tile.Y1) };
-      for (int triangle = 0; triangle < (in.Triangles ? 2 : 1); ++triangle)
+      blocks.clear();
+      FindVisibleBlocks(in, TileBeam(in, box), 0, blockCount, blocks);
+      for (int triangle = in.Triangles ? 0 : -1; triangle < (in.Triangles ? 2 : 0); ++triangle)
       {
-        int pixels = 0;
-        ForEachPixel(box,
-          [&](int px, int py)
+        const int count = TakePixels(box, triangle, rays.data());
+        for (int v = 0; v < count; ++v)
+        {
+          rays[v].Clear();
+          if (!blocks.empty())
           {
-            const bool upper = px - x < py - y;
-            if (in.Triangles && upper != (triangle == 1))
-            {
-              return;
-            }
-            rays[pixels / LaneCount].X[pixels % LaneCount] = px;
-            rays[pixels / LaneCount].Y[pixels % LaneCount] = py;
-            ++pixels;
-          });
-        const int count = (pixels + LaneCount - 1) / LaneCount;
-        for (int l = pixels; l < count * LaneCount; ++l)
-        {
-          rays[l / LaneCount].X[l % LaneCount] = -1;
-          rays[l / LaneCount].Y[l % LaneCount] = 0;
+            SetUpRays(in, rays[v]);
+          }
         }
+        CastTriangle<Value, Model>(in, blocks, rays.data(), count, counts);
         for (int v = 0; v < count; ++v)
         {
-          SetUpRays(in, rays[v]);
-        }
-        CastTriangle<Value, Intervals>(in, box, rays.data(), count, counts);
-        for (int v = 0; v < count; ++v)
-        {
-          StorePixels(in, rays[v]);
+          StorePixels<Model>(in, rays[v]);
         }
       }
     }
   }
 }
 
-template <class Value>
-void CastImage(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& counts)
+/// The kernel of a model, with the fastest lookup for the transfer function.
+template <class Value, template <class, class> class Model>
+ImageKernel ChooseLookup(const ImageKernelInput& in)
 {
   if (in.Transfer.Count <= LaneCount)
   {
-    CastTile<Value, FewIntervals<LaneCount>>(in, tile, counts);
+    return &CastTile<Value, Model<Value, FewIntervals<LaneCount>>>;
   }
-  else if (in.Transfer.Count <= TransferLookup::MostFew)
+  if (in.Transfer.Count <= TransferLookup::MostFew)
   {
-    CastTile<Value, FewIntervals<TransferLookup::MostFew>>(in, tile, counts);
+    return &CastTile<Value, Model<Value, FewIntervals<TransferLookup::MostFew>>>;
   }
-  else
-  {
-    CastTile<Value, ManyIntervals>(in, tile, counts);
-  }
+  return &CastTile<Value, Model<Value, ManyIntervals>>;
 }
 
-ImageKernel ChooseImageKernel(ImageScalar type)
+template <class Value>
+ImageKernel ChooseModel(const ImageKernelInput& in)
 {
-  switch (type)
+  if (in.Slab.Texels)
+  {
+    return &CastTile<Value, SlabModel<Value>>;
+  }
+  return in.Lighting || in.GradientTransfer.Count > 0 ? ChooseLookup<Value, GradientComposite>(in)
+                                                      : ChooseLookup<Value, PlainComposite>(in);
+}
+
+ImageKernel ChooseImageKernel(const ImageKernelInput& in)
+{
+  switch (in.Type)
   {
     case ImageScalar::Int8:
-      return &CastImage<std::int8_t>;
+      return ChooseModel<std::int8_t>(in);
     case ImageScalar::UInt8:
-      return &CastImage<std::uint8_t>;
+      return ChooseModel<std::uint8_t>(in);
     case ImageScalar::Int16:
-      return &CastImage<std::int16_t>;
+      return ChooseModel<std::int16_t>(in);
     case ImageScalar::UInt16:
-      return &CastImage<std::uint16_t>;
+      return ChooseModel<std::uint16_t>(in);
     default:
-      return &CastImage<float>;
+      return ChooseModel<float>(in);
   }
 }
 

@@ -6,6 +6,9 @@
 namespace tetralux
 {
 
-ImageKernel GetImageKernelAvx2(ImageScalar type) { return TETRALUX_ISA::ChooseImageKernel(type); }
+ImageKernel GetImageKernelAvx2(const ImageKernelInput& in)
+{
+  return TETRALUX_ISA::ChooseImageKernel(in);
+}
 
 } // namespace tetralux

@@ -6,9 +6,9 @@
 namespace tetralux
 {
 
-ImageKernel GetImageKernelGeneric(ImageScalar type)
+ImageKernel GetImageKernelGeneric(const ImageKernelInput& in)
 {
-  return TETRALUX_ISA::ChooseImageKernel(type);
+  return TETRALUX_ISA::ChooseImageKernel(in);
 }
 
 } // namespace tetralux

@@ -15,6 +15,13 @@ enum class StepOpacity
   Attenuation ///< 1 - exp(-a l): that of mappers of unstructured grids
 };
 
+/// How long a gradient is.
+enum class GradientNorm
+{
+  Euclidean, ///< L2
+  Sum        ///< L1, the sum of its components: less to compute (Knittel 1999, section 7)
+};
+
 /// What the rays gather in an image volume.
 struct ImageOptics
 {
@@ -23,6 +30,12 @@ struct ImageOptics
   TransferFunction Function;
   StepOpacity Opacity = StepOpacity::Power;
   double UnitDistance = 1; ///< world units, above 0
+
+  /// A factor of the scalar opacity, 0..1, in place of the attenuation, over the length of the
+  /// scalar's gradient times GradientLength. Without nodes there is none.
+  TransferFunction GradientOpacity;
+  double GradientLength = 1; ///< world units, above 0; VTK has the mean spacing of points
+  GradientNorm Norm = GradientNorm::Euclidean;
 };
 
 } // namespace tetralux

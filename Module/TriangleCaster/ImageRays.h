@@ -48,7 +48,22 @@ struct ImageRays
   float Color[3][LaneCount];
   float Translucency[LaneCount];
   float Front[LaneCount]; ///< slab position of what contributes first, or -1
-  bool Ended;             ///< all rays are opaque
+  bool Ended;             ///< nothing changes any ray any more
+
+  /// Nothing gathered, and no part to go through.
+  void Clear()
+  {
+    for (int l = 0; l < LaneCount; ++l)
+    {
+      this->Color[0][l] = this->Color[1][l] = this->Color[2][l] = 0.f;
+      this->Translucency[l] = 1.f;
+      this->Front[l] = -1.f;
+      this->WorldLength[l] = 0;
+    }
+    this->FirstSlab = NoSlab;
+    this->LastSlab = -1;
+    this->Ended = true;
+  }
 };
 
 /// Where the rays go, and the slab positions between which they are in the volume and its limits.
@@ -176,12 +191,6 @@ TETRALUX_NOINLINE void SetUpRays(const ImageKernelInput& in, ImageRays& rays)
       }
     }
   }
-  for (int l = 0; l < LaneCount; ++l)
-  {
-    rays.Color[0][l] = rays.Color[1][l] = rays.Color[2][l] = 0.f;
-    rays.Translucency[l] = 1.f;
-    rays.Front[l] = -1.f;
-  }
   rays.Ended = rays.LastSlab < 0;
 }
 
@@ -196,34 +205,22 @@ struct BlockPositions
 TETRALUX_INLINE BlockPositions FindPositions(
   const ImageKernelInput& in, const ImageRays& rays, std::int32_t slab)
 {
-  float base[3][LaneCount], step[3][LaneCount], low[3][LaneCount], high[3][LaneCount];
-  std::int32_t index[LaneCount];
   const std::int32_t strides[3] = { 1, in.Row, in.Slice };
-  for (int a = 0; a < 3; ++a)
-  {
-    const double last = in.LastCell[a];
-#pragma omp simd
-    for (int l = 0; l < LaneCount; ++l)
-    {
-      const double x = rays.Base[a][l] + slab * rays.Step[a][l];
-      const double inside = x < last ? x : last;
-      const auto cell = static_cast<std::int32_t>(inside > 0 ? inside : 0);
-      base[a][l] = static_cast<float>(x - cell);
-      step[a][l] = static_cast<float>(rays.Step[a][l]);
-      low[a][l] = static_cast<float>(-cell);
-      high[a][l] = static_cast<float>(in.LastCell[a] - cell);
-      index[l] = cell * strides[a] + (a > 0 ? index[l] : 0);
-    }
-  }
   BlockPositions positions;
+  positions.Index = 0;
   for (int a = 0; a < 3; ++a)
   {
-    positions.Base[a] = LoadFloat8(base[a]);
-    positions.Step[a] = LoadFloat8(step[a]);
-    positions.Low[a] = LoadFloat8(low[a]);
-    positions.High[a] = LoadFloat8(high[a]);
+    const Double8 step = LoadDouble8(rays.Step[a]);
+    const Double8 x = Fma(Double8(slab), step, LoadDouble8(rays.Base[a]));
+    const Float8 last = static_cast<float>(in.LastCell[a]);
+    const Int8 cell = RoundToInt(Min(Max(ToFloat(x - Double8(0.5)), Float8(0.f)), last));
+    const Float8 corner = ToFloat(cell);
+    positions.Base[a] = ToFloat(x - ToDouble(corner));
+    positions.Step[a] = ToFloat(step);
+    positions.Low[a] = Float8(0.f) - corner;
+    positions.High[a] = last - corner;
+    positions.Index = positions.Index + cell * Int8(strides[a]);
   }
-  positions.Index = LoadInt8(index);
   return positions;
 }
 

@@ -4,20 +4,13 @@
 
 #include "TetraluxCoreModule.h"
 #include "TriangleCaster/ImageVolume.h"
+#include "TriangleCaster/SliceShape.h"
 #include "View/RayGrid.h"
 
 #include <cstdint>
 
 namespace tetralux
 {
-
-/// What a volume is cut by (Knittel 1999, sections 1.1 and 2).
-enum class SliceShape
-{
-  Planes, ///< parallel to the plane of the picture: under perspective, oblique rays have longer
-          ///< steps
-  Shells  ///< spheres around the eye: all rays have the same step. Planes in a parallel projection.
-};
 
 /// The slabs of a picture: slab n is what is between depths Origin + n Distance and Origin +
 /// (n + 1) Distance. A ray has one sample in each slab, at the middle of its way through the part
@@ -29,7 +22,11 @@ struct SlicePlanes
 {
   SliceShape Shape = SliceShape::Planes;
   double Distance = 1; ///< from one to the next, world units, above 0
-  double Origin = 0;   ///< depth of the front of the volume's box, but not in front of the camera
+
+  /// Where slab 0 begins: the smallest depth of the volume's box, or for shells of the box along
+  /// the world's axes around it, but not behind the camera.
+  double Origin = 0;
+
   std::int32_t Count = 0; ///< slabs up to the back of the volume's box
 
   /// What the depth grows by along a ray's Direction of RayGrid, that is the depth of Direction.

@@ -81,22 +81,29 @@ struct Neighbors<std::int8_t>
 };
 ///@}
 
+TETRALUX_INLINE Float8 Mix(Float8 a, Float8 b, Float8 t) { return Fma(t, b - a, a); }
+
+/// Linear interpolation between the value with this index and the one behind it.
+template <class Value>
+TETRALUX_INLINE Float8 InterpolateRow(const void* values, Int8 index, Float8 w)
+{
+  Float8 a, b;
+  Neighbors<Value>::Load(values, index, a, b);
+  return Mix(a, b, w);
+}
+
 /// Trilinear interpolation in the cell whose first value has this index. w: where in the cell,
 /// 0..1 along each axis. row, slice: values from one to the next.
 template <class Value>
 TETRALUX_INLINE Float8 Interpolate(
   const void* values, Int8 index, std::int32_t row, std::int32_t slice, const Float8 (&w)[3])
 {
-  const auto mix = [](Float8 a, Float8 b, Float8 t) { return Fma(t, b - a, a); };
-  const auto alongX = [&](Int8 first)
-  {
-    Float8 a, b;
-    Neighbors<Value>::Load(values, first, a, b);
-    return mix(a, b, w[0]);
-  };
   const Int8 back = index + Int8(slice);
-  const Float8 front = mix(alongX(index), alongX(index + Int8(row)), w[1]);
-  return mix(front, mix(alongX(back), alongX(back + Int8(row)), w[1]), w[2]);
+  const Float8 a = InterpolateRow<Value>(values, index, w[0]);
+  const Float8 b = InterpolateRow<Value>(values, index + Int8(row), w[0]);
+  const Float8 c = InterpolateRow<Value>(values, back, w[0]);
+  const Float8 d = InterpolateRow<Value>(values, back + Int8(row), w[0]);
+  return Mix(Mix(a, b, w[1]), Mix(c, d, w[1]), w[2]);
 }
 
 } // namespace

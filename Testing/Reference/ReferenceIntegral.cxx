@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReferenceIntegral.h"
 
+#include "GaussLegendre.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,41 +12,6 @@ namespace tetralux
 {
 namespace
 {
-
-/// Gauss-Legendre points and weights on 0..1. Ten points integrate a quadratic polynomial times the
-/// exponential of a quadratic one that falls by at most 1 to the last bit of a double.
-struct GaussLegendre
-{
-  static constexpr int Order = 10;
-  std::array<double, Order> Points;
-  std::array<double, Order> Weights;
-
-  GaussLegendre()
-  {
-    const long double pi = std::acos(-1.0L);
-    for (int i = 0; i < Order; ++i)
-    {
-      // Newton's method on the Legendre polynomial, from Tricomi's estimate of its root.
-      long double x = std::cos(pi * (i + 0.75L) / (Order + 0.5L));
-      long double derivative = 1;
-      for (int iteration = 0; iteration < 20; ++iteration)
-      {
-        long double previous = 1;
-        long double value = x;
-        for (int n = 2; n <= Order; ++n)
-        {
-          const long double next = ((2 * n - 1) * x * value - (n - 1) * previous) / n;
-          previous = value;
-          value = next;
-        }
-        derivative = Order * (x * value - previous) / (x * x - 1);
-        x -= value / derivative;
-      }
-      this->Points[i] = static_cast<double>((1 - x) / 2);
-      this->Weights[i] = static_cast<double>(1 / ((1 - x * x) * derivative * derivative));
-    }
-  }
-};
 
 /// exp(-42) is 6e-19: what lies behind this optical depth does not change a double's sum.
 constexpr int LargestOpticalDepth = 42;

@@ -2,6 +2,7 @@
 #include "ReferenceRenderer.h"
 
 #include "ReferenceIntegral.h"
+#include "ReferenceRays.h"
 #include "ReferenceRuns.h"
 #include "ReferenceShading.h"
 
@@ -13,61 +14,17 @@
 
 namespace tetralux
 {
+
+using namespace reference;
+
 namespace
 {
 
-using Real = long double;
-using Vector = std::array<Real, 3>;
-
 constexpr Real Infinity = std::numeric_limits<Real>::infinity();
 
-Vector ToVector(const double v[3]) { return { v[0], v[1], v[2] }; }
-
-Real Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector Cross(const Vector& a, const Vector& b)
+/// The ray of one pixel.
+struct Ray : ReferenceRay
 {
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-Vector Step(const Vector& begin, Real i, const Vector& stepX, Real j, const Vector& stepY)
-{
-  Vector result;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    result[axis] = begin[axis] + i * stepX[axis] + j * stepY[axis];
-  }
-  return result;
-}
-
-Vector TransformDirection(const double matrix[3][4], const Vector& v)
-{
-  Vector result;
-  for (int row = 0; row < 3; ++row)
-  {
-    result[row] = matrix[row][0] * v[0] + matrix[row][1] * v[1] + matrix[row][2] * v[2];
-  }
-  return result;
-}
-
-Vector TransformPoint(const double matrix[3][4], const Vector& v)
-{
-  Vector result = TransformDirection(matrix, v);
-  for (int row = 0; row < 3; ++row)
-  {
-    result[row] += matrix[row][3];
-  }
-  return result;
-}
-
-/// The ray of one pixel. t is the distance in the world.
-struct Ray
-{
-  Vector WorldOrigin;
-  Vector WorldDirection; ///< of length 1
-  Vector Origin;         ///< in mesh coordinates
-  Vector Direction;      ///< in mesh coordinates, for one unit of t
-
   /// Mesh coordinates are sheared so that the ray becomes an axis: (u, v) are the first two of
   /// Axes, minus Shear times the third, which is where the direction is largest (as Woop et al.,
   /// Watertight Ray/Triangle Intersection, 2013).
@@ -80,17 +37,7 @@ struct Ray
 Ray MakeRay(const RayGrid& grid, int i, int j)
 {
   Ray ray;
-  ray.WorldOrigin =
-    Step(ToVector(grid.Origin), i, ToVector(grid.OriginStepX), j, ToVector(grid.OriginStepY));
-  ray.WorldDirection = Step(
-    ToVector(grid.Direction), i, ToVector(grid.DirectionStepX), j, ToVector(grid.DirectionStepY));
-  const Real length = std::sqrt(Dot(ray.WorldDirection, ray.WorldDirection));
-  for (Real& component : ray.WorldDirection)
-  {
-    component /= length;
-  }
-  ray.Origin = TransformPoint(grid.MeshFromWorld, ray.WorldOrigin);
-  ray.Direction = TransformDirection(grid.MeshFromWorld, ray.WorldDirection);
+  static_cast<ReferenceRay&>(ray) = MakeReferenceRay(grid, i, j);
 
   int largest = 0;
   for (int axis = 1; axis < 3; ++axis)
@@ -414,89 +361,6 @@ private:
   std::array<Vector, 3> Inverse; ///< from mesh coordinates to those of an ImagePoint
 };
 
-/// Kept parts of a ray, ascending.
-using Intervals = std::vector<std::array<Real, 2>>;
-
-/// The region along one axis, 0..2, as in vtkFixedPointVolumeRayCastMapper.
-int CroppingRegion(Real x, const double planes[2])
-{
-  return x < planes[0] ? 0 : x > planes[1] ? 2 : 1;
-}
-
-/// Which parts of begin..end the limits keep.
-Intervals ApplyLimits(
-  const RayLimits& limits, const Ray& ray, std::size_t pixel, Real begin, Real end)
-{
-  for (const auto& plane : limits.Planes)
-  {
-    const Vector normal{ plane[0], plane[1], plane[2] };
-    const Real distance = Dot(normal, ray.WorldOrigin) + plane[3];
-    const Real slope = Dot(normal, ray.WorldDirection);
-    if (slope > 0)
-    {
-      begin = std::max(begin, -distance / slope);
-    }
-    else if (slope < 0)
-    {
-      end = std::min(end, -distance / slope);
-    }
-    else if (!(distance >= 0))
-    {
-      return {};
-    }
-  }
-  if (limits.MaximumDistances)
-  {
-    end = std::min<Real>(end, limits.MaximumDistances[pixel]);
-  }
-  if (!(begin < end))
-  {
-    return {};
-  }
-  if (!limits.Cropping)
-  {
-    return { { begin, end } };
-  }
-
-  std::vector<Real> borders{ begin, end };
-  for (int plane = 0; plane < 6; ++plane)
-  {
-    const int axis = plane / 2;
-    const Real t = (limits.CroppingPlanes[plane] - ray.Origin[axis]) / ray.Direction[axis];
-    if (t > begin && t < end)
-    {
-      borders.push_back(t);
-    }
-  }
-  std::sort(borders.begin(), borders.end());
-  Intervals kept;
-  for (std::size_t i = 0; i + 1 < borders.size(); ++i)
-  {
-    const Real middle = borders[i] / 2 + borders[i + 1] / 2;
-    int region = 0;
-    for (int axis = 2; axis >= 0; --axis)
-    {
-      region = 3 * region +
-        CroppingRegion(
-          ray.Origin[axis] + middle * ray.Direction[axis], limits.CroppingPlanes + 2 * axis);
-    }
-    if (!(limits.CroppingFlags >> region & 1))
-    {
-      continue;
-    }
-    // A plane between two regions that are kept cuts nothing.
-    if (!kept.empty() && kept.back()[1] == borders[i])
-    {
-      kept.back()[1] = borders[i + 1];
-    }
-    else
-    {
-      kept.push_back({ borders[i], borders[i + 1] });
-    }
-  }
-  return kept;
-}
-
 /// The part of a segment that the limits keep.
 struct SegmentPart
 {
@@ -779,7 +643,7 @@ private:
     }
     const std::vector<std::size_t> order = OrderPassages(passages);
     std::vector<SegmentPart> parts;
-    for (const auto& interval : ApplyLimits(this->Limits, ray, pixel, begin, end))
+    for (const auto& interval : ApplyReferenceLimits(this->Limits, ray, pixel, begin, end))
     {
       for (const std::size_t k : order)
       {

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_CompositeModel_h
+#define tetralux_CompositeModel_h
+
+// What emits and absorbs, looked up at each sample.
+
+#include "Simd/LaneFunctions.h"
+#include "TriangleCaster/CompositingBuffer.h"
+#include "TriangleCaster/GradientModel.h"
+#include "TriangleCaster/ImageSample.h"
+#include "TriangleCaster/TransferLanes.h"
+
+#include <cstdint>
+#include <type_traits>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+/// For models that use no gradients.
+struct NoGradients
+{
+  NoGradients(const ImageKernelInput&, const ImageRays&) {}
+};
+
+/// Samples at the middle of stretches. Gradients: NoGradients, or GradientModel where lights shine
+/// or opacity depends on gradients.
+template <class Value, class Intervals, class Gradients>
+class CompositeModel : public CompositingBuffer
+{
+public:
+  static constexpr bool AtEnds = false;
+
+  CompositeModel(const ImageKernelInput& in, const ImageRays& rays)
+    : CompositingBuffer(in, rays)
+    , Gradient(in, rays)
+  {
+  }
+
+  TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample)
+  {
+    const Intervals intervals(in.Transfer, sample.GetScalar<Value>(in));
+    const Float8 zero = 0.f;
+    Float8 scalarOpacity = intervals.GetOpacity();
+    // False where the scalar is not a number.
+    Mask8 visible = sample.Active & (zero < scalarOpacity);
+    if (!Any(visible))
+    {
+      return;
+    }
+    LaneVector gradient;
+    if constexpr (UsesGradients)
+    {
+      gradient = FindGradient<Value>(in, sample);
+      if (in.GradientTransfer.Count > 0)
+      {
+        scalarOpacity = scalarOpacity * this->Gradient.GetOpacityFactor(in, gradient);
+        visible = visible & (zero < scalarOpacity);
+        if (!Any(visible))
+        {
+          return;
+        }
+      }
+    }
+    const Float8 depth = (in.Power ? MinusLogOfRest(scalarOpacity) : scalarOpacity) * sample.Length;
+    const Float8 opacity = Keep(visible, OneMinusExp(depth));
+    Float8 color[3];
+    intervals.GetColor(color);
+    if constexpr (UsesGradients)
+    {
+      if (in.Lighting)
+      {
+        this->Gradient.Light(in, sample, gradient, color);
+      }
+    }
+    for (Float8& channel : color)
+    {
+      channel = Keep(visible, channel);
+    }
+    this->AddSample(sample, opacity, color);
+  }
+
+private:
+  static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
+
+  Gradients Gradient;
+};
+
+template <class Value, class Intervals>
+using PlainComposite = CompositeModel<Value, Intervals, NoGradients>;
+template <class Value, class Intervals>
+using GradientComposite = CompositeModel<Value, Intervals, GradientModel>;
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_CompositingBuffer_h
+#define tetralux_CompositingBuffer_h
+
+// Compositing front to back (Knittel 1999, section 3.2).
+
+#include "TriangleCaster/ImageRays.h"
+#include "TriangleCaster/ImageSample.h"
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+/// The compositing buffer of one vector, in registers.
+class CompositingBuffer
+{
+public:
+  CompositingBuffer(const ImageKernelInput& in, const ImageRays& rays)
+    : Translucency(LoadFloat8(rays.Translucency))
+    , Front(LoadFloat8(rays.Front))
+    , Threshold(in.Threshold)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      this->Color[c] = LoadFloat8(rays.Color[c]);
+    }
+  }
+
+  void StoreTo(ImageRays& rays) const
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      Store(rays.Color[c], this->Color[c]);
+    }
+    Store(rays.Translucency, this->Translucency);
+    Store(rays.Front, this->Front);
+  }
+
+  /// Rays that what is behind can still change.
+  TETRALUX_INLINE Mask8 GetOpen() const { return this->Threshold <= this->Translucency; }
+
+  /// The picture's pixel of a lane.
+  static void GetPixel(const ImageKernelInput&, const ImageRays& rays, int lane, float (&pixel)[4])
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      pixel[c] = rays.Color[c][lane];
+    }
+    pixel[3] = 1.f - rays.Translucency[lane];
+  }
+
+protected:
+  /// Equation 5. Where the opacity is 0, colours have to be numbers.
+  TETRALUX_INLINE void AddSample(
+    const ImageSample& sample, Float8 opacity, const Float8 (&color)[3])
+  {
+    const Float8 share = this->Translucency * opacity;
+    for (int c = 0; c < 3; ++c)
+    {
+      this->Color[c] = Fma(share, color[c], this->Color[c]);
+    }
+    this->Attenuate(sample, opacity, share);
+  }
+  /// The same with colours that the opacity is multiplied to.
+  TETRALUX_INLINE void AddPremultiplied(
+    const ImageSample& sample, Float8 opacity, const Float8 (&color)[3])
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      this->Color[c] = Fma(this->Translucency, color[c], this->Color[c]);
+    }
+    this->Attenuate(sample, opacity, this->Translucency * opacity);
+  }
+
+private:
+  TETRALUX_INLINE void Attenuate(const ImageSample& sample, Float8 opacity, Float8 share)
+  {
+    const Float8 zero = 0.f;
+    this->Front = Select((zero < opacity) & (this->Front < zero), sample.Front, this->Front);
+    this->Translucency = this->Translucency - share;
+  }
+
+  Float8 Color[3];
+  Float8 Translucency;
+  Float8 Front;
+  Float8 Threshold;
+};
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif

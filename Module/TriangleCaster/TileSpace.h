@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_TileSpace_h
+#define tetralux_TileSpace_h
+
+// Which slabs of a tile meet anything visible.
+
+#include "TriangleCaster/ImageRays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace tetralux
+{
+namespace TETRALUX_ISA
+{
+namespace
+{
+
+/// The rays of a tile, as far as it takes to bound them.
+struct TileBeam
+{
+  double Start[4][3], Direction[4][3]; ///< of the rays at its corners, coordinates of the volume
+  double Longest, Shortest;            ///< bounds of the depth that a Direction gains
+
+  TileBeam(const ImageKernelInput& in, const Tile& box)
+    : Longest(0)
+    , Shortest(std::numeric_limits<double>::infinity())
+  {
+    const SlicePlanes& slices = in.Slices;
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const double i = (corner & 1) != 0 ? box.X1 - 1 : box.X0;
+      const double j = (corner & 2) != 0 ? box.Y1 - 1 : box.Y0;
+      double way[3];
+      for (int a = 0; a < 3; ++a)
+      {
+        this->Start[corner][a] = in.Start[a].At(i, j);
+        this->Direction[corner][a] = in.Direction[a].At(i, j);
+        way[a] = in.WorldDirection[a].At(i, j);
+      }
+      const double normal =
+        way[0] * slices.Normal[0] + way[1] * slices.Normal[1] + way[2] * slices.Normal[2];
+      // No direction between corners is longer than the longest, or shorter than its part along
+      // the normal.
+      this->Longest = std::max(this->Longest, slices.GetDepthOfDirection(way));
+      this->Shortest = std::min(this->Shortest, normal);
+    }
+  }
+
+  /// Whether it meets nothing visible between two slab positions. Positions are linear over pixels
+  /// and along rays, so the corners bound them.
+  bool IsEmpty(const ImageKernelInput& in, double begin, double end) const
+  {
+    const SlicePlanes& slices = in.Slices;
+    const double ways[2] = { (slices.Origin + begin * slices.Distance) / this->Longest,
+      (slices.Origin + end * slices.Distance) / this->Shortest };
+    double low[3], high[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      double least = std::numeric_limits<double>::infinity();
+      double most = -least;
+      for (int corner = 0; corner < 4; ++corner)
+      {
+        for (const double way : ways)
+        {
+          const double x = this->Start[corner][a] + way * this->Direction[corner][a];
+          least = x < least ? x : least;
+          most = x > most ? x : most;
+        }
+      }
+      low[a] = least;
+      high[a] = most;
+    }
+    return in.Space->IsEmpty(low, high);
+  }
+};
+
+/// Appends the blocks of slabs within [begin, end) that are not empty, in order. Halves what is not
+/// empty, so that a large empty space costs one query.
+inline void FindVisibleBlocks(const ImageKernelInput& in, const TileBeam& beam, std::int32_t begin,
+  std::int32_t end, std::vector<std::int32_t>& blocks)
+{
+  if (begin >= end ||
+    (in.Space &&
+      beam.IsEmpty(
+        in, static_cast<double>(begin) * SlabsOfBlock, static_cast<double>(end) * SlabsOfBlock)))
+  {
+    return;
+  }
+  if (end - begin == 1)
+  {
+    blocks.push_back(begin);
+    return;
+  }
+  const std::int32_t middle = begin + (end - begin) / 2;
+  FindVisibleBlocks(in, beam, begin, middle, blocks);
+  FindVisibleBlocks(in, beam, middle, end, blocks);
+}
+
+} // namespace
+} // namespace TETRALUX_ISA
+} // namespace tetralux
+
+#endif
