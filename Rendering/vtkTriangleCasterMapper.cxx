@@ -239,7 +239,6 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
   slices["slices"] = statistics.Slices;
   slices["tile_size"] = options.TileSize;
   slices["triangles"] = statistics.Triangles;
-  slices["skipped_triangles"] = statistics.SkippedSlices;
   frame.Sections.emplace_back("slices", slices);
 
   // A sum is rounded once for each sample of a ray.
