@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The triangle caster from Python: a cube's opacity as its optical model says, and its statistics."""
+"""The triangle caster from Python: a cube's opacity as its optical model says."""
 
 import math
 

@@ -91,10 +91,10 @@ TEST(TriangleCasterMapper, ConstantVolumesAreExact)
   expect(GetPower(0.3, 6), 22, "in two parts");
 }
 
-// What differs: VTK's mapper places its samples by where a ray enters, counts the whole distance for
-// the first and the last one, and reads opacities and colours from tables. So both are compared
-// where slices are near to each other: at a distance of 0.1 the largest difference is 8 steps of 255,
-// at 0.5 it is 36.
+// What differs: VTK's mapper places its samples by where a ray enters, counts the whole distance
+// for the first and the last one, and reads opacities and colours from tables. So both are compared
+// where slices are near to each other: at a distance of 0.1 the largest difference is 8 steps of
+// 255, at 0.5 it is 36.
 TEST(TriangleCasterMapper, PictureIsThatOfVTK)
 {
   constexpr double Distance = 0.02;
