@@ -60,7 +60,8 @@ void Run(CLI::App& app, int argc, char* argv[])
 int main(int argc, char* argv[])
 try
 {
-  CLI::App app("Volume rendering of unstructured grids with a known error", "tetralux");
+  CLI::App app(
+    "Volume rendering of unstructured grids and image data with a known error", "tetralux");
   try
   {
     Run(app, argc, argv);

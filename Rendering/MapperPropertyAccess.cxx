@@ -8,6 +8,7 @@
 #include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
+#include "vtkTriangleCasterMapper.h"
 
 #include <functional>
 #include <map>
@@ -21,17 +22,19 @@ namespace
 
 struct Accessors
 {
-  std::function<std::vector<double>(vtkTetrahedraVolumeMapper*)> Get;
-  std::function<void(vtkTetrahedraVolumeMapper*, const std::vector<double>&)> Set;
+  std::function<std::vector<double>(vtkAbstractVolumeMapper*)> Get;
+  std::function<void(vtkAbstractVolumeMapper*, const std::vector<double>&)> Set;
 };
+
+using AccessorMap = std::map<std::string, Accessors>;
 
 /// Of a property with one number.
 template <class MapperT, class NumberT>
 Accessors MakeAccessors(NumberT (MapperT::*get)(), void (MapperT::*set)(NumberT))
 {
-  return { [get](vtkTetrahedraVolumeMapper* mapper) -> std::vector<double>
+  return { [get](vtkAbstractVolumeMapper* mapper) -> std::vector<double>
     { return { static_cast<double>((static_cast<MapperT*>(mapper)->*get)()) }; },
-    [set](vtkTetrahedraVolumeMapper* mapper, const std::vector<double>& values)
+    [set](vtkAbstractVolumeMapper* mapper, const std::vector<double>& values)
     { (static_cast<MapperT*>(mapper)->*set)(static_cast<NumberT>(values.front())); } };
 }
 
@@ -40,21 +43,74 @@ Accessors MakeAccessors(NumberT (MapperT::*get)(), void (MapperT::*set)(NumberT)
 #name, MakeAccessors(&mapper::Get##name, &mapper::Set##name)                                   \
   }
 
-const std::map<std::string, Accessors>& GetAccessors()
+/// What the base class of mappers of cells and the mapper of image data have, each on its own.
+template <class MapperT>
+AccessorMap MakeCommonAccessors()
+{
+  return {
+    { "BlendMode",
+      { [](vtkAbstractVolumeMapper* mapper) -> std::vector<double>
+        { return { static_cast<double>(static_cast<MapperT*>(mapper)->GetBlendMode()) }; },
+        [](vtkAbstractVolumeMapper* mapper, const std::vector<double>& values)
+        { static_cast<MapperT*>(mapper)->SetBlendMode(static_cast<int>(values.front())); } } },
+    { "CroppingRegionPlanes",
+      { [](vtkAbstractVolumeMapper* mapper)
+        {
+          const double* planes = static_cast<MapperT*>(mapper)->GetCroppingRegionPlanes();
+          return std::vector<double>(planes, planes + 6);
+        },
+        [](vtkAbstractVolumeMapper* mapper, const std::vector<double>& values)
+        { static_cast<MapperT*>(mapper)->SetCroppingRegionPlanes(values.data()); } } },
+    ACCESSORS(MapperT, MaximumError),
+    ACCESSORS(MapperT, VectorMode),
+    ACCESSORS(MapperT, VectorComponent),
+    ACCESSORS(MapperT, IntermixIntersectingGeometry),
+    ACCESSORS(MapperT, Cropping),
+    ACCESSORS(MapperT, CroppingRegionFlags),
+  };
+}
+
+/// And what mappers that make their pictures on the processor have.
+template <class MapperT>
+AccessorMap MakeProcessorAccessors()
+{
+  return {
+    ACCESSORS(MapperT, NumberOfThreads),
+    ACCESSORS(MapperT, ImageSampleDistance),
+    ACCESSORS(MapperT, MinimumImageSampleDistance),
+    ACCESSORS(MapperT, MaximumImageSampleDistance),
+    ACCESSORS(MapperT, AutoAdjustSampleDistances),
+  };
+}
+
+AccessorMap MakeCasterAccessors()
+{
+  using Caster = vtkTriangleCasterMapper;
+  AccessorMap accessors = {
+    ACCESSORS(Caster, SampleDistance),
+    ACCESSORS(Caster, InteractiveSampleDistance),
+    ACCESSORS(Caster, SliceShape),
+    ACCESSORS(Caster, OpacityModel),
+    ACCESSORS(Caster, CorrectOpacity),
+    ACCESSORS(Caster, EndTriangles),
+    ACCESSORS(Caster, SkipPixels),
+    ACCESSORS(Caster, SkipEmptySpace),
+    ACCESSORS(Caster, TileSize),
+    ACCESSORS(Caster, CastTriangles),
+  };
+  accessors.merge(MakeCommonAccessors<Caster>());
+  accessors.merge(MakeProcessorAccessors<Caster>());
+  return accessors;
+}
+
+AccessorMap MakeCellAccessors()
 {
   using Base = vtkTetrahedraVolumeMapper;
-  using CPU = vtkTetrahedraCPUMapper;
   using Isosurface = vtkTetrahedraIsosurfaceMapper;
   using RayCast = vtkTetrahedraRayCastMapper;
   using GPURayCast = vtkTetrahedraGPURayCastMapper;
   using Projection = vtkTetrahedraProjectionMapper;
-  static const std::map<std::string, Accessors> accessors = {
-    { "BlendMode",
-      { [](Base* mapper) -> std::vector<double>
-        { return { static_cast<double>(mapper->GetBlendMode()) }; },
-        [](Base* mapper, const std::vector<double>& values)
-        { mapper->SetBlendMode(static_cast<int>(values.front())); } } },
-    ACCESSORS(Base, MaximumError),
+  AccessorMap accessors = {
     ACCESSORS(Base, Integration),
     ACCESSORS(Base, TableScalarSize),
     ACCESSORS(Base, TableLengthSize),
@@ -64,26 +120,8 @@ const std::map<std::string, Accessors>& GetAccessors()
     ACCESSORS(Base, TableMaximumBytes),
     ACCESSORS(Base, SmoothShading),
     ACCESSORS(Base, MergePoints),
-    ACCESSORS(Base, VectorMode),
-    ACCESSORS(Base, VectorComponent),
     ACCESSORS(Base, Reentry),
-    ACCESSORS(Base, IntermixIntersectingGeometry),
-    ACCESSORS(Base, Cropping),
-    { "CroppingRegionPlanes",
-      { [](Base* mapper)
-        {
-          const double* planes = mapper->GetCroppingRegionPlanes();
-          return std::vector<double>(planes, planes + 6);
-        },
-        [](Base* mapper, const std::vector<double>& values)
-        { mapper->SetCroppingRegionPlanes(values.data()); } } },
-    ACCESSORS(Base, CroppingRegionFlags),
-    ACCESSORS(CPU, NumberOfThreads),
     ACCESSORS(RayCast, Precision),
-    ACCESSORS(CPU, ImageSampleDistance),
-    ACCESSORS(CPU, MinimumImageSampleDistance),
-    ACCESSORS(CPU, MaximumImageSampleDistance),
-    ACCESSORS(CPU, AutoAdjustSampleDistances),
     ACCESSORS(Isosurface, ColorArrayComponent),
     ACCESSORS(Isosurface, Shadows),
     ACCESSORS(Isosurface, ShadowSoftness),
@@ -101,25 +139,34 @@ const std::map<std::string, Accessors>& GetAccessors()
     ACCESSORS(Projection, AlphaDithering),
     ACCESSORS(Projection, Order),
   };
+  accessors.merge(MakeCommonAccessors<Base>());
+  accessors.merge(MakeProcessorAccessors<vtkTetrahedraCPUMapper>());
   return accessors;
+}
+
+const Accessors& GetAccessors(vtkAbstractVolumeMapper* mapper, const MapperProperty& property)
+{
+  static const AccessorMap ofCells = MakeCellAccessors();
+  static const AccessorMap ofCaster = MakeCasterAccessors();
+  return (GetKind(mapper) == TriangleCasterKind ? ofCaster : ofCells).at(property.Name);
 }
 
 #undef ACCESSORS
 
 } // namespace
 
-unsigned GetKind(vtkTetrahedraVolumeMapper* mapper) { return FindMapperKind(mapper); }
+unsigned GetKind(vtkAbstractVolumeMapper* mapper) { return FindMapperKind(mapper); }
 
 std::vector<double> GetPropertyValues(
-  vtkTetrahedraVolumeMapper* mapper, const MapperProperty& property)
+  vtkAbstractVolumeMapper* mapper, const MapperProperty& property)
 {
-  return GetAccessors().at(property.Name).Get(mapper);
+  return GetAccessors(mapper, property).Get(mapper);
 }
 
-void SetPropertyValues(vtkTetrahedraVolumeMapper* mapper, const MapperProperty& property,
+void SetPropertyValues(vtkAbstractVolumeMapper* mapper, const MapperProperty& property,
   const std::vector<double>& values)
 {
-  GetAccessors().at(property.Name).Set(mapper, values);
+  GetAccessors(mapper, property).Set(mapper, values);
 }
 
 } // namespace tetralux

@@ -7,20 +7,20 @@
 
 #include <vector>
 
-class vtkTetrahedraVolumeMapper;
+class vtkAbstractVolumeMapper;
 
 namespace tetralux
 {
 
-/// What kind of mapper it is.
-TETRALUXRENDERING_EXPORT unsigned GetKind(vtkTetrahedraVolumeMapper* mapper);
+/// What kind of mapper it is, of those of this project.
+TETRALUXRENDERING_EXPORT unsigned GetKind(vtkAbstractVolumeMapper* mapper);
 
 /// The numbers of a property, by its getter. The mapper must have the property.
 TETRALUXRENDERING_EXPORT std::vector<double> GetPropertyValues(
-  vtkTetrahedraVolumeMapper* mapper, const MapperProperty& property);
+  vtkAbstractVolumeMapper* mapper, const MapperProperty& property);
 
 /// Sets a property by its setter, from as many numbers as the property has.
-TETRALUXRENDERING_EXPORT void SetPropertyValues(vtkTetrahedraVolumeMapper* mapper,
+TETRALUXRENDERING_EXPORT void SetPropertyValues(vtkAbstractVolumeMapper* mapper,
   const MapperProperty& property, const std::vector<double>& values);
 
 } // namespace tetralux

@@ -2,6 +2,7 @@
 #include "vtkTetrahedraVolumeMapper.h"
 
 #include "Base/Stopwatch.h"
+#include "Frame/FrameRecord.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
 #include "Intake/DataSetBlocks.h"
@@ -21,10 +22,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
-#include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkPlane.h"
-#include "vtkPlaneCollection.h"
 #include "vtkRenderer.h"
 #include "vtkUnstructuredGridBase.h"
 #include "vtkVolume.h"
@@ -32,9 +30,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
-#include <sstream>
 #include <stdexcept>
 
 using tetralux::Json;
@@ -42,12 +37,6 @@ using tetralux::MapperFrame;
 
 namespace
 {
-
-/// No picture in single precision is expected to be better: the header says so.
-constexpr double SmallestMaximumError = 1e-6;
-
-/// Frames that are to take less than this belong to an interaction, seconds.
-constexpr double InteractiveSeconds = 1;
 
 tetralux::OpticalModel GetOpticalModel(int blendMode)
 {
@@ -76,61 +65,36 @@ public:
   explicit Internals(vtkTetrahedraVolumeMapper* self)
     : Self(self)
     , Preparation(self)
+    , Record(self)
   {
   }
 
   /// Throws what the stages throw.
   void DrawFrame(vtkRenderer* renderer, vtkVolume* volume);
 
-  /// Empties what the last frame left, where the next one fails.
-  void Clear();
-
-  /// One error for each cause: not again until a frame succeeds.
-  void ReportOnce(const std::string& error);
-
   vtkTetrahedraVolumeMapper* Self;
   tetralux::ScenePreparation Preparation;
-  vtkNew<vtkImageData> Image;
-  std::function<void(vtkImageData*)> ReadPicture; ///< into Image; empty: it is there
-  double ErrorEstimate = 0;
-  std::string Statistics = "{}";
-  std::string LastError;
+  tetralux::FrameRecord Record;
   tetralux::OnceWarning ReentryWarning;
 
 private:
   tetralux::MapperSettings MakeSettings() const;
-  void WriteStatistics(MapperFrame& frame, double seconds);
-  void WarnOfError(const MapperFrame& frame);
-
-  tetralux::OnceWarning ErrorWarning;
+  void WriteStatistics(MapperFrame& frame, double frameSeconds);
 };
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVolume* volume)
 {
   const tetralux::Stopwatch stopwatch;
-  this->ReadPicture = nullptr;
   const tetralux::MapperSettings settings = this->MakeSettings();
-  MapperFrame frame;
+  MapperFrame frame = this->Record.Begin(renderer, volume);
   frame.Settings = settings.Frame;
   frame.MaximumError = settings.MaximumError;
-  frame.Renderer = renderer;
-  frame.Volume = volume;
-  frame.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  if (!frame.Window)
-  {
-    throw std::invalid_argument("the renderer has no OpenGL render window");
-  }
-  const auto report = [&](unsigned long event, double fraction)
-  {
-    this->Self->InvokeEvent(event, &fraction);
-    return !frame.Window->CheckAbortStatus();
-  };
   tetralux::SceneInput input;
   input.Data = this->Self->GetDataObjectInput();
   input.Property = volume->GetProperty();
   input.Matrix = volume->GetMatrix();
-  input.Interactive = volume->GetAllocatedRenderTime() < InteractiveSeconds;
+  input.Interactive = frame.IsInteractive();
   if (volume->GetProperty()->GetShade(0))
   {
     frame.Lights = tetralux::GetRendererLights(renderer);
@@ -138,21 +102,18 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
     input.LightVaries = tetralux::FindLighting(true, frame.Settings.SmoothShading, frame.Lights) ==
       tetralux::Lighting::Varying;
   }
-  const bool ready = this->Preparation.Update(
-    settings, input, [&](double fraction) { return report(vtkCommand::ProgressEvent, fraction); });
-  frame.Progress = [&](double fraction)
-  { return report(vtkCommand::VolumeMapperRenderProgressEvent, fraction); };
+  const bool ready = this->Preparation.Update(settings, input,
+    [&](double fraction)
+    { return this->Record.ReportProgress(frame.Window, vtkCommand::ProgressEvent, fraction); });
   frame.Scene = &this->Preparation.Scene;
-  frame.Image = this->Image;
   if (ready)
   {
     frame.Shaded = this->Preparation.IsShaded(volume->GetProperty());
     this->Self->DrawFrame(frame);
-    this->ReadPicture = frame.ReadPicture;
   }
   else
   {
-    this->Image->Initialize();
+    frame.Image->Initialize();
     frame.Aborted = true;
   }
   if (frame.Scene->Mesh.GetMesh())
@@ -206,14 +167,7 @@ tetralux::MapperSettings vtkTetrahedraVolumeMapper::Internals::MakeSettings() co
   tetralux::FrameSettings& frame = settings.Frame;
   frame.IntermixIntersectingGeometry = self->IntermixIntersectingGeometry != 0;
   frame.SmoothShading = self->SmoothShading != 0;
-  vtkPlaneCollection* planes = self->GetClippingPlanes();
-  for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
-  {
-    vtkPlane* plane = planes->GetItem(i);
-    const double* normal = plane->GetNormal();
-    frame.ClippingPlanes.push_back(
-      { normal[0], normal[1], normal[2], -vtkMath::Dot(normal, plane->GetOrigin()) });
-  }
+  frame.ClippingPlanes = tetralux::GetClippingPlanes(self);
   frame.Cropping = self->Cropping != 0;
   self->GetCroppingRegionPlanes(frame.CroppingRegionPlanes);
   frame.CroppingRegionFlags = static_cast<std::uint32_t>(self->CroppingRegionFlags);
@@ -222,17 +176,9 @@ tetralux::MapperSettings vtkTetrahedraVolumeMapper::Internals::MakeSettings() co
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, double seconds)
+void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, double frameSeconds)
 {
   const tetralux::VolumeScene& scene = *frame.Scene;
-
-  Json times;
-  DescribeSeconds(this->Preparation, times);
-  for (const auto& [name, value] : frame.Seconds)
-  {
-    times[name] = value;
-  }
-  times["frame"] = seconds;
 
   for (auto& [name, value] : frame.Errors)
   {
@@ -244,32 +190,8 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
       ? tetralux::FindLightSteps(frame.Lights, frame.Surface, frame.Budget.Light).Error
       : 0);
   frame.Errors.emplace_back("transfer_function", frame.Scene->Optics.GetFunctionError());
-  this->ErrorEstimate = 0;
-  for (const auto& [name, value] : frame.Errors)
-  {
-    this->ErrorEstimate += value;
-  }
-  Json budget;
-  budget["transfer_function"] = frame.Budget.Functions;
-  budget["geometry"] = frame.Budget.Geometry;
-  budget["rounding"] = frame.Budget.Rounding;
-  budget["early_termination"] = frame.Budget.Termination;
-  budget["table"] = frame.Budget.Table;
-  budget["buffer"] = frame.Budget.Buffer;
-  budget["light"] = frame.Budget.Light;
-  Json error;
-  error["maximum"] = this->Self->MaximumError;
-  error["budget"] = budget;
-  error["estimate"] = this->ErrorEstimate;
-  for (const auto& [name, value] : frame.Errors)
-  {
-    error[name] = value;
-  }
 
   const bool cellData = scene.Mesh.HasCellScalars();
-  frame.ReportOmission(frame.Settings.ClippingPlanes.empty(), "clipping planes", "there are none");
-  frame.ReportOmission(!frame.Settings.Cropping, "cropping", "it is off");
-  frame.ReportOmission(!frame.Opaque, "opaque geometry", "nothing opaque was drawn before");
   frame.ReportOmission(frame.Scene->Optics.GetFunctionError() == 0, "subdivided transfer function",
     "it is piecewise linear");
   frame.ReportOmission(cellData, "scalars varying in cells", "the array is of cells");
@@ -289,58 +211,13 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
                                                "blending"
                                              : "Shade is off");
 
-  Json statistics;
-  statistics["method"] = frame.Method;
-  statistics["aborted"] = frame.Aborted;
-  statistics["rebuilt"] = this->Preparation.GetLast().Rebuilt;
-  statistics["seconds"] = times;
-  statistics["input"] = DescribeInput(this->Preparation);
-  statistics["tables"] = DescribeTables(this->Preparation);
-  statistics["segments"] = DescribeSegments(this->Preparation, frame.Integration);
-  for (const auto& [name, section] : frame.Sections)
-  {
-    statistics[name] = section;
-  }
-  statistics["error"] = error;
-  statistics["left_out"] = frame.LeftOut;
-  this->Statistics = statistics.dump(2);
-  this->WarnOfError(frame);
-}
-
-//------------------------------------------------------------------------------------------------
-void vtkTetrahedraVolumeMapper::Internals::WarnOfError(const MapperFrame& frame)
-{
-  const double asked = this->Self->MaximumError;
-  if (frame.Aborted || this->Self->IsMaximumErrorKept())
-  {
-    this->ErrorWarning.Update(this->Self, "");
-    return;
-  }
-  const auto largest = std::max_element(frame.Errors.begin(), frame.Errors.end(),
-    [](const auto& a, const auto& b) { return a.second < b.second; });
-  std::ostringstream warning;
-  warning << "the estimated error " << this->ErrorEstimate << " is above the MaximumError " << asked
-          << ": " << largest->second << " of it by '" << largest->first << "'";
-  this->ErrorWarning.Update(this->Self, warning.str(), largest->first);
-}
-
-//------------------------------------------------------------------------------------------------
-void vtkTetrahedraVolumeMapper::Internals::Clear()
-{
-  this->ReadPicture = nullptr;
-  this->Image->Initialize();
-  this->ErrorEstimate = 0;
-  this->Statistics = "{}";
-}
-
-//------------------------------------------------------------------------------------------------
-void vtkTetrahedraVolumeMapper::Internals::ReportOnce(const std::string& error)
-{
-  if (error != this->LastError)
-  {
-    this->LastError = error;
-    vtkErrorWithObjectMacro(this->Self, << error);
-  }
+  Json seconds;
+  DescribeSeconds(this->Preparation, seconds);
+  Json sections;
+  sections["input"] = DescribeInput(this->Preparation);
+  sections["tables"] = DescribeTables(this->Preparation);
+  sections["segments"] = DescribeSegments(this->Preparation, frame.Integration);
+  this->Record.Write(frame, this->Preparation.GetLast().Rebuilt, seconds, frameSeconds, sections);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -359,30 +236,8 @@ void vtkTetrahedraVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   {
     return;
   }
-  const tetralux::Stopwatch stopwatch;
-  this->InvokeEvent(vtkCommand::VolumeMapperRenderStartEvent);
-  std::string error;
-  try
-  {
-    this->GetInputAlgorithm()->Update();
-    this->Private->DrawFrame(renderer, volume);
-    this->Private->LastError.clear();
-  }
-  catch (const std::bad_alloc&)
-  {
-    error = "there is not enough memory";
-  }
-  catch (const std::exception& exception)
-  {
-    error = exception.what();
-  }
-  if (!error.empty())
-  {
-    this->Private->Clear();
-    this->Private->ReportOnce(error);
-  }
-  this->TimeToDraw = stopwatch.GetSeconds();
-  this->InvokeEvent(vtkCommand::VolumeMapperRenderEndEvent);
+  this->Private->Record.Render(
+    [&] { this->Private->DrawFrame(renderer, volume); }, this->TimeToDraw);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -437,35 +292,25 @@ double* vtkTetrahedraVolumeMapper::GetBounds()
 //------------------------------------------------------------------------------------------------
 vtkImageData* vtkTetrahedraVolumeMapper::GetOutputImage()
 {
-  if (this->Private->ReadPicture)
-  {
-    // Moved out first: a failing read is not tried again.
-    const auto read = std::move(this->Private->ReadPicture);
-    this->Private->ReadPicture = nullptr;
-    try
-    {
-      read(this->Private->Image);
-    }
-    catch (const std::exception& exception)
-    {
-      this->Private->Image->Initialize();
-      vtkErrorMacro(<< exception.what());
-    }
-  }
-  return this->Private->Image;
+  return this->Private->Record.GetPicture();
 }
 
 //------------------------------------------------------------------------------------------------
-std::string vtkTetrahedraVolumeMapper::GetStatistics() { return this->Private->Statistics; }
+std::string vtkTetrahedraVolumeMapper::GetStatistics()
+{
+  return this->Private->Record.GetStatistics();
+}
 
 //------------------------------------------------------------------------------------------------
-double vtkTetrahedraVolumeMapper::GetErrorEstimate() { return this->Private->ErrorEstimate; }
+double vtkTetrahedraVolumeMapper::GetErrorEstimate()
+{
+  return this->Private->Record.GetErrorEstimate();
+}
 
 //------------------------------------------------------------------------------------------------
 bool vtkTetrahedraVolumeMapper::IsMaximumErrorKept()
 {
-  return this->MaximumError < SmallestMaximumError ||
-    this->Private->ErrorEstimate <= this->MaximumError;
+  return this->Private->Record.IsErrorKept(this->MaximumError);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -582,11 +427,6 @@ void vtkTetrahedraVolumeMapper::PrintResults(ostream& os, vtkIndent indent)
   os << indent << "ErrorEstimate: " << this->GetErrorEstimate() << "\n"
      << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n"
      << indent << "NumberOfRemovedCells: " << this->GetNumberOfRemovedCells() << "\n"
-     << indent << "NumberOfBlankCells: " << this->GetNumberOfBlankCells() << "\n"
-     << indent << "Statistics:\n";
-  std::istringstream lines(this->GetStatistics());
-  for (std::string line; std::getline(lines, line);)
-  {
-    os << indent.GetNextIndent() << line << "\n";
-  }
+     << indent << "NumberOfBlankCells: " << this->GetNumberOfBlankCells() << "\n";
+  this->Private->Record.PrintStatistics(os, indent);
 }

@@ -2,6 +2,7 @@
 #include "Bench/BenchMappers.h"
 
 #include "Bench/BenchSetting.h"
+#include "CommandLine/CommandErrors.h"
 #include "Setup/Methods.h"
 #include "vtkTetrahedraRayIntegrator.h"
 #include "vtkTetrahedraVolumeMapper.h"
@@ -20,7 +21,13 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeOurMapper(
   // Only processors have threads to set.
   const bool onProcessor = setting.Method == "ray-cast" || setting.Method == "isosurface";
   const int threads = onProcessor ? numberOfThreads : 0;
-  return MakeMapper(setting.Method, threads, setting.Assignments);
+  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = vtkTetrahedraVolumeMapper::SafeDownCast(
+    MakeMapper(setting.Method, threads, setting.Assignments));
+  if (!mapper)
+  {
+    throw UsageError("--setting: the benchmark renders cells, '" + setting.Method + "' image data");
+  }
+  return mapper;
 }
 
 vtkSmartPointer<vtkUnstructuredGridVolumeRayCastMapper> MakeBunykMapper()

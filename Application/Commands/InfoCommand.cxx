@@ -12,10 +12,15 @@
 #include "Mesh/CellVolumes.h"
 #include "Mesh/CoincidentPoints.h"
 #include "Setup/Arrays.h"
+#include "Setup/MethodCosts.h"
 #include "Setup/SceneOptionGroups.h"
 #include "Walk/WalkMesh.h"
+#include "vtkTriangleCasterMapper.h"
 
 #include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
 
 #include <algorithm>
 #include <chrono>
@@ -205,10 +210,71 @@ void PrintTimeSteps(const MeshData& mesh)
     std::to_string(mesh.TimeStep) + ", time " + FormatNumber(mesh.Times[mesh.TimeStep]));
 }
 
+std::string FormatVector(const double vector[3])
+{
+  return FormatNumber(vector[0]) + ", " + FormatNumber(vector[1]) + ", " + FormatNumber(vector[2]);
+}
+
+/// The input as image data that are rendered without splitting their voxels; nullptr if there is
+/// something in them that takes that.
+vtkImageData* GetImage(vtkDataObject* data)
+{
+  auto* image = vtkImageData::SafeDownCast(data);
+  const std::vector<ArraySummary> arrays = image ? ListArrays(image) : std::vector<ArraySummary>();
+  if (arrays.empty())
+  {
+    return nullptr;
+  }
+  vtkNew<vtkTriangleCasterMapper> mapper;
+  mapper->SetInputData(image);
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectScalarArray(arrays.front().Name.c_str());
+  return mapper->GetObstacle().empty() ? image : nullptr;
+}
+
+void PrintImage(vtkImageData* image)
+{
+  const int* size = image->GetDimensions();
+  const int* extent = image->GetExtent();
+  PrintRow("points",
+    std::to_string(image->GetNumberOfPoints()) + ": " + std::to_string(size[0]) + " x " +
+      std::to_string(size[1]) + " x " + std::to_string(size[2]));
+  PrintRow("cells", image->GetNumberOfCells());
+  PrintRow("spacing", FormatVector(image->GetSpacing()));
+  PrintRow("origin", FormatVector(image->GetOrigin()));
+  if (extent[0] != 0 || extent[2] != 0 || extent[4] != 0)
+  {
+    PrintRow("extent from",
+      std::to_string(extent[0]) + ", " + std::to_string(extent[2]) + ", " +
+        std::to_string(extent[4]));
+  }
+  if (!image->GetDirectionMatrix()->IsIdentity())
+  {
+    const double* direction = image->GetDirectionMatrix()->GetData();
+    PrintRow("direction matrix",
+      FormatVector(direction) + "; " + FormatVector(direction + 3) + "; " +
+        FormatVector(direction + 6));
+  }
+  const double* bounds = image->GetBounds();
+  PrintRow("bounds",
+    "x " + FormatRange({ bounds[0], bounds[1] }) + ", y " + FormatRange({ bounds[2], bounds[3] }) +
+      ", z " + FormatRange({ bounds[4], bounds[5] }));
+  PrintArrays(image);
+  PrintRow("tetrahedra", std::to_string(EstimateTetrahedra(image)) + " if its cells were split");
+}
+
 void PrintInfo(const InputFile& input)
 {
   const MeshData mesh = ReadMesh(input);
   vtkDataObject* data = mesh.Data;
+  if (vtkImageData* image = GetImage(data))
+  {
+    PrintRow("file", input.Name);
+    PrintRow("type", data->GetClassName());
+    PrintTimeSteps(mesh);
+    PrintImage(image);
+    return;
+  }
 
   tetralux::TetrahedraIntake intake;
   const double splitSeconds = MeasureSeconds(

@@ -14,9 +14,11 @@
 #include "Setup/MethodCosts.h"
 #include "Setup/Methods.h"
 #include "Setup/SceneCamera.h"
+#include "Setup/VisitMapper.h"
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraVolumeMapper.h"
+#include "vtkTriangleCasterMapper.h"
 
 #include "vtkAbstractVolumeMapper.h"
 #include "vtkBoundingBox.h"
@@ -58,14 +60,26 @@ void CheckOptions(const RenderOptions& options)
   CheckCamera(options.Scene);
 }
 
-vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
+constexpr const char* ImageMethod = "triangle-caster";
+
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeConfiguredMapper(
   const std::string& method, const RenderOptions& options)
 {
-  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper =
+  const vtkSmartPointer<vtkAbstractVolumeMapper> made =
     MakeMapper(method, options.Scene.NumberOfThreads, options.Settings);
   if (options.MaximumError)
   {
-    mapper->SetMaximumError(*options.MaximumError);
+    VisitMapper(made, [&](auto* mapper) { mapper->SetMaximumError(*options.MaximumError); });
+  }
+  auto* mapper = vtkTetrahedraVolumeMapper::SafeDownCast(made);
+  if (!mapper)
+  {
+    if (!options.Isovalues.empty() || !options.ColorArray.empty())
+    {
+      throw UsageError(std::string(options.Isovalues.empty() ? "--color-array" : "--isovalues") +
+        ": the method '" + method + "' has no isosurfaces");
+    }
+    return made;
   }
   const bool isosurfaces = mapper->GetBlendMode() == vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND;
   if (isosurfaces && options.Isovalues.empty())
@@ -85,7 +99,14 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeConfiguredMapper(
     }
     mapper->SetBlendModeToIsoSurface();
   }
-  return mapper;
+  return made;
+}
+
+/// Whether image data are rendered as they are, if no method is named.
+bool MayRenderImages(const RenderOptions& options)
+{
+  return options.Method == "auto" && options.Isovalues.empty() && options.ColorArray.empty() &&
+    !options.Shade && TakesSettings(ImageMethod, options.Scene.NumberOfThreads, options.Settings);
 }
 
 std::vector<MethodChoice> ListMethodsFor(const RenderOptions& options, vtkRenderWindow* window)
@@ -133,20 +154,51 @@ RenderInput ReadInput(const SceneOptions& options, const std::string& colorArray
   return input;
 }
 
-void SetInput(const RenderInput& input, vtkTetrahedraVolumeMapper* mapper)
+void SetInputData(const RenderInput& input, vtkTetrahedraVolumeMapper* mapper)
 {
-  const ArrayChoice& scalars = input.Scalars;
-  mapper->SetScalarMode(scalars.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
-                                               : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
-  mapper->SelectScalarArray(scalars.Array.Name.c_str());
-  mapper->SetVectorMode(scalars.Magnitude ? vtkTetrahedraVolumeMapper::MAGNITUDE_MODE
-                                          : vtkTetrahedraVolumeMapper::COMPONENT_MODE);
-  mapper->SetVectorComponent(scalars.Component);
   if (auto* tracer = vtkTetrahedraIsosurfaceMapper::SafeDownCast(mapper))
   {
     tracer->SetColorArrayName(input.ColorArray.empty() ? nullptr : input.ColorArray.c_str());
   }
   mapper->SetInputData(input.Data.GetPointer());
+}
+
+void SetInputData(const RenderInput& input, vtkTriangleCasterMapper* mapper)
+{
+  auto* image = vtkImageData::SafeDownCast(input.Data);
+  if (!image)
+  {
+    throw WorkError("--method: '" + std::string(ImageMethod) +
+      "' renders image data; these are a " + input.Data->GetClassName());
+  }
+  mapper->SetInputData(image);
+}
+
+void SetInput(const RenderInput& input, vtkAbstractVolumeMapper* mapper)
+{
+  const ArrayChoice& scalars = input.Scalars;
+  mapper->SetScalarMode(scalars.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
+                                               : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
+  mapper->SelectScalarArray(scalars.Array.Name.c_str());
+  VisitMapper(mapper,
+    [&](auto* visited)
+    {
+      visited->SetVectorMode(scalars.Magnitude ? visited->MAGNITUDE_MODE : visited->COMPONENT_MODE);
+      visited->SetVectorComponent(scalars.Component);
+      SetInputData(input, visited);
+    });
+}
+
+/// Whether the input is an image that the method for them can render.
+bool IsImage(const RenderInput& input)
+{
+  if (!vtkImageData::SafeDownCast(input.Data))
+  {
+    return false;
+  }
+  vtkNew<vtkTriangleCasterMapper> mapper;
+  SetInput(input, mapper);
+  return mapper->GetObstacle().empty();
 }
 
 vtkSmartPointer<vtkVolumeProperty> MakeProperty(
@@ -199,7 +251,8 @@ bool IsEmpty(vtkImageData* image)
 /// Throws WorkError if the input has no cell that can be rendered.
 void CheckRendered(const std::string& input, const nlohmann::ordered_json& statistics)
 {
-  if (statistics.at("tables").at("tetrahedra") == 0)
+  const auto tables = statistics.find("tables"); // of cells
+  if (tables != statistics.end() && tables->at("tetrahedra") == 0)
   {
     const auto leftOut = statistics.at("input").at("left_out").get<std::string>();
     throw WorkError("'" + input + "': none of its " + statistics.at("input").at("cells").dump() +
@@ -236,9 +289,9 @@ void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutpu
 }
 
 /// Returns what is wrong with a picture for which another method may be taken, or an empty text.
-std::string FindFault(vtkTetrahedraVolumeMapper* mapper, const nlohmann::ordered_json& statistics)
+std::string FindFault(vtkAbstractVolumeMapper* mapper, const nlohmann::ordered_json& statistics)
 {
-  if (!mapper->IsMaximumErrorKept())
+  if (!VisitMapper(mapper, [](auto* visited) { return visited->IsMaximumErrorKept(); }))
   {
     return "its error is estimated to be larger than MaximumError";
   }
@@ -252,11 +305,17 @@ std::string FindFault(vtkTetrahedraVolumeMapper* mapper, const nlohmann::ordered
   return "";
 }
 
+nlohmann::ordered_json ParseStatistics(vtkAbstractVolumeMapper* mapper)
+{
+  return nlohmann::ordered_json::parse(
+    VisitMapper(mapper, [](auto* visited) { return visited->GetStatistics(); }));
+}
+
 /// Renders the volume of an input once. Returns VTK's first error. Without an error, returns an
 /// empty text and prints the warnings. mayChange: another method is taken if this one's picture is
 /// not right enough; what is wrong is returned as an error.
-std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
-  vtkRenderWindow* window, bool mayChange)
+std::string Draw(const std::string& input, vtkAbstractVolumeMapper* mapper, vtkRenderWindow* window,
+  bool mayChange)
 {
   const MessageCapture messages;
   ProgressLine progress("rendering");
@@ -265,7 +324,7 @@ std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
   window->Render();
   if (messages.GetError().empty())
   {
-    const auto statistics = nlohmann::ordered_json::parse(mapper->GetStatistics());
+    const auto statistics = ParseStatistics(mapper);
     CheckRendered(input, statistics);
     std::string fault = mayChange ? FindFault(mapper, statistics) : "";
     if (!fault.empty())
@@ -278,9 +337,9 @@ std::string Draw(const std::string& input, vtkTetrahedraVolumeMapper* mapper,
 }
 
 /// Returns the statistics, with the reason for the method if --method did not name it.
-nlohmann::ordered_json ReadStatistics(vtkTetrahedraVolumeMapper* mapper, const MethodChoice& method)
+nlohmann::ordered_json ReadStatistics(vtkAbstractVolumeMapper* mapper, const MethodChoice& method)
 {
-  const auto ofMapper = nlohmann::ordered_json::parse(mapper->GetStatistics());
+  const auto ofMapper = ParseStatistics(mapper);
   nlohmann::ordered_json statistics;
   for (const auto& [name, member] : ofMapper.items())
   {
@@ -303,7 +362,10 @@ void RenderPicture(const RenderOptions& options)
   window->SetMultiSamples(0);
   std::vector<MethodChoice> methods = ListMethodsFor(options, window);
   // Before a large file is read: wrong settings are an error.
-  MakeConfiguredMapper(methods.front().Method, options);
+  if (!MayRenderImages(options))
+  {
+    MakeConfiguredMapper(methods.front().Method, options);
+  }
 
   AtomicOutput output(options.Output);
   std::optional<AtomicOutput> statisticsOutput;
@@ -312,10 +374,14 @@ void RenderPicture(const RenderOptions& options)
     statisticsOutput.emplace(options.StatisticsFile);
   }
   const RenderInput input = ReadInput(options.Scene, options.ColorArray);
+  if (MayRenderImages(options) && IsImage(input))
+  {
+    methods = { { ImageMethod, "image data are rendered without cells" } };
+  }
   RankMethods(
     { EstimateTetrahedra(input.Data), options.Scene.Width, options.Scene.Height }, methods);
   vtkNew<vtkVolume> volume;
-  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper;
+  vtkSmartPointer<vtkAbstractVolumeMapper> mapper;
   std::string error;
   std::size_t used = 0;
   for (; used < methods.size(); ++used)
@@ -341,10 +407,11 @@ void RenderPicture(const RenderOptions& options)
     throw WorkError("'" + options.Scene.Input.Name + "': " + error);
   }
   const nlohmann::ordered_json statistics = ReadStatistics(mapper, methods[used]);
-  vtkImageData* image = mapper->GetOutputImage();
+  vtkImageData* image =
+    VisitMapper(mapper, [](auto* visited) { return visited->GetOutputImage(); });
   if (IsEmpty(image))
   {
-    std::cerr << "tetralux: warning: the picture is empty: no ray meets a cell that is not "
+    std::cerr << "tetralux: warning: the picture is empty: no ray meets anything that is not "
                  "transparent\n";
   }
 

@@ -5,7 +5,7 @@
 #include "CommandLine/OptionValues.h"
 #include "MapperPropertyAccess.h"
 
-#include "vtkTetrahedraVolumeMapper.h"
+#include "vtkAbstractVolumeMapper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,20 +98,20 @@ std::vector<const MapperProperty*> GetSettableProperties()
   return properties;
 }
 
-std::vector<std::string> GetPropertyNames(vtkTetrahedraVolumeMapper* mapper)
+std::vector<std::string> GetPropertyNames(vtkAbstractVolumeMapper* mapper)
 {
   return GetNames(tetralux::GetKind(mapper));
 }
 
 std::vector<std::string> GetPropertyNames() { return GetNames(tetralux::AllKinds); }
 
-bool HasProperty(vtkTetrahedraVolumeMapper* mapper, const std::string& name)
+bool HasProperty(vtkAbstractVolumeMapper* mapper, const std::string& name)
 {
   const std::vector<std::string> names = GetPropertyNames(mapper);
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void SetProperty(vtkTetrahedraVolumeMapper* mapper, const std::string& assignment)
+void SetProperty(vtkAbstractVolumeMapper* mapper, const std::string& assignment)
 {
   const auto [name, value] = ParseAssignment("--set", assignment);
   if (!HasProperty(mapper, name))

@@ -9,6 +9,7 @@
 #include "vtkTetrahedraIsosurfaceMapper.h"
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
+#include "vtkTriangleCasterMapper.h"
 
 #include "vtkNew.h"
 #include "vtkRenderWindow.h"
@@ -23,7 +24,7 @@ namespace
 struct Method
 {
   std::string Name;
-  std::function<vtkSmartPointer<vtkTetrahedraVolumeMapper>()> Make;
+  std::function<vtkSmartPointer<vtkAbstractVolumeMapper>()> Make;
 };
 
 template <class MapperT>
@@ -39,6 +40,7 @@ const std::vector<Method>& GetMethods()
     MakeMethod<vtkTetrahedraGPURayCastMapper>("gpu-ray-cast"),
     MakeMethod<vtkTetrahedraProjectionMapper>("projection"),
     MakeMethod<vtkTetrahedraIsosurfaceMapper>("isosurface"),
+    MakeMethod<vtkTriangleCasterMapper>("triangle-caster"),
   };
   return methods;
 }
@@ -84,7 +86,7 @@ void Describe(const tetralux::MapperProperty& property, std::ostream& text)
   }
 }
 
-vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeDefaultMapper(const std::string& method)
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeDefaultMapper(const std::string& method)
 {
   for (const Method& candidate : GetMethods())
   {
@@ -100,7 +102,7 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeDefaultMapper(const std::string& 
 /// Returns the first property of settings that the mapper of a method has not, or an empty text.
 std::string FindLackingProperty(const std::string& method, const std::vector<std::string>& settings)
 {
-  const vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeDefaultMapper(method);
+  const vtkSmartPointer<vtkAbstractVolumeMapper> mapper = MakeDefaultMapper(method);
   for (const std::string& setting : settings)
   {
     std::string name = ParseAssignment("--set", setting).first;
@@ -151,10 +153,10 @@ std::vector<std::string> GetMethodNames()
   return names;
 }
 
-vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeMapper(
   const std::string& method, int numberOfThreads, const std::vector<std::string>& settings)
 {
-  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = MakeDefaultMapper(method);
+  vtkSmartPointer<vtkAbstractVolumeMapper> mapper = MakeDefaultMapper(method);
   if (HasProperty(mapper, "AutoAdjustSampleDistances"))
   {
     SetProperty(mapper, "AutoAdjustSampleDistances=0");
@@ -172,6 +174,20 @@ vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
     SetProperty(mapper, setting);
   }
   return mapper;
+}
+
+bool TakesSettings(
+  const std::string& method, int numberOfThreads, const std::vector<std::string>& settings)
+{
+  try
+  {
+    MakeMapper(method, numberOfThreads, settings);
+    return true;
+  }
+  catch (const UsageError&)
+  {
+    return false;
+  }
 }
 
 std::vector<MethodChoice> ListMethods(const std::string& method, vtkRenderWindow* window,

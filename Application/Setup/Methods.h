@@ -8,7 +8,7 @@
 #include <vector>
 
 class vtkRenderWindow;
-class vtkTetrahedraVolumeMapper;
+class vtkAbstractVolumeMapper;
 
 /// Returns the names that --method takes, "auto" first.
 std::vector<std::string> GetMethodNames();
@@ -20,8 +20,12 @@ std::string DescribeProperties();
 /// unless settings say otherwise. numberOfThreads: 0 for one on each core. settings: as SetProperty
 /// takes them. Throws UsageError if there is no such method, if its threads can't be set, or if a
 /// setting is wrong.
-vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeMapper(
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeMapper(
   const std::string& method, int numberOfThreads, const std::vector<std::string>& settings = {});
+
+/// Returns whether MakeMapper would throw nothing.
+bool TakesSettings(
+  const std::string& method, int numberOfThreads, const std::vector<std::string>& settings);
 
 struct MethodChoice
 {
@@ -29,11 +33,11 @@ struct MethodChoice
   std::string Reason; ///< one line; empty if --method named the method
 };
 
-/// Lists the methods to try, one after the other. If method is not "auto", it alone. Else, of
-/// isosurfaces, isosurface, if it has all settings. Else, if the
-/// window draws on a graphics card, gpu-ray-cast and projection, as far as they have all settings,
-/// and last ray-cast. A number of threads leaves ray-cast alone, as software OpenGL does: rays are
-/// cast faster without it in every picture that was measured. RankMethods says which one is faster.
+/// Lists the methods to try for cells, one after the other. If method is not "auto", it alone.
+/// Else, of isosurfaces, isosurface, if it has all settings. Else, if the window draws on a graphics
+/// card, gpu-ray-cast and projection, as far as they have all settings, and last ray-cast. A number
+/// of threads leaves ray-cast alone, as software OpenGL does: rays are cast faster without it in
+/// every picture that was measured. RankMethods says which one is faster.
 std::vector<MethodChoice> ListMethods(const std::string& method, vtkRenderWindow* window,
   int numberOfThreads, const std::vector<std::string>& settings, bool isosurfaces = false);
 

@@ -46,6 +46,9 @@ enum VectorModes
   Component = 1
 };
 
+constexpr const char* FieldDataError =
+  "scalars of the field data belong to no point or cell; choose point or cell data";
+
 /// Values that one task converts.
 constexpr vtkIdType Grain = 65536;
 
@@ -170,19 +173,48 @@ std::string Join(const std::vector<std::string>& names)
   return text.empty() ? "none" : text;
 }
 
+/// -1 where points or cells will do, else whether it is cells.
+int GetWantedKind(const ScalarSelection& selection)
+{
+  switch (selection.ScalarMode)
+  {
+    case UsePointData:
+    case UsePointFieldData:
+      return 0;
+    case UseCellData:
+    case UseCellFieldData:
+      return 1;
+    default:
+      return -1;
+  }
+}
+
+/// What is wrong with an array for count points or cells, or an empty text. component: receives
+/// the one that is selected.
+std::string CheckArray(vtkDataArray* array, vtkIdType count, bool cellData,
+  const ScalarSelection& selection, int& component)
+{
+  const std::string name = array->GetName() ? array->GetName() : "";
+  if (array->GetNumberOfTuples() < count)
+  {
+    return "array '" + name + "' has " + std::to_string(array->GetNumberOfTuples()) +
+      " values for " + std::to_string(count) + (cellData ? " cells" : " points");
+  }
+  const int components = array->GetNumberOfComponents();
+  component = selection.VectorMode == Component ? selection.VectorComponent : 0;
+  if (component < 0 || component >= components)
+  {
+    return "array '" + name + "' has no component " + std::to_string(component) + "; it has " +
+      std::to_string(components) + ", counted from 0";
+  }
+  return "";
+}
+
 /// Values of the input's points or cells, all blocks one after the other; empty on error.
 std::vector<double> ReadInput(
   vtkDataObject* input, const ScalarSelection& selection, ExtractedScalars& result)
 {
-  int cellData = -1;
-  if (selection.ScalarMode == UsePointData || selection.ScalarMode == UsePointFieldData)
-  {
-    cellData = 0;
-  }
-  if (selection.ScalarMode == UseCellData || selection.ScalarMode == UseCellFieldData)
-  {
-    cellData = 1;
-  }
+  int cellData = GetWantedKind(selection);
 
   // The first block that has the array decides what kind it is, so ask before converting.
   const std::vector<DataSetBlock> blocks = CollectDataSets(input);
@@ -217,11 +249,10 @@ std::vector<double> ReadInput(
     {
       result.ArrayName = array->GetName();
     }
-    const std::string name = array->GetName() ? array->GetName() : "";
-    if (array->GetNumberOfTuples() < count)
+    int component = 0;
+    result.Error = CheckArray(array, count, result.CellData, selection, component);
+    if (!result.Error.empty())
     {
-      result.Error = "array '" + name + "' has " + std::to_string(array->GetNumberOfTuples()) +
-        " values for " + std::to_string(count) + (result.CellData ? " cells" : " points");
       return {};
     }
     if (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE)
@@ -230,14 +261,6 @@ std::vector<double> ReadInput(
         ? static_cast<double>(std::numeric_limits<float>::epsilon()) / 2
         : std::numeric_limits<double>::epsilon() / 2;
       result.Rounding = std::max(result.Rounding, rounding);
-    }
-    const int components = array->GetNumberOfComponents();
-    const int component = selection.VectorMode == Component ? selection.VectorComponent : 0;
-    if (component < 0 || component >= components)
-    {
-      result.Error = "array '" + name + "' has no component " + std::to_string(component) +
-        "; it has " + std::to_string(components) + ", counted from 0";
-      return {};
     }
     double* out = values.data() + (result.CellData ? block.FirstCell : block.FirstPoint);
     ReduceTuples worker;
@@ -308,8 +331,7 @@ ExtractedScalars ExtractScalars(
   ExtractedScalars result;
   if (selection.ScalarMode == UseFieldData)
   {
-    result.Error =
-      "scalars of the field data belong to no point or cell; choose point or cell data";
+    result.Error = FieldDataError;
     return result;
   }
   std::vector<double> values = ReadInput(input, selection, result);
@@ -319,6 +341,30 @@ ExtractedScalars ExtractScalars(
       result.CellData ? ToCells(std::move(values), mesh) : ToPoints(std::move(values), mesh);
   }
   return result;
+}
+
+SelectedArray FindSelectedArray(vtkDataSet* dataSet, const ScalarSelection& selection)
+{
+  SelectedArray selected;
+  if (selection.ScalarMode == UseFieldData)
+  {
+    selected.Error = FieldDataError;
+    return selected;
+  }
+  int cellData = GetWantedKind(selection);
+  selected.Array = FindArray(dataSet, selection, cellData);
+  if (!selected.Array)
+  {
+    selected.Error = DescribeSelection(selection) + "; there are " + DescribeArrays(dataSet);
+    return selected;
+  }
+  selected.CellData = cellData == 1;
+  selected.Magnitude =
+    selection.VectorMode == Magnitude && selected.Array->GetNumberOfComponents() > 1;
+  selected.Error = CheckArray(selected.Array,
+    selected.CellData ? dataSet->GetNumberOfCells() : dataSet->GetNumberOfPoints(),
+    selected.CellData, selection, selected.Component);
+  return selected;
 }
 
 std::string DescribeArrays(vtkDataObject* input)

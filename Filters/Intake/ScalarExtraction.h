@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkDataObject;
+class vtkDataSet;
 
 namespace tetralux
 {
@@ -52,6 +54,19 @@ struct ExtractedScalars
 /// error. Whether it is point or cell data is decided by the first block that has it.
 TETRALUXFILTERS_EXPORT ExtractedScalars ExtractScalars(
   vtkDataObject* input, const TetrahedralMesh& mesh, const ScalarSelection& selection);
+
+/// The selected array of one data set, as it is. Where Error is not empty, it can't be used.
+struct SelectedArray
+{
+  vtkDataArray* Array = nullptr; ///< of the data set
+  bool CellData = false;
+  bool Magnitude = false; ///< of all components is the scalar; else Component
+  int Component = 0;
+  std::string Error; ///< one line that says what is missing and what there is
+};
+
+TETRALUXFILTERS_EXPORT SelectedArray FindSelectedArray(
+  vtkDataSet* dataSet, const ScalarSelection& selection);
 
 /// "point arrays: Density, Momentum (3 components); cell arrays: none" of all blocks together, in
 /// the order in which they are met.

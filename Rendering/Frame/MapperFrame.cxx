@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/MapperFrame.h"
 
+#include "vtkAbstractMapper.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -17,6 +21,9 @@ namespace tetralux
 {
 namespace
 {
+
+/// Frames that are to take less than this belong to an interaction, seconds.
+constexpr double InteractiveSeconds = 1;
 
 /// The inverse of a volume's matrix.
 void SetMeshFromWorld(vtkVolume* volume, double meshFromWorld[3][4])
@@ -88,6 +95,11 @@ RayLimits MapperFrame::MakeLimits(const CameraRays& rays) const
   return limits;
 }
 
+bool MapperFrame::IsInteractive() const
+{
+  return this->Volume->GetAllocatedRenderTime() < InteractiveSeconds;
+}
+
 bool MapperFrame::HasOpaqueGeometry() const
 {
   // Nothing opaque was drawn before, unless by a render pass, which counts elsewhere, or by another
@@ -104,6 +116,20 @@ void MapperFrame::PrepareImage(
   colors = GetArray(image, "RGBA", 4);
   depths = GetArray(image, "Depth", 1);
   image->GetPointData()->SetActiveScalars("RGBA");
+}
+
+std::vector<std::array<double, 4>> GetClippingPlanes(vtkAbstractMapper* mapper)
+{
+  std::vector<std::array<double, 4>> result;
+  vtkPlaneCollection* planes = mapper->GetClippingPlanes();
+  for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
+  {
+    vtkPlane* plane = planes->GetItem(i);
+    const double* normal = plane->GetNormal();
+    result.push_back(
+      { normal[0], normal[1], normal[2], -vtkMath::Dot(normal, plane->GetOrigin()) });
+  }
+  return result;
 }
 
 } // namespace tetralux

@@ -13,12 +13,14 @@
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+class vtkAbstractMapper;
 class vtkImageData;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
@@ -38,7 +40,7 @@ struct MapperFrame
   vtkRenderer* Renderer = nullptr;
   vtkVolume* Volume = nullptr;
   vtkOpenGLRenderWindow* Window = nullptr;
-  VolumeScene* Scene = nullptr; ///< complete
+  VolumeScene* Scene = nullptr; ///< complete; of mappers of cells alone
   vtkImageData* Image = nullptr;
 
   /// Whether isosurfaces, or what emits and absorbs, are lit, by what, and how they answer.
@@ -97,6 +99,9 @@ struct MapperFrame
   /// Near and far plane, clipping planes and cropping; no opaque geometry.
   RayLimits MakeLimits(const CameraRays& rays) const;
 
+  /// Whether the renderer allocates so little time that the frame belongs to an interaction.
+  bool IsInteractive() const;
+
   /// Whether the depth buffer may hold geometry that rays have to end at.
   bool HasOpaqueGeometry() const;
 
@@ -104,6 +109,9 @@ struct MapperFrame
   static void PrepareImage(
     vtkImageData* image, int width, int height, Span<float>& colors, Span<float>& depths);
 };
+
+/// The clipping planes of a mapper, as FrameSettings has them.
+std::vector<std::array<double, 4>> GetClippingPlanes(vtkAbstractMapper* mapper);
 
 } // namespace tetralux
 

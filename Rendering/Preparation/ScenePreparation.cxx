@@ -22,10 +22,6 @@ namespace tetralux
 namespace
 {
 
-/// The least error that a property's functions are approximated to: single precision tables have
-/// no less.
-constexpr double SmallestFunctionError = 1e-7;
-
 /// World units of a length in the mesh, at most.
 double GetLargestScale(const vtkMatrix4x4* worldFromMesh)
 {
@@ -58,16 +54,6 @@ std::vector<Isosurface> GetIsosurfaces(
     surfaces.push_back(surface);
   }
   return surfaces;
-}
-
-/// Opacities for attenuations: of models in which lengths do not count.
-void RemoveUnitDistance(TransferFunction& function, double unitDistance)
-{
-  for (TransferFunction::Node& node : function.Nodes)
-  {
-    node.Left.Attenuation *= unitDistance;
-    node.Right.Attenuation *= unitDistance;
-  }
 }
 
 } // namespace

@@ -328,4 +328,13 @@ PropertyTransferFunction TransferFunctionFromProperty(
   return result;
 }
 
+void RemoveUnitDistance(TransferFunction& function, double unitDistance)
+{
+  for (TransferFunction::Node& node : function.Nodes)
+  {
+    node.Left.Attenuation *= unitDistance;
+    node.Right.Attenuation *= unitDistance;
+  }
+}
+
 } // namespace tetralux

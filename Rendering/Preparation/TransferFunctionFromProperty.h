@@ -10,6 +10,10 @@ class vtkVolumeProperty;
 namespace tetralux
 {
 
+/// The least error that a property's functions are approximated to: single precision tables have
+/// no less.
+constexpr double SmallestFunctionError = 1e-7;
+
 struct PropertyTransferFunction
 {
   TransferFunction Function;
@@ -36,6 +40,10 @@ struct PropertyTransferFunction
 /// function has values that are not finite.
 TETRALUXRENDERING_EXPORT PropertyTransferFunction TransferFunctionFromProperty(
   vtkVolumeProperty* property, double maximumError, double longestPath);
+
+/// Scalar opacities in the place of attenuations: of models in which lengths do not count, or count
+/// in another way.
+TETRALUXRENDERING_EXPORT void RemoveUnitDistance(TransferFunction& function, double unitDistance);
 
 } // namespace tetralux
 

@@ -24,6 +24,7 @@ inline unsigned FindMapperKind(vtkObjectBase* object)
     : object->IsA("vtkTetrahedraGPURayCastMapper") ? GPURayCastKind
     : object->IsA("vtkTetrahedraProjectionMapper") ? ProjectionKind
     : object->IsA("vtkTetrahedraIsosurfaceMapper") ? IsosurfaceKind
+    : object->IsA("vtkTriangleCasterMapper")       ? TriangleCasterKind
                                                    : AllKinds;
 }
 

@@ -38,6 +38,7 @@ constexpr const char* Scalars = "Scalars";
 constexpr const char* Rays = "Rays";
 constexpr const char* Cropping = "Cropping";
 constexpr const char* Projection = "Projection";
+constexpr const char* Slices = "Slices";
 
 MapperProperty MakeBoolean(
   const char* name, unsigned kinds, const char* group, bool advanced, bool on, const char* meaning)
@@ -66,19 +67,20 @@ MapperProperty MakeTableSize(const char* name, const char* meaning)
 
 MapperProperty MakeSampleDistance(const char* name, double value, const char* meaning)
 {
-  return { name, PropertyType::Real, RayCastKind | IsosurfaceKind, Rays, true, {}, 0.1, 100,
-    { value }, "", "pixels", meaning };
+  return { name, PropertyType::Real, ProcessorKinds, Rays, true, {}, 0.1, 100, { value }, "",
+    "pixels", meaning };
 }
 
 std::vector<MapperProperty> MakeProperties()
 {
   return {
-    MakeEnumeration("BlendMode", VolumeKinds, Model, false,
+    MakeEnumeration("BlendMode", VolumeKinds | TriangleCasterKind, Model, false,
       { { "composite", 0, "emission and absorption" },
-        { "maximum-intensity", 1, "colour and opacity of the largest scalar along a ray" },
-        { "additive", 4, "emission without absorption" },
-        { "isosurface", 5, "the surfaces of the property's IsoSurfaceValues" },
-        { "absorption", 16, "absorption without emission" } },
+        { "maximum-intensity", 1, "colour and opacity of the largest scalar along a ray",
+          VolumeKinds },
+        { "additive", 4, "emission without absorption", VolumeKinds },
+        { "isosurface", 5, "the surfaces of the property's IsoSurfaceValues", VolumeKinds },
+        { "absorption", 16, "absorption without emission", VolumeKinds } },
       "What rays gather."),
     { "MaximumError", PropertyType::Real, AllKinds, Quality, false, {}, 0, 1, { 1e-4 }, "", "",
       "Largest absolute error of a premultiplied channel that is aimed at." },
@@ -104,9 +106,9 @@ std::vector<MapperProperty> MakeProperties()
       "Format that a table's texels are rounded to."),
     { "TableMaximumBytes", PropertyType::Size, VolumeKinds, Table, true, {}, SmallestTableBytes,
       LargestTableBytes, { DefaultTableBytes }, "", "bytes", "Largest size of a table." },
-    MakeBoolean("SmoothShading", AllKinds, Quality, false, true,
+    MakeBoolean("SmoothShading", CellKinds, Quality, false, true,
       "Take the normals of lighting from gradients that are interpolated between points."),
-    MakeEnumeration("MergePoints", AllKinds, Cells, true,
+    MakeEnumeration("MergePoints", CellKinds, Cells, true,
       { { "automatic", 2, "all or none: none if scalars differ or cells overlap" },
         { "off", 0, "points stay apart" }, { "on", 1, "all whose scalars agree" } },
       "Whether points at the same place are taken as one."),
@@ -141,7 +143,7 @@ std::vector<MapperProperty> MakeProperties()
       0, 0x7ffffff, { 0x2000 }, "", "",
       "The regions that are rendered: bit x + 3 y + 9 z is region x, y, z." },
 
-    { "NumberOfThreads", PropertyType::Integer, RayCastKind | IsosurfaceKind, Rays, true,
+    { "NumberOfThreads", PropertyType::Integer, ProcessorKinds, Rays, true,
       { { "automatic", 0, "as many as OpenMP offers" } }, 1, 1024, { 0 }, "", "threads",
       "Threads that cast rays." },
     MakeEnumeration("Precision", RayCastKind, Quality, true,
@@ -154,7 +156,7 @@ std::vector<MapperProperty> MakeProperties()
       "MinimumImageSampleDistance", 1, "Smallest distance of rays that the adjustment chooses."),
     MakeSampleDistance(
       "MaximumImageSampleDistance", 10, "Largest distance of rays that the adjustment chooses."),
-    MakeBoolean("AutoAdjustSampleDistances", RayCastKind | IsosurfaceKind, Rays, true, true,
+    MakeBoolean("AutoAdjustSampleDistances", ProcessorKinds, Rays, true, true,
       "Adjust the distance of rays to the time that the renderer allocates."),
 
     { "ColorArrayComponent", PropertyType::Integer, IsosurfaceKind, Scalars, false,
@@ -206,6 +208,33 @@ std::vector<MapperProperty> MakeProperties()
         { "non-convex", 3, "by common faces, with a guess across empty space (MPVONC)" },
         { "centroid", 4, "by distance of centroids" } },
       "Visibility order that cells are composited in."),
+
+    { "SampleDistance", PropertyType::Real, TriangleCasterKind, Slices, false,
+      { { "automatic", 0, "half of the mean spacing of points, less for small volumes" } }, 0,
+      Unbounded, { 0 }, "", "world units", "Distance of slices." },
+    { "InteractiveSampleDistance", PropertyType::Real, TriangleCasterKind, Slices, true,
+      { { "automatic", 0, "twice that of other frames" } }, 0, Unbounded, { 0 }, "", "world units",
+      "Distance of slices in frames of an interaction, if AutoAdjustSampleDistances is on." },
+    MakeEnumeration("SliceShape", TriangleCasterKind, Slices, true,
+      { { "planes", 0, "parallel to the plane of the picture" },
+        { "shells", 1, "spheres around the eye (Knittel 1999, section 1.1)" } },
+      "What the volume is cut by."),
+    MakeEnumeration("OpacityModel", TriangleCasterKind, Model, false,
+      { { "power", 0, "1 - (1 - a)^(l / d), as VTK's mappers of image data" },
+        { "attenuation", 1, "1 - exp(-a l / d), as mappers of unstructured grids" } },
+      "Opacity of a length l by scalar opacity a and unit distance d."),
+    MakeBoolean("CorrectOpacity", TriangleCasterKind, Quality, true, true,
+      "Take the opacity of each ray's own step instead of the distance of slices."),
+    MakeBoolean("EndTriangles", TriangleCasterKind, Rays, true, true,
+      "End triangles of the screen whose pixels are all opaque (Knittel 1999, section 3.2)."),
+    MakeBoolean("SkipPixels", TriangleCasterKind, Rays, true, true,
+      "Sample opaque pixels of other triangles no more (Knittel 1999, section 3.2)."),
+    MakeBoolean("SkipEmptySpace", TriangleCasterKind, Rays, true, true,
+      "Leave out what is transparent (Knittel 1999, section 2.1)."),
+    { "TileSize", PropertyType::Integer, TriangleCasterKind, Rays, true, {}, 4, 64, { 8 }, "",
+      "pixels", "Edge of the squares that the screen is cut into." },
+    MakeBoolean("CastTriangles", TriangleCasterKind, Rays, true, false,
+      "Cast each square of the screen in two triangles (Knittel 1999, section 2)."),
   };
 }
 

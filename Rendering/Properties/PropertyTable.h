@@ -17,12 +17,15 @@ namespace tetralux
 /// Kinds of mappers, as bits.
 enum MapperKind : unsigned
 {
-  RayCastKind = 1,    ///< vtkTetrahedraRayCastMapper
-  GPURayCastKind = 2, ///< vtkTetrahedraGPURayCastMapper
-  ProjectionKind = 4, ///< vtkTetrahedraProjectionMapper
-  IsosurfaceKind = 8, ///< vtkTetrahedraIsosurfaceMapper
-  VolumeKinds = 7,    ///< those that integrate along rays
-  AllKinds = 15       ///< vtkTetrahedraVolumeMapper, the base class
+  RayCastKind = 1,         ///< vtkTetrahedraRayCastMapper
+  GPURayCastKind = 2,      ///< vtkTetrahedraGPURayCastMapper
+  ProjectionKind = 4,      ///< vtkTetrahedraProjectionMapper
+  IsosurfaceKind = 8,      ///< vtkTetrahedraIsosurfaceMapper
+  TriangleCasterKind = 16, ///< vtkTriangleCasterMapper
+  VolumeKinds = 7,         ///< those that integrate along rays through cells
+  CellKinds = 15,          ///< vtkTetrahedraVolumeMapper, the base class of mappers of cells
+  ProcessorKinds = 25,     ///< those that make their pictures on the processor
+  AllKinds = 31
 };
 
 enum class PropertyType
@@ -60,7 +63,7 @@ struct MapperProperty
   const char* Meaning;         ///< one sentence
 };
 
-/// All properties, those of the base class first.
+/// All properties, those of the base class of mappers of cells first.
 TETRALUXRENDERING_EXPORT const std::vector<MapperProperty>& GetMapperProperties();
 
 /// nullptr if no mapper has a property of that name.

@@ -37,7 +37,10 @@ class WrongUsage(ToolTest):
         for method in ("bunyk", "isosurfaces", "gpu", ""):
             self.render_fails(
                 "--method", method,
-                says=["--method", "auto, ray-cast, gpu-ray-cast, projection and isosurface"],
+                says=[
+                    "--method",
+                    "auto, ray-cast, gpu-ray-cast, projection, isosurface and triangle-caster",
+                ],
             )
 
     def test_isosurfaces(self):
@@ -253,6 +256,27 @@ class FailedWork(ToolTest):
         ]:
             with self.subTest(name=name):
                 self.expect_failure(1, "render", name, "--output", "out.png", says=says)
+
+    def test_image_methods_and_cells(self):
+        self.render_fails(
+            "--method", "triangle-caster", says=["triangle-caster", "vtkUnstructuredGrid"]
+        )
+        self.expect_failure(
+            2, "render", "ball.vtu", "--output", "out.png", "--set", "SliceShape=shells",
+            says="no property 'SliceShape'",
+        )
+        self.expect_failure(
+            2, "render", "ball.vtu", "--output", "out.png", "--method", "triangle-caster",
+            "--isovalues", "0.5", says=["--isovalues", "triangle-caster"],
+        )
+        self.expect_failure(
+            2, "render", "ball.vtu", "--output", "out.png", "--method", "triangle-caster",
+            "--set", "BlendMode=additive", says="not composite (0)",
+        )
+        self.expect_failure(
+            2, "bench", "ball.vtu", "--setting", "triangle-caster TileSize=8", "--output", "bench",
+            says=["--setting", "triangle-caster"],
+        )
 
     def test_transfer_functions(self):
         self.render_fails("--transfer", "missing.json", says="'missing.json'")

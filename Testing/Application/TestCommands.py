@@ -8,9 +8,11 @@ import re
 import unittest
 
 from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import (
-    vtkXMLImageDataReader, vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter,
+    vtkXMLImageDataReader, vtkXMLImageDataWriter, vtkXMLUnstructuredGridReader,
+    vtkXMLUnstructuredGridWriter,
 )
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
@@ -69,6 +71,79 @@ class Commands(ToolTest):
         self.assertIn("--plot3d-q", self.succeed("info", "--help"))
         self.assertIn("--list", self.succeed("generate", "--help"))
         self.assertRegex(self.succeed("--version"), r"^\d+\.\d+\.\d+\n$")
+
+    def write_image(self, name, values, spacing=(1, 1, 1), of_cells=False):
+        """values: along z, y and x, of points or cells."""
+        image = vtkImageData()
+        size = [count + of_cells for count in values.shape[::-1]]
+        image.SetExtent(2, 1 + size[0], -3, size[1] - 4, 0, size[2] - 1)
+        image.SetSpacing(spacing)
+        array = numpy_to_vtk(values.ravel(), deep=True)
+        array.SetName("Field")
+        (image.GetCellData() if of_cells else image.GetPointData()).AddArray(array)
+        writer = vtkXMLImageDataWriter()
+        writer.SetFileName(self.path(name))
+        writer.SetInputData(image)
+        writer.Write()
+
+    def render_image(self, *arguments):
+        """The picture of an image and its method."""
+        self.succeed(
+            "render", "image.vti", "--size", "60,50", *arguments,
+            "--stats", "s.json", "--output", "out.vti",
+        )
+        with open(self.path("s.json"), encoding="utf-8") as file:
+            return self.read_vti("out.vti")[0], json.load(file)
+
+    def test_image_data(self):
+        z, y, x = numpy.mgrid[0:9, 0:11, 0:14]
+        field = 50 + 16 * (numpy.sin(0.5 * x) + numpy.sin(0.6 * y + 1) + numpy.cos(0.7 * z))
+        self.write_image("image.vti", field.astype(numpy.uint8), spacing=(0.5, 0.6, 0.7))
+        picture, statistics = self.render_image()
+        self.assertEqual(statistics["method"], "triangle-caster")
+        self.assertIn("image data", statistics["method_reason"])
+        self.assertEqual(statistics["input"]["dimensions"], [14, 11, 9])
+        self.assertEqual(statistics["input"]["copied_bytes"], 0)
+        self.assertGreater(picture[:, :, 3].max(), 0.5)
+        self.assertGreater((picture[:, :, 3] > 0).mean(), 0.1)
+        named, statistics = self.render_image("--method", "triangle-caster")
+        self.assertTrue((named == picture).all())
+        self.assertNotIn("method_reason", statistics)
+        # As cells, which by the same optical model are nearly the same picture.
+        model = ["--set", "OpacityModel=attenuation"]
+        picture, statistics = self.render_image(*model, "--set", "SampleDistance=0.1")
+        self.assertEqual(statistics["slices"]["distance"], 0.1)
+        cells, statistics = self.render_image("--method", "ray-cast")
+        self.assertEqual(statistics["tables"]["tetrahedra"], 5 * 13 * 10 * 8)
+        self.assertLess(abs(picture - cells).max(), 0.06)
+        self.succeed("render", "image.vti", "--size", "40,30", "--output", "out.png")
+        self.assertEqual(self.read_png("out.png").shape, (30, 40, 3))
+        self.assertGreater(self.read_png("out.png").max(), 0.2)
+
+        rows = {}
+        for line in self.succeed("info", "image.vti").splitlines():
+            rows[line[:28].strip()] = line[28:].strip()
+        self.assertEqual(rows["type"], "vtkImageData")
+        self.assertEqual(rows["points"], "1386: 14 x 11 x 9")
+        self.assertEqual(rows["spacing"], "0.5, 0.6, 0.7")
+        self.assertEqual(rows["extent from"], "2, -3, 0")
+        self.assertIn("x 1 .. 7.5", rows["bounds"])
+        self.assertIn("unsigned char", rows["point array Field"])
+
+    def test_image_data_by_cells_where_the_caster_lacks_something(self):
+        values = numpy.arange(60, dtype=numpy.float32).reshape(3, 4, 5)
+        self.write_image("image.vti", values)
+        self.assertEqual(self.render_image()[1]["method"], "triangle-caster")
+        for arguments in (
+            ["--shade"], ["--isovalues", "20"], ["--set", "BlendMode=additive"],
+            ["--set", "MergePoints=off"],
+        ):
+            with self.subTest(arguments=arguments):
+                _, statistics = self.render_image(*arguments)
+                self.assertNotEqual(statistics["method"], "triangle-caster")
+        self.write_image("image.vti", values, of_cells=True)
+        self.assertNotEqual(self.render_image()[1]["method"], "triangle-caster")
+        self.assertIn("time to prepare", self.succeed("info", "image.vti"))
 
     def test_every_generator_with_its_defaults_has_a_field(self):
         text = self.succeed("generate", "--list")
@@ -432,6 +507,7 @@ class Commands(ToolTest):
     def test_properties_are_listed(self):
         text = self.succeed("render", "--list-properties")
         for words in (
+            "triangle-caster:\n", "  SliceShape=planes\n", "  SampleDistance=automatic\n",
             "  MaximumError=0.0001\n", "a number from 0 to 1", "closed-form (1)", "projection:\n",
             "isosurface:\n", "  Shadows=Off\n", "  ColorArrayComponent=magnitude\n",
             "boundary-layers (3): depth-peeled boundary faces; gpu-ray-cast only",
@@ -442,15 +518,17 @@ class Commands(ToolTest):
         # What it says is a default can be set.
         self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
         groups = re.split(r"\n\n", text)[1:]
-        self.assertEqual(len(groups), 8)
+        self.assertEqual(len(groups), 11)
+        self.write_image("image.vti", numpy.arange(27, dtype=numpy.float32).reshape(3, 3, 3))
         for group in groups:
             method = re.split(r",|:| and ", group)[0]
             defaults = re.findall(r"^  (\w+=\S+)$", group, re.MULTILINE)
             self.assertGreater(len(defaults), 0)
             options = [word for default in defaults for word in ("--set", default)]
             options += ["--isovalues", "0.5"] if method == "isosurface" else []
+            data = "image.vti" if method == "triangle-caster" else "ball.vtu"
             self.succeed(
-                "render", "ball.vtu", "--size", "8,8", "--method", method, *options,
+                "render", data, "--size", "8,8", "--method", method, *options,
                 "--output", "out.png",
             )
 

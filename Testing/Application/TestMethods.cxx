@@ -94,6 +94,17 @@ TEST(Methods, TraceIsosurfaces)
     Names{ "ray-cast" });
 }
 
+TEST(Methods, TakeTheirSettings)
+{
+  EXPECT_TRUE(TakesSettings("triangle-caster", 2, { "SliceShape=shells", "SampleDistance=0.5" }));
+  EXPECT_FALSE(TakesSettings("ray-cast", 2, { "SliceShape=shells" }));
+  // A property that it has, with a value that it has not.
+  EXPECT_TRUE(TakesSettings("ray-cast", 0, { "BlendMode=additive" }));
+  EXPECT_FALSE(TakesSettings("triangle-caster", 0, { "BlendMode=additive" }));
+  // No threads to set.
+  EXPECT_FALSE(TakesSettings("projection", 2, {}));
+}
+
 TEST(Methods, ProjectFewCellsOntoManyPixels)
 {
   const std::vector<MethodChoice> methods = Rank(FewCells);

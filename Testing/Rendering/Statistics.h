@@ -28,12 +28,17 @@ inline const tetralux::Json* FindStatistic(const tetralux::Json& object, const s
   return nullptr;
 }
 
-/// A statistic of a mapper's last frame as JSON in one line.
+/// A statistic of a mapper's last frame as JSON in one line. statistics: all of them.
+inline std::string GetStatistic(const std::string& statistics, const std::string& name)
+{
+  const tetralux::Json all = tetralux::Json::parse(statistics);
+  const tetralux::Json* found = FindStatistic(all, name);
+  return found ? found->dump() : "no statistic " + name;
+}
+
 inline std::string GetStatistic(vtkTetrahedraVolumeMapper* mapper, const std::string& name)
 {
-  const tetralux::Json statistics = tetralux::Json::parse(mapper->GetStatistics());
-  const tetralux::Json* found = FindStatistic(statistics, name);
-  return found ? found->dump() : "no statistic " + name;
+  return GetStatistic(mapper->GetStatistics(), name);
 }
 
 #endif

@@ -13,6 +13,7 @@
 #include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraRayCastMapper.h"
 #include "vtkTetrahedraRayIntegrator.h"
+#include "vtkTriangleCasterMapper.h"
 
 #include <gtest/gtest.h>
 
@@ -26,6 +27,7 @@ using tetralux::MapperProperty;
 using tetralux::NamedValue;
 using tetralux::PropertyType;
 using Mapper = vtkTetrahedraVolumeMapper;
+using AnyMapper = vtkAbstractVolumeMapper;
 
 namespace
 {
@@ -72,8 +74,8 @@ protected:
   template <class FunctionT>
   void ForEach(const FunctionT& function)
   {
-    for (Mapper* mapper : std::initializer_list<Mapper*>{
-           this->RayCast, this->GPURayCast, this->Projection, this->Isosurface })
+    for (AnyMapper* mapper : std::initializer_list<AnyMapper*>{
+           this->RayCast, this->GPURayCast, this->Projection, this->Isosurface, this->Caster })
     {
       for (const MapperProperty& property : tetralux::GetMapperProperties())
       {
@@ -90,9 +92,10 @@ protected:
   vtkNew<vtkTetrahedraGPURayCastMapper> GPURayCast;
   vtkNew<vtkTetrahedraProjectionMapper> Projection;
   vtkNew<vtkTetrahedraIsosurfaceMapper> Isosurface;
+  vtkNew<vtkTriangleCasterMapper> Caster;
 };
 
-/// A value other than the default.
+/// A value other than the default, if the mapper honours another one.
 std::vector<double> ChooseOther(const MapperProperty& property, unsigned kind)
 {
   if (property.Default.size() > 1)
@@ -117,19 +120,23 @@ TEST_F(MapperProperties, KindsAreThoseOfTheClasses)
   EXPECT_EQ(tetralux::GetKind(this->GPURayCast), tetralux::GPURayCastKind);
   EXPECT_EQ(tetralux::GetKind(this->Projection), tetralux::ProjectionKind);
   EXPECT_EQ(tetralux::GetKind(this->Isosurface), tetralux::IsosurfaceKind);
-  EXPECT_EQ(tetralux::VolumeKinds | tetralux::IsosurfaceKind, tetralux::AllKinds);
+  EXPECT_EQ(tetralux::GetKind(this->Caster), tetralux::TriangleCasterKind);
+  EXPECT_EQ(tetralux::VolumeKinds | tetralux::IsosurfaceKind, tetralux::CellKinds);
+  EXPECT_EQ(tetralux::CellKinds | tetralux::TriangleCasterKind, tetralux::AllKinds);
+  EXPECT_EQ(tetralux::RayCastKind | tetralux::IsosurfaceKind | tetralux::TriangleCasterKind,
+    tetralux::ProcessorKinds);
 }
 
 TEST_F(MapperProperties, DefaultsAreThoseOfTheClasses)
 {
-  this->ForEach([](Mapper* mapper, const MapperProperty& property)
+  this->ForEach([](AnyMapper* mapper, const MapperProperty& property)
     { EXPECT_EQ(GetPropertyValues(mapper, property), property.Default); });
 }
 
 TEST_F(MapperProperties, NumbersAreClampedToTheRange)
 {
   this->ForEach(
-    [](Mapper* mapper, const MapperProperty& property)
+    [](AnyMapper* mapper, const MapperProperty& property)
     {
       if (property.Type == PropertyType::Enumeration || property.Type == PropertyType::Boolean ||
         property.Default.size() > 1)
@@ -163,7 +170,7 @@ TEST_F(MapperProperties, EnumerationsTakeTheNamedValuesAlone)
 {
   constexpr int Beyond = 20; // of all numbers of all enumerations
   this->ForEach(
-    [](Mapper* mapper, const MapperProperty& property)
+    [](AnyMapper* mapper, const MapperProperty& property)
     {
       if (property.Type != PropertyType::Enumeration)
       {
@@ -200,7 +207,7 @@ TEST_F(MapperProperties, EnumerationsTakeTheNamedValuesAlone)
 TEST_F(MapperProperties, NotANumberIsRefused)
 {
   this->ForEach(
-    [](Mapper* mapper, const MapperProperty& property)
+    [](AnyMapper* mapper, const MapperProperty& property)
     {
       if (property.Type != PropertyType::Real)
       {
@@ -219,20 +226,21 @@ TEST_F(MapperProperties, NotANumberIsRefused)
 TEST_F(MapperProperties, ModifyTheMapperOnceWhereTheyChange)
 {
   this->ForEach(
-    [](Mapper* mapper, const MapperProperty& property)
+    [](AnyMapper* mapper, const MapperProperty& property)
     {
       const vtkMTimeType time = mapper->GetMTime();
       SetPropertyValues(mapper, property, property.Default);
       EXPECT_EQ(mapper->GetMTime(), time);
-      SetPropertyValues(mapper, property, ChooseOther(property, tetralux::GetKind(mapper)));
-      EXPECT_GT(mapper->GetMTime(), time);
+      const std::vector<double> other = ChooseOther(property, tetralux::GetKind(mapper));
+      SetPropertyValues(mapper, property, other);
+      EXPECT_EQ(mapper->GetMTime() > time, other != property.Default);
     });
 }
 
 TEST_F(MapperProperties, ArePrinted)
 {
   this->ForEach(
-    [](Mapper* mapper, const MapperProperty& property)
+    [](AnyMapper* mapper, const MapperProperty& property)
     {
       EXPECT_EQ(FindPrinted(mapper, property.Name), FormatValues(property, property.Default));
       const std::vector<double> other = ChooseOther(property, tetralux::GetKind(mapper));
@@ -272,6 +280,13 @@ TEST_F(MapperProperties, ArePrintedAsAReaderWritesThem)
   EXPECT_EQ(FindPrinted(this->Isosurface, "AmbientOcclusionRadius"), "automatic");
   this->Isosurface->SetColorArrayName(nullptr);
   EXPECT_EQ(FindPrinted(this->Isosurface, "ColorArrayName"), "(none)");
+  this->Caster->SetSliceShapeToShells();
+  this->Caster->SetCroppingRegionPlanes(-1, 2.5, 0, 1, 0, 1e-7);
+  EXPECT_EQ(FindPrinted(this->Caster, "SliceShape"), "shells");
+  EXPECT_EQ(FindPrinted(this->Caster, "OpacityModel"), "power");
+  EXPECT_EQ(FindPrinted(this->Caster, "SampleDistance"), "automatic");
+  EXPECT_EQ(FindPrinted(this->Caster, "CroppingRegionPlanes"), "-1, 2.5, 0, 1, 0, 1e-07");
+  EXPECT_EQ(FindPrinted(this->Caster, "ErrorEstimate"), "0");
 
   // Statistics are last, and indented.
   std::ostringstream text;
@@ -324,6 +339,12 @@ TEST_F(MapperProperties, NamesAreThoseOfTheEnumerators)
       { Mapper::BOUNDARY_HIERARCHY_REENTRY, "boundary-hierarchy" },
       { Mapper::IMAGINARY_CELLS_REENTRY, "imaginary-cells" },
       { Mapper::BOUNDARY_LAYERS_REENTRY, "boundary-layers" }, { Mapper::NO_REENTRY, "none" } });
+  using Caster = vtkTriangleCasterMapper;
+  expect("SliceShape", { { Caster::PLANE_SLICES, "planes" }, { Caster::SHELL_SLICES, "shells" } });
+  expect("OpacityModel",
+    { { Caster::POWER_OPACITY, "power" }, { Caster::ATTENUATION_OPACITY, "attenuation" } });
+  EXPECT_EQ(static_cast<int>(Caster::MAGNITUDE_MODE), static_cast<int>(Mapper::MAGNITUDE_MODE));
+  EXPECT_EQ(static_cast<int>(Caster::COMPONENT_MODE), static_cast<int>(Mapper::COMPONENT_MODE));
   expect("Precision",
     { { RayCastMapper::AUTOMATIC_PRECISION, "automatic" },
       { RayCastMapper::SINGLE_PRECISION, "single" },
@@ -413,6 +434,18 @@ TEST_F(MapperProperties, IsosurfacesHaveNoneOfVolumes)
   {
     EXPECT_NE(text.find("no such property"), std::string::npos) << text;
   }
+}
+
+// Of the blend modes of vtkVolumeMapper there is one.
+TEST_F(MapperProperties, CasterRefusesOtherBlendModes)
+{
+  Errors errors(this->Caster);
+  this->Caster->SetBlendModeToMaximumIntensity();
+  EXPECT_EQ(this->Caster->GetBlendMode(), vtkVolumeMapper::COMPOSITE_BLEND);
+  ASSERT_EQ(errors.Texts.size(), 1u);
+  EXPECT_NE(errors.Texts[0].find("BlendMode: 1 is not composite (0)"), std::string::npos)
+    << errors.Texts[0];
+  EXPECT_STREQ(this->Caster->GetBlendModeAsString(), "composite");
 }
 
 TEST(PropertiesOfOthers, TheTableSourceRefusesWhatItCannotTabulate)

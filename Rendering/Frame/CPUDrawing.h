@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_CPUDrawing_h
+#define tetralux_CPUDrawing_h
+
+#include "Frame/CPUPicture.h"
+#include "Frame/ImageCompositor.h"
+#include "TetraluxRenderingModule.h"
+
+#include <functional>
+
+class vtkWindow;
+
+namespace tetralux
+{
+
+struct MapperFrame;
+
+/// Distances from ray to ray, in pixels.
+struct RayDistances
+{
+  bool Automatic = true; ///< by the time that the renderer allocates
+  double Fixed = 1;      ///< where it is not automatic
+  double Minimum = 1;    ///< of the automatic one
+  double Maximum = 10;
+};
+
+/// What all mappers do with a frame whose picture a processor makes: the rays of the camera and
+/// what limits them before, the way into the window after. Keeps how long the last picture took,
+/// and graphics resources of one window.
+class TETRALUXRENDERING_EXPORT CPUDrawing
+{
+public:
+  /// Fills colours and distances of the picture, and tells the frame about it, also whether it was
+  /// aborted. Returns the rays beyond which nothing is in the picture, empty where nothing is.
+  using PictureMaker = std::function<PixelRectangle(MapperFrame&, const CPUPicture&)>;
+
+  /// Throws what the maker throws, and std::invalid_argument or std::runtime_error, with one line,
+  /// where the camera has no rays, or depths can't be read, or nothing can be drawn.
+  void Draw(MapperFrame& frame, const RayDistances& distances, const PictureMaker& makePicture);
+
+  /// window: the one that goes away.
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  double ChooseSampleDistance(const MapperFrame& frame, const RayDistances& distances) const;
+  void Composite(const MapperFrame& frame, const CPUPicture& picture, const PixelRectangle& visible,
+    const PixelRectangle& covered);
+
+  ImageCompositor Compositor;
+  double SecondsPerRay = 0; ///< of the last picture; 0: none yet
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Frame/FrameRecord.h"
+
+#include "Base/Stopwatch.h"
+#include "Frame/MapperFrame.h"
+
+#include "vtkAbstractVolumeMapper.h"
+#include "vtkCommand.h"
+#include "vtkImageData.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkVolume.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+/// No picture in single precision is expected to be better: the mappers' headers say so.
+constexpr double SmallestMaximumError = 1e-6;
+
+Json Describe(const ErrorBudget& budget)
+{
+  Json section;
+  section["transfer_function"] = budget.Functions;
+  section["geometry"] = budget.Geometry;
+  section["rounding"] = budget.Rounding;
+  section["early_termination"] = budget.Termination;
+  section["table"] = budget.Table;
+  section["buffer"] = budget.Buffer;
+  section["light"] = budget.Light;
+  return section;
+}
+
+} // namespace
+
+FrameRecord::FrameRecord(vtkAbstractVolumeMapper* mapper)
+  : Mapper(mapper)
+{
+}
+
+FrameRecord::~FrameRecord() = default;
+
+void FrameRecord::Render(const std::function<void()>& draw, double& seconds)
+{
+  const Stopwatch stopwatch;
+  this->Mapper->InvokeEvent(vtkCommand::VolumeMapperRenderStartEvent);
+  std::string error;
+  try
+  {
+    this->Mapper->GetInputAlgorithm()->Update();
+    this->ReadPicture = nullptr;
+    draw();
+    this->LastError.clear();
+  }
+  catch (const std::bad_alloc&)
+  {
+    error = "there is not enough memory";
+  }
+  catch (const std::exception& exception)
+  {
+    error = exception.what();
+  }
+  if (!error.empty())
+  {
+    this->Clear();
+    if (error != this->LastError)
+    {
+      this->LastError = error;
+      vtkErrorWithObjectMacro(this->Mapper, << error);
+    }
+  }
+  seconds = stopwatch.GetSeconds();
+  this->Mapper->InvokeEvent(vtkCommand::VolumeMapperRenderEndEvent);
+}
+
+void FrameRecord::Clear()
+{
+  this->ReadPicture = nullptr;
+  this->Image->Initialize();
+  this->ErrorEstimate = 0;
+  this->Statistics = "{}";
+}
+
+MapperFrame FrameRecord::Begin(vtkRenderer* renderer, vtkVolume* volume)
+{
+  MapperFrame frame;
+  frame.Renderer = renderer;
+  frame.Volume = volume;
+  frame.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!frame.Window)
+  {
+    throw std::invalid_argument("the renderer has no OpenGL render window");
+  }
+  frame.Image = this->Image;
+  frame.Progress = [this, window = frame.Window](double fraction)
+  { return this->ReportProgress(window, vtkCommand::VolumeMapperRenderProgressEvent, fraction); };
+  return frame;
+}
+
+bool FrameRecord::ReportProgress(vtkRenderWindow* window, unsigned long event, double fraction)
+{
+  this->Mapper->InvokeEvent(event, &fraction);
+  return !window->CheckAbortStatus();
+}
+
+void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebuilt, Json seconds,
+  double frameSeconds, const Json& sections)
+{
+  this->ReadPicture = frame.ReadPicture;
+  for (const auto& [name, value] : frame.Seconds)
+  {
+    seconds[name] = value;
+  }
+  seconds["frame"] = frameSeconds;
+
+  this->ErrorEstimate = 0;
+  for (const auto& [name, value] : frame.Errors)
+  {
+    this->ErrorEstimate += value;
+  }
+  Json error;
+  error["maximum"] = frame.MaximumError;
+  error["budget"] = Describe(frame.Budget);
+  error["estimate"] = this->ErrorEstimate;
+  for (const auto& [name, value] : frame.Errors)
+  {
+    error[name] = value;
+  }
+
+  frame.ReportOmission(frame.Settings.ClippingPlanes.empty(), "clipping planes", "there are none");
+  frame.ReportOmission(!frame.Settings.Cropping, "cropping", "it is off");
+  frame.ReportOmission(!frame.Opaque, "opaque geometry", "nothing opaque was drawn before");
+
+  Json statistics;
+  statistics["method"] = frame.Method;
+  statistics["aborted"] = frame.Aborted;
+  statistics["rebuilt"] = rebuilt;
+  statistics["seconds"] = seconds;
+  for (const auto& [name, section] : sections.items())
+  {
+    statistics[name] = section;
+  }
+  for (const auto& [name, section] : frame.Sections)
+  {
+    statistics[name] = section;
+  }
+  statistics["error"] = error;
+  statistics["left_out"] = frame.LeftOut;
+  this->Statistics = statistics.dump(2);
+  this->WarnOfError(frame);
+}
+
+void FrameRecord::WarnOfError(const MapperFrame& frame)
+{
+  if (frame.Aborted || this->IsErrorKept(frame.MaximumError))
+  {
+    this->ErrorWarning.Update(this->Mapper, "");
+    return;
+  }
+  const auto largest = std::max_element(frame.Errors.begin(), frame.Errors.end(),
+    [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::ostringstream warning;
+  warning << "the estimated error " << this->ErrorEstimate << " is above the MaximumError "
+          << frame.MaximumError << ": " << largest->second << " of it by '" << largest->first
+          << "'";
+  this->ErrorWarning.Update(this->Mapper, warning.str(), largest->first);
+}
+
+vtkImageData* FrameRecord::GetPicture()
+{
+  if (this->ReadPicture)
+  {
+    // Moved out first: a failing read is not tried again.
+    const auto read = std::move(this->ReadPicture);
+    this->ReadPicture = nullptr;
+    try
+    {
+      read(this->Image);
+    }
+    catch (const std::exception& exception)
+    {
+      this->Image->Initialize();
+      vtkErrorWithObjectMacro(this->Mapper, << exception.what());
+    }
+  }
+  return this->Image;
+}
+
+void FrameRecord::PrintStatistics(std::ostream& os, vtkIndent indent) const
+{
+  os << indent << "Statistics:\n";
+  std::istringstream lines(this->Statistics);
+  for (std::string line; std::getline(lines, line);)
+  {
+    os << indent.GetNextIndent() << line << "\n";
+  }
+}
+
+bool FrameRecord::IsErrorKept(double maximumError) const
+{
+  return maximumError < SmallestMaximumError || this->ErrorEstimate <= maximumError;
+}
+
+} // namespace tetralux

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_FrameRecord_h
+#define tetralux_FrameRecord_h
+
+#include "Report/Json.h"
+#include "Report/OnceWarning.h"
+#include "TetraluxRenderingModule.h"
+
+#include "vtkIndent.h"
+#include "vtkNew.h"
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+class vtkAbstractVolumeMapper;
+class vtkImageData;
+class vtkRenderWindow;
+class vtkRenderer;
+class vtkVolume;
+
+namespace tetralux
+{
+
+struct MapperFrame;
+
+/// What a mapper's last frame left behind, whatever the mapper renders: picture, statistics and the
+/// estimated error. Invokes the events of frames, and gives each error and warning of them once.
+class TETRALUXRENDERING_EXPORT FrameRecord
+{
+public:
+  /// mapper: has the input, the observers and the errors; must live as long.
+  explicit FrameRecord(vtkAbstractVolumeMapper* mapper);
+  ~FrameRecord();
+  FrameRecord(const FrameRecord&) = delete;
+  FrameRecord& operator=(const FrameRecord&) = delete;
+
+  /// Brings the input up to date and calls draw, between VolumeMapperRenderStartEvent and
+  /// VolumeMapperRenderEndEvent. What draw throws becomes an error of one line, which is not given
+  /// again until a frame succeeds; then nothing is left of the frame. seconds: receives what it
+  /// took, before the second event.
+  void Render(const std::function<void()>& draw, double& seconds);
+
+  /// A frame into the window of a renderer, with this picture, and with progress by
+  /// VolumeMapperRenderProgressEvent. Throws std::invalid_argument, with one line, if the window is
+  /// not one of OpenGL.
+  MapperFrame Begin(vtkRenderer* renderer, vtkVolume* volume);
+
+  /// Invokes an event with a share of what is done, 0..1. Returns whether to go on: the window may
+  /// abort.
+  bool ReportProgress(vtkRenderWindow* window, unsigned long event, double fraction);
+
+  /// Writes the statistics of a frame that was drawn or aborted: those that are the same for all
+  /// mappers, with sections of the mapper between them, and the estimated error, which is the sum
+  /// of the frame's errors. Warns where that is above MaximumError. seconds: of the stages before
+  /// the drawing, by name. frameSeconds: of all.
+  void Write(MapperFrame& frame, const std::vector<std::string>& rebuilt, Json seconds,
+    double frameSeconds, const Json& sections);
+
+  /// Of the last frame; empty before the first one and after one that failed.
+  vtkImageData* GetPicture();
+  const std::string& GetStatistics() const { return this->Statistics; }
+  double GetErrorEstimate() const { return this->ErrorEstimate; }
+
+  /// For PrintSelf.
+  void PrintStatistics(std::ostream& os, vtkIndent indent) const;
+
+  /// Whether the estimated error is at most this; true below what single precision reaches.
+  bool IsErrorKept(double maximumError) const;
+
+private:
+  void Clear();
+  void WarnOfError(const MapperFrame& frame);
+
+  vtkAbstractVolumeMapper* Mapper;
+  vtkNew<vtkImageData> Image;
+  std::function<void(vtkImageData*)> ReadPicture; ///< into Image; empty: it is there
+  double ErrorEstimate = 0;
+  std::string Statistics = "{}";
+  std::string LastError;
+  OnceWarning ErrorWarning;
+};
+
+} // namespace tetralux
+
+#endif

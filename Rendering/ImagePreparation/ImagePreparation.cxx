@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ImagePreparation/ImagePreparation.h"
+
+#include "Base/Stopwatch.h"
+#include "ImagePreparation/ImageObstacles.h"
+#include "Integral/ErrorBudget.h"
+#include "Preparation/InputSignature.h"
+#include "Preparation/TransferFunctionFromProperty.h"
+
+#include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
+#include "vtkVolumeProperty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tetralux
+{
+namespace
+{
+
+void Check(const std::string& obstacle)
+{
+  if (!obstacle.empty())
+  {
+    throw std::invalid_argument(obstacle);
+  }
+}
+
+/// The longest way through a volume, world units: a power of two that is above it, so that a
+/// volume which grows a little changes nothing.
+double FindLongestPath(const ImageVolume& volume, const double steps[3])
+{
+  double squares = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double edge = (volume.Dimensions[a] - 1) * steps[a];
+    squares += edge * edge;
+  }
+  return std::exp2(std::ceil(std::log2(std::sqrt(squares))));
+}
+
+} // namespace
+
+ImagePreparation::ImagePreparation(vtkObject* source)
+  : Source(source)
+{
+}
+
+void ImagePreparation::Update(const ImageInput& input)
+{
+  this->Rebuilt.clear();
+  this->ScalarsSeconds = this->FunctionSeconds = 0;
+  auto* image = vtkImageData::SafeDownCast(input.Data);
+  if (!image)
+  {
+    throw std::invalid_argument(FindObstacle(input.Data, input.Scalars));
+  }
+  Check(FindObstacle(input.Property));
+  const Stopwatch stopwatch;
+  if (this->Scalars.Update(image, input.Scalars))
+  {
+    this->Caster.SetVolume(this->Scalars.GetVolume());
+    this->ScalarsSeconds = stopwatch.GetSeconds();
+    this->Rebuilt.emplace_back("scalars");
+  }
+  this->Placement = PlaceImage(image);
+  this->PrepareFunction(input);
+  this->UnusedWarning.Update(this->Source,
+    DescribeUnused(
+      input.Property, this->Scalars.GetNumberOfComponents(), input.Scalars.VectorMode));
+}
+
+void ImagePreparation::PrepareFunction(const ImageInput& input)
+{
+  double steps[3];
+  MeasureSteps(this->Placement, input.Matrix, steps);
+  const double longestPath = FindLongestPath(this->Scalars.GetVolume(), steps);
+  ErrorSpending spending;
+  spending.Approximated = true;
+  const double maximumError =
+    std::max(MakeErrorBudget(input.MaximumError, spending).Functions, SmallestFunctionError);
+  CacheKey exactKey = GetPropertyKey(input.Property);
+  exactKey.Add(input.Opacity);
+  CacheKey key = exactKey;
+  key.Add(maximumError);
+  key.Add(longestPath);
+  // Error and path matter only to a property that had to be approximated.
+  if (this->Function.Has(this->FunctionError == 0 ? exactKey : key))
+  {
+    return;
+  }
+  const Stopwatch stopwatch;
+  this->Function.Reset();
+  PropertyTransferFunction function =
+    TransferFunctionFromProperty(input.Property, maximumError, longestPath);
+  this->Optics.UnitDistance = input.Property->GetScalarOpacityUnitDistance(0);
+  RemoveUnitDistance(function.Function, this->Optics.UnitDistance);
+  if (input.Opacity == StepOpacity::Power)
+  {
+    for (TransferFunction::Node& node : function.Function.Nodes)
+    {
+      node.Left.Attenuation = std::min(node.Left.Attenuation, 1.);
+      node.Right.Attenuation = std::min(node.Right.Attenuation, 1.);
+    }
+  }
+  this->Optics.Function = std::move(function.Function);
+  this->Optics.Opacity = input.Opacity;
+  this->Caster.SetOptics(this->Optics);
+  this->FunctionError = function.Error;
+  this->Function.Set(this->FunctionError == 0 ? exactKey : key);
+  this->FunctionSeconds = stopwatch.GetSeconds();
+  this->Rebuilt.emplace_back("transfer function");
+}
+
+Json ImagePreparation::DescribeSeconds() const
+{
+  Json seconds;
+  seconds["scalars"] = this->ScalarsSeconds;
+  seconds["transfer_function"] = this->FunctionSeconds;
+  return seconds;
+}
+
+Json ImagePreparation::DescribeInput() const
+{
+  const ImageVolume& volume = this->Scalars.GetVolume();
+  Json input;
+  input["points"] = GetNumberOfValues(volume);
+  input["dimensions"] = { volume.Dimensions[0], volume.Dimensions[1], volume.Dimensions[2] };
+  input["array"] = this->Scalars.GetArrayName();
+  input["array_type"] = this->Scalars.GetTypeName();
+  input["array_of"] = "points";
+  input["copied_bytes"] = this->Scalars.GetNumberOfCopiedBytes();
+  input["transfer_function_nodes"] = this->Optics.Function.Nodes.size();
+  return input;
+}
+
+} // namespace tetralux

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ImagePreparation_h
+#define tetralux_ImagePreparation_h
+
+#include "Base/Cached.h"
+#include "ImagePreparation/ImagePlacement.h"
+#include "ImagePreparation/ImageScalars.h"
+#include "Intake/ScalarExtraction.h"
+#include "Report/Json.h"
+#include "Report/OnceWarning.h"
+#include "TetraluxRenderingModule.h"
+#include "TriangleCaster/ImageCaster.h"
+#include "TriangleCaster/ImageOptics.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkMatrix4x4;
+class vtkObject;
+class vtkVolumeProperty;
+
+namespace tetralux
+{
+
+/// What a caster is prepared from.
+struct ImageInput
+{
+  vtkDataObject* Data = nullptr;
+  vtkVolumeProperty* Property = nullptr;
+  vtkMatrix4x4* Matrix = nullptr; ///< of the volume: world from data
+  ScalarSelection Scalars;
+  StepOpacity Opacity = StepOpacity::Power;
+  double MaximumError = 1e-4; ///< of a channel, 0..1
+};
+
+/// Brings an ImageCaster up to date with image data and a property: each stage is done again only
+/// if what it depends on has changed.
+class TETRALUXRENDERING_EXPORT ImagePreparation
+{
+public:
+  /// source: gives the warnings, once for each cause.
+  explicit ImagePreparation(vtkObject* source);
+
+  /// Throws std::invalid_argument, with one line, if the input or the property can't be rendered.
+  void Update(const ImageInput& input);
+
+  ImageCaster Caster;
+
+  const ImagePlacement& GetPlacement() const { return this->Placement; }
+  const ImageScalars& GetScalars() const { return this->Scalars; }
+  const TransferFunction& GetFunction() const { return this->Optics.Function; }
+
+  /// Error of a channel by colour functions that are not piecewise linear.
+  double GetFunctionError() const { return this->FunctionError; }
+
+  /// The last Update: which stages were made anew.
+  const std::vector<std::string>& GetRebuilt() const { return this->Rebuilt; }
+
+  // For the statistics.
+
+  Json DescribeSeconds() const;
+  Json DescribeInput() const;
+
+private:
+  void PrepareFunction(const ImageInput& input);
+
+  vtkObject* Source;
+  ImagePlacement Placement;
+  ImageScalars Scalars;
+  ImageOptics Optics;
+  CacheStamp Function;
+  double FunctionError = 0;
+  OnceWarning UnusedWarning;
+  std::vector<std::string> Rebuilt;
+  double ScalarsSeconds = 0;
+  double FunctionSeconds = 0;
+};
+
+} // namespace tetralux
+
+#endif

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTriangleCasterMapper.h"
+
+#include "Base/Stopwatch.h"
+#include "Frame/CPUDrawing.h"
+#include "Frame/FrameRecord.h"
+#include "Frame/MapperFrame.h"
+#include "ImagePreparation/ImageObstacles.h"
+#include "ImagePreparation/ImagePreparation.h"
+#include "Integral/ErrorBudget.h"
+#include "Properties/PropertyPrinter.h"
+#include "Properties/PropertySetters.h"
+#include "Report/Json.h"
+#include "TriangleCaster/ImageCaster.h"
+
+#include "vtkImageData.h"
+#include "vtkObjectFactory.h"
+#include "vtkRenderer.h"
+#include "vtkVolume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+using tetralux::Json;
+using tetralux::MapperFrame;
+using tetralux::PixelRectangle;
+
+namespace
+{
+
+/// Slices of an interaction are this much farther apart, where nothing else is set.
+constexpr double InteractiveFactor = 2;
+
+/// The smallest rectangle with all that contributes; empty if nothing does.
+PixelRectangle FindCovered(const tetralux::CPUPicture& picture)
+{
+  const int width = picture.Grid.Width;
+  int left = width;
+  int right = -1;
+  int lower = -1;
+  int upper = -1;
+  for (int j = 0; j < picture.Grid.Height; ++j)
+  {
+    const float* row = picture.Depths.data() + static_cast<std::size_t>(j) * width;
+    int first = 0;
+    while (first < width && row[first] == -1)
+    {
+      ++first;
+    }
+    if (first == width)
+    {
+      continue;
+    }
+    int last = width - 1;
+    while (row[last] == -1)
+    {
+      --last;
+    }
+    left = std::min(left, first);
+    right = std::max(right, last);
+    lower = lower < 0 ? j : lower;
+    upper = j;
+  }
+  return right < 0 ? PixelRectangle()
+                   : PixelRectangle{ left, lower, right + 1 - left, upper + 1 - lower };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+class vtkTriangleCasterMapper::Internals
+{
+public:
+  explicit Internals(vtkTriangleCasterMapper* self)
+    : Self(self)
+    , Preparation(self)
+    , Record(self)
+  {
+  }
+
+  /// Throws what the stages throw.
+  void DrawFrame(vtkRenderer* renderer, vtkVolume* volume);
+
+  tetralux::ScalarSelection SelectScalars() const;
+
+  vtkTriangleCasterMapper* Self;
+  tetralux::ImagePreparation Preparation;
+  tetralux::FrameRecord Record;
+  tetralux::CPUDrawing Drawing;
+
+private:
+  void SetUp(MapperFrame& frame) const;
+  PixelRectangle MakePicture(MapperFrame& frame, const tetralux::CPUPicture& picture);
+  tetralux::ImageCasterOptions MakeOptions(MapperFrame& frame) const;
+  double ChooseSampleDistance(const MapperFrame& frame) const;
+  void Describe(const tetralux::ImageCastStatistics& statistics,
+    const tetralux::ImageCasterOptions& options, const tetralux::CPUPicture& picture,
+    MapperFrame& frame) const;
+};
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVolume* volume)
+{
+  const tetralux::Stopwatch stopwatch;
+  MapperFrame frame = this->Record.Begin(renderer, volume);
+  this->SetUp(frame);
+  tetralux::ImageInput input;
+  input.Data = this->Self->GetDataObjectInput();
+  input.Property = volume->GetProperty();
+  input.Matrix = volume->GetMatrix();
+  input.Scalars = this->SelectScalars();
+  input.Opacity = this->Self->OpacityModel == POWER_OPACITY ? tetralux::StepOpacity::Power
+                                                            : tetralux::StepOpacity::Attenuation;
+  input.MaximumError = frame.MaximumError;
+  this->Preparation.Update(input);
+
+  tetralux::RayDistances distances;
+  distances.Automatic = this->Self->AutoAdjustSampleDistances != 0;
+  distances.Fixed = this->Self->ImageSampleDistance;
+  distances.Minimum = this->Self->MinimumImageSampleDistance;
+  distances.Maximum = this->Self->MaximumImageSampleDistance;
+  this->Drawing.Draw(frame, distances,
+    [this](MapperFrame& drawn, const tetralux::CPUPicture& picture)
+    { return this->MakePicture(drawn, picture); });
+
+  Json sections;
+  sections["input"] = this->Preparation.DescribeInput();
+  this->Record.Write(frame, this->Preparation.GetRebuilt(), this->Preparation.DescribeSeconds(),
+    stopwatch.GetSeconds(), sections);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::Internals::SetUp(MapperFrame& frame) const
+{
+  frame.Method = "triangle-caster";
+  frame.MaximumError = this->Self->MaximumError;
+  tetralux::FrameSettings& settings = frame.Settings;
+  settings.IntermixIntersectingGeometry = this->Self->IntermixIntersectingGeometry != 0;
+  settings.ClippingPlanes = tetralux::GetClippingPlanes(this->Self);
+  settings.Cropping = this->Self->Cropping != 0;
+  std::copy_n(this->Self->CroppingRegionPlanes, 6, settings.CroppingRegionPlanes);
+  settings.CroppingRegionFlags = static_cast<std::uint32_t>(this->Self->CroppingRegionFlags);
+}
+
+//------------------------------------------------------------------------------------------------
+tetralux::ScalarSelection vtkTriangleCasterMapper::Internals::SelectScalars() const
+{
+  tetralux::ScalarSelection scalars;
+  scalars.ScalarMode = this->Self->GetScalarMode();
+  scalars.ArrayAccessMode = this->Self->GetArrayAccessMode();
+  scalars.ArrayId = this->Self->GetArrayId();
+  scalars.ArrayName = this->Self->GetArrayName() ? this->Self->GetArrayName() : "";
+  scalars.VectorMode = this->Self->VectorMode;
+  scalars.VectorComponent = this->Self->VectorComponent;
+  return scalars;
+}
+
+//------------------------------------------------------------------------------------------------
+PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
+  MapperFrame& frame, const tetralux::CPUPicture& picture)
+{
+  const tetralux::ImagePlacement& placement = this->Preparation.GetPlacement();
+  const tetralux::ImageCasterOptions options = this->MakeOptions(frame);
+  const tetralux::ImageCastStatistics statistics =
+    this->Preparation.Caster.Cast(ToIndices(placement, picture.Grid),
+      ToIndices(placement, picture.Limits), options, picture.Colors, picture.Depths);
+  frame.Aborted = statistics.Aborted;
+  this->Describe(statistics, options, picture, frame);
+  return frame.Aborted ? PixelRectangle() : FindCovered(picture);
+}
+
+//------------------------------------------------------------------------------------------------
+tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
+  MapperFrame& frame) const
+{
+  tetralux::ErrorSpending spending;
+  spending.Approximated = this->Preparation.GetFunctionError() > 0;
+  spending.EndsEarly = this->Self->EndTriangles != 0 || this->Self->SkipPixels != 0;
+  frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError, spending);
+  frame.Brightness = std::max(1., tetralux::GetLargestColor(this->Preparation.GetFunction()));
+
+  tetralux::ImageCasterOptions options;
+  options.SampleDistance = this->ChooseSampleDistance(frame);
+  options.Shape = this->Self->SliceShape == PLANE_SLICES ? tetralux::SliceShape::Planes
+                                                         : tetralux::SliceShape::Shells;
+  options.CorrectOpacity = this->Self->CorrectOpacity != 0;
+  options.Threshold = frame.Budget.Termination / frame.Brightness;
+  options.EndTriangles = this->Self->EndTriangles != 0;
+  options.SkipPixels = this->Self->SkipPixels != 0;
+  options.SkipEmptySpace = this->Self->SkipEmptySpace != 0;
+  options.TileSize = this->Self->TileSize;
+  options.Triangles = this->Self->CastTriangles != 0;
+  options.NumberOfThreads = this->Self->NumberOfThreads;
+  options.Progress = [&frame](double fraction) { return frame.ReportProgress(fraction); };
+  return options;
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTriangleCasterMapper::Internals::ChooseSampleDistance(const MapperFrame& frame) const
+{
+  double distance = this->Self->SampleDistance;
+  if (distance == 0)
+  {
+    double steps[3];
+    MeasureSteps(this->Preparation.GetPlacement(), frame.Volume->GetMatrix(), steps);
+    const int* size = this->Preparation.GetScalars().GetVolume().Dimensions;
+    int extent[6] = { 0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1 };
+    distance = this->Self->SpacingAdjustedSampleDistance(steps, extent);
+  }
+  if (!this->Self->AutoAdjustSampleDistances || !frame.IsInteractive())
+  {
+    return distance;
+  }
+  return this->Self->InteractiveSampleDistance > 0 ? this->Self->InteractiveSampleDistance
+                                                   : InteractiveFactor * distance;
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStatistics& statistics,
+  const tetralux::ImageCasterOptions& options, const tetralux::CPUPicture& picture,
+  MapperFrame& frame) const
+{
+  Json rays;
+  rays["width"] = picture.Grid.Width;
+  rays["height"] = picture.Grid.Height;
+  rays["sample_distance"] = picture.SampleDistance;
+  rays["rays"] = statistics.Rays;
+  rays["samples"] = statistics.Samples;
+  rays["instruction_set"] = statistics.InstructionSet;
+  rays["threads"] = statistics.NumberOfThreads;
+  frame.Sections.emplace_back("rays", rays);
+
+  Json slices;
+  slices["shape"] = this->Self->GetSliceShapeAsString();
+  slices["opacity_model"] = this->Self->GetOpacityModelAsString();
+  slices["distance"] = options.SampleDistance;
+  slices["slices"] = statistics.Slices;
+  slices["tile_size"] = options.TileSize;
+  slices["triangles"] = statistics.Triangles;
+  frame.Sections.emplace_back("slices", slices);
+
+  // A sum is rounded once for each sample of a ray.
+  constexpr double HalfRounding = std::numeric_limits<float>::epsilon() / 2;
+  const double samples = statistics.Rays > 0
+    ? static_cast<double>(statistics.Samples) / static_cast<double>(statistics.Rays)
+    : 0;
+  frame.Errors = { { "early_termination", frame.Brightness * statistics.TerminationError },
+    { "summation", frame.Brightness * samples * HalfRounding },
+    { "transfer_function", this->Preparation.GetFunctionError() } };
+  frame.ReportOmission(options.Threshold == 0, "early termination", "MaximumError allows none");
+  frame.ReportOmission(
+    !options.SkipEmptySpace, "empty space", "SkipEmptySpace is off, so all of it is sampled");
+  frame.ReportOmission(this->Preparation.GetFunctionError() == 0, "subdivided transfer function",
+    "it is piecewise linear");
+  frame.ReportOmission(this->Preparation.GetScalars().GetNumberOfCopiedBytes() == 0,
+    "copy of the values", "they are read in place");
+}
+
+//------------------------------------------------------------------------------------------------
+vtkStandardNewMacro(vtkTriangleCasterMapper);
+
+//------------------------------------------------------------------------------------------------
+vtkTriangleCasterMapper::vtkTriangleCasterMapper()
+  : Private(std::make_unique<Internals>(this))
+{
+}
+
+//------------------------------------------------------------------------------------------------
+vtkTriangleCasterMapper::~vtkTriangleCasterMapper() = default;
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
+{
+  if (renderer->GetSelector())
+  {
+    return;
+  }
+  this->Private->Record.Render(
+    [&] { this->Private->DrawFrame(renderer, volume); }, this->TimeToDraw);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Private->Drawing.ReleaseGraphicsResources(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+//------------------------------------------------------------------------------------------------
+std::string vtkTriangleCasterMapper::GetObstacle()
+{
+  return tetralux::FindObstacle(this->GetDataObjectInput(), this->Private->SelectScalars());
+}
+
+//------------------------------------------------------------------------------------------------
+vtkImageData* vtkTriangleCasterMapper::GetOutputImage()
+{
+  return this->Private->Record.GetPicture();
+}
+
+//------------------------------------------------------------------------------------------------
+std::string vtkTriangleCasterMapper::GetStatistics()
+{
+  return this->Private->Record.GetStatistics();
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTriangleCasterMapper::GetErrorEstimate()
+{
+  return this->Private->Record.GetErrorEstimate();
+}
+
+//------------------------------------------------------------------------------------------------
+bool vtkTriangleCasterMapper::IsMaximumErrorKept()
+{
+  return this->Private->Record.IsErrorKept(this->MaximumError);
+}
+
+//------------------------------------------------------------------------------------------------
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, BlendMode);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, MaximumError, double);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, SampleDistance, double);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, InteractiveSampleDistance, double);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, SliceShape);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, OpacityModel);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, TileSize, int);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, NumberOfThreads, int);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, ImageSampleDistance, float);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, MinimumImageSampleDistance, float);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, MaximumImageSampleDistance, float);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, VectorMode);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, VectorComponent, int);
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetCroppingRegionPlanes(
+  double xMin, double xMax, double yMin, double yMax, double zMin, double zMax)
+{
+  const double planes[6] = { xMin, xMax, yMin, yMax, zMin, zMax };
+  this->SetCroppingRegionPlanes(planes);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetCroppingRegionPlanes(const double planes[6])
+{
+  if (std::any_of(planes, planes + 6, [](double plane) { return std::isnan(plane); }))
+  {
+    vtkErrorMacro("CroppingRegionPlanes: nan is not a place of a plane");
+    return;
+  }
+  this->Superclass::SetCroppingRegionPlanes(
+    planes[0], planes[1], planes[2], planes[3], planes[4], planes[5]);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  // Not the superclass's, which prints numbers of enumerations.
+  // NOLINTNEXTLINE(bugprone-parent-virtual-call)
+  this->vtkAbstractVolumeMapper::PrintSelf(os, indent);
+  tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
+  printer.Print("BlendMode", this->BlendMode);
+  printer.Print("MaximumError", this->MaximumError);
+  printer.Print("SampleDistance", this->SampleDistance);
+  printer.Print("InteractiveSampleDistance", this->InteractiveSampleDistance);
+  printer.Print("SliceShape", this->SliceShape);
+  printer.Print("OpacityModel", this->OpacityModel);
+  printer.Print("CorrectOpacity", this->CorrectOpacity);
+  printer.Print("EndTriangles", this->EndTriangles);
+  printer.Print("SkipPixels", this->SkipPixels);
+  printer.Print("SkipEmptySpace", this->SkipEmptySpace);
+  printer.Print("TileSize", this->TileSize);
+  printer.Print("CastTriangles", this->CastTriangles);
+  printer.Print("NumberOfThreads", this->NumberOfThreads);
+  printer.Print("ImageSampleDistance", this->ImageSampleDistance);
+  printer.Print("MinimumImageSampleDistance", this->MinimumImageSampleDistance);
+  printer.Print("MaximumImageSampleDistance", this->MaximumImageSampleDistance);
+  printer.Print("AutoAdjustSampleDistances", this->AutoAdjustSampleDistances);
+  printer.Print("VectorMode", this->VectorMode);
+  printer.Print("VectorComponent", this->VectorComponent);
+  printer.Print("IntermixIntersectingGeometry", this->IntermixIntersectingGeometry);
+  printer.Print("Cropping", this->Cropping);
+  const double* planes = this->CroppingRegionPlanes;
+  printer.Print(
+    "CroppingRegionPlanes", planes[0], planes[1], planes[2], planes[3], planes[4], planes[5]);
+  printer.Print("CroppingRegionFlags", this->CroppingRegionFlags);
+  os << indent << "ErrorEstimate: " << this->GetErrorEstimate() << "\n";
+  this->Private->Record.PrintStatistics(os, indent);
+}

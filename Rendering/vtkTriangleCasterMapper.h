@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTriangleCasterMapper
+ * @brief   renders image data in tiles, composited where the cache is
+ *
+ * The triangle caster of Knittel (1999), on the processor: the screen is cut into small triangles
+ * or squares, and all slices of the volume behind one of them are composited, front to back, before
+ * the next one begins. The picture does not depend on the number of threads.
+ *
+ * Takes vtkImageData with scalars at points, of any type, origin, spacing, extent and direction
+ * matrix, with at least 2 points along each axis. Arrays of one component of 8 or 16 bit integers
+ * or of floats are read where they are. A component of several is copied; other types are copied
+ * to floats relative to the middle of the array's range. The copy is kept until the array changes.
+ *
+ * What is computed: in each slab between two slices a ray has one sample, at the middle of its way
+ * through what of the slab is in the volume and not clipped, cropped or hidden. There the scalar is
+ * interpolated trilinearly, whatever the property's InterpolationType is, and colour and scalar
+ * opacity follow from it. Samples that meet a scalar that is not a finite number are empty. The
+ * opacity of a sample is by OpacityModel that of its own length, so a constant volume is exact. The
+ * picture approaches the integral along the ray as SampleDistance becomes smaller.
+ *
+ * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
+ * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper
+ * are in world coordinates and keep their positive side. CroppingRegionPlanes are in coordinates of
+ * the data; they are refused if the direction matrix turns the axes of the image.
+ *
+ * Setters clamp numbers to the range that is stated, and refuse, with an error that names the right
+ * values, any other value of an enumeration and NaN. Each cause of an error is reported once; the
+ * volume is then not drawn.
+ *
+ * @warning There are errors for: rectilinear grids, scalars at cells, ghost, hidden and blanked
+ * points and cells, two-dimensional transfer functions, more than 2^31 - 1 points. Any BlendMode
+ * but COMPOSITE_BLEND is refused. Warnings say that Shade, gradient opacity, functions of labels,
+ * and components but the chosen one are not used.
+ *
+ * @sa vtkFixedPointVolumeRayCastMapper, vtkTetrahedraRayCastMapper
+ */
+#ifndef vtkTriangleCasterMapper_h
+#define vtkTriangleCasterMapper_h
+
+#include "TetraluxRenderingModule.h" // For export macro
+#include "vtkVolumeMapper.h"
+
+#include <memory> // For std::unique_ptr
+#include <string> // For std::string
+
+class vtkImageData;
+
+class TETRALUXRENDERING_EXPORT vtkTriangleCasterMapper : public vtkVolumeMapper
+{
+public:
+  static vtkTriangleCasterMapper* New();
+  vtkTypeMacro(vtkTriangleCasterMapper, vtkVolumeMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Set what rays gather. Default COMPOSITE_BLEND, the only one.
+   */
+  void SetBlendMode(int mode) override;
+  const char* GetBlendModeAsString();
+  ///@}
+
+  ///@{
+  /**
+   * Set the largest absolute error per premultiplied channel, 0 to 1, of what approximates the
+   * slices: rays end early, arithmetic is in single precision, and colour functions that are not
+   * piecewise linear are subdivided. Default 1e-4. If the GetErrorEstimate() of a frame is above
+   * it, one warning for each cause has both numbers.
+   *
+   * @warning The distance of slices is SampleDistance, whatever this is. Below 1e-6 the single
+   * precision of the picture limits the error, and no warning is given.
+   */
+  virtual void SetMaximumError(double error);
+  vtkGetMacro(MaximumError, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set the distance of slices in world units, 0 or more. Default 0: half of the mean distance of
+   * points, less for volumes of fewer than 100^3 points, as VTK's mappers of image data choose it
+   * with LockSampleDistanceToInputSpacing on. GetStatistics() has the distance that was used.
+   */
+  virtual void SetSampleDistance(double distance);
+  vtkGetMacro(SampleDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set the same for frames of an interaction, those that the renderer allocates less than a second
+   * to, if AutoAdjustSampleDistances is on. Default 0: twice the distance of other frames.
+   */
+  virtual void SetInteractiveSampleDistance(double distance);
+  vtkGetMacro(InteractiveSampleDistance, double);
+  ///@}
+
+  enum SliceShapeType
+  {
+    PLANE_SLICES,
+    SHELL_SLICES
+  };
+
+  ///@{
+  /**
+   * Set what the volume is cut by. Default PLANE_SLICES.
+   *
+   * - PLANE_SLICES (0): planes parallel to that of the picture.
+   * - SHELL_SLICES (1): spheres around the eye, so that all rays of a perspective have the same
+   *   step (Knittel 1999, section 1.1). Planes in a parallel projection.
+   */
+  virtual void SetSliceShape(int shape);
+  vtkGetMacro(SliceShape, int);
+  const char* GetSliceShapeAsString();
+  void SetSliceShapeToPlanes() { this->SetSliceShape(PLANE_SLICES); }
+  void SetSliceShapeToShells() { this->SetSliceShape(SHELL_SLICES); }
+  ///@}
+
+  enum OpacityModelType
+  {
+    POWER_OPACITY,
+    ATTENUATION_OPACITY
+  };
+
+  ///@{
+  /**
+   * Set the opacity of a length l of scalar opacity a and ScalarOpacityUnitDistance d. Default
+   * POWER_OPACITY.
+   *
+   * - POWER_OPACITY (0): 1 - (1 - a)^(l / d), as VTK's mappers of image data have it.
+   * - ATTENUATION_OPACITY (1): 1 - exp(-a l / d), as mappers of unstructured grids have it.
+   */
+  virtual void SetOpacityModel(int model);
+  vtkGetMacro(OpacityModel, int);
+  const char* GetOpacityModelAsString();
+  void SetOpacityModelToPower() { this->SetOpacityModel(POWER_OPACITY); }
+  void SetOpacityModelToAttenuation() { this->SetOpacityModel(ATTENUATION_OPACITY); }
+  ///@}
+
+  ///@{
+  /**
+   * Set whether the opacity of a sample is that of its own ray's step. Off: that of a step along
+   * the normal of the slices, so oblique rays are too transparent (Knittel 1999, section 1.1).
+   * Default on.
+   */
+  vtkSetMacro(CorrectOpacity, vtkTypeBool);
+  vtkGetMacro(CorrectOpacity, vtkTypeBool);
+  vtkBooleanMacro(CorrectOpacity, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Set whether triangles of the screen end where all their pixels are opaque (TT), whether opaque
+   * pixels of others are sampled no more (OP, Knittel 1999, section 3.2), and whether transparent
+   * parts are left out (section 2.1). Opaque is what hides all behind it but a share that
+   * MaximumError allows. Default on, each.
+   */
+  vtkSetMacro(EndTriangles, vtkTypeBool);
+  vtkGetMacro(EndTriangles, vtkTypeBool);
+  vtkBooleanMacro(EndTriangles, vtkTypeBool);
+  vtkSetMacro(SkipPixels, vtkTypeBool);
+  vtkGetMacro(SkipPixels, vtkTypeBool);
+  vtkBooleanMacro(SkipPixels, vtkTypeBool);
+  vtkSetMacro(SkipEmptySpace, vtkTypeBool);
+  vtkGetMacro(SkipEmptySpace, vtkTypeBool);
+  vtkBooleanMacro(SkipEmptySpace, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Set the edge of the squares that the screen is cut into, in pixels, 4 to 64. Default 8. And
+   * whether each is cast in two triangles (Knittel 1999, section 2), default off. The picture does
+   * not depend on them.
+   */
+  virtual void SetTileSize(int size);
+  vtkGetMacro(TileSize, int);
+  vtkSetMacro(CastTriangles, vtkTypeBool);
+  vtkGetMacro(CastTriangles, vtkTypeBool);
+  vtkBooleanMacro(CastTriangles, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Set the number of threads, 1 to 1024. Default 0: as many as OpenMP offers. The picture does not
+   * depend on it.
+   */
+  virtual void SetNumberOfThreads(int threads);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Set the distance of rays in pixels, 0.1 to 100, for frames with AutoAdjustSampleDistances off.
+   * Default 1: one ray through each pixel's centre. At 2 one ray covers 2 x 2 pixels, and the
+   * picture is interpolated; at 0.5 a pixel is the mean of 4 rays.
+   */
+  virtual void SetImageSampleDistance(float distance);
+  vtkGetMacro(ImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * Set the range of the automatic distance of rays in pixels, each 0.1 to 100. Default 1 and 10.
+   */
+  virtual void SetMinimumImageSampleDistance(float distance);
+  vtkGetMacro(MinimumImageSampleDistance, float);
+  virtual void SetMaximumImageSampleDistance(float distance);
+  vtkGetMacro(MaximumImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * Set whether the distance of rays follows from the time that the renderer allocates to the
+   * volume and the time that a ray took in the last frame. Default on. Without a desired update
+   * rate, as in still and off-screen frames, that time is hours, and the distance is
+   * MinimumImageSampleDistance.
+   */
+  vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  ///@}
+
+  enum VectorModeType
+  {
+    DISABLED_MODE = -1,
+    MAGNITUDE_MODE = 0,
+    COMPONENT_MODE = 1
+  };
+
+  ///@{
+  /**
+   * Set how an array of several components becomes the scalar, with the numbers of
+   * vtkSmartVolumeMapper. Default DISABLED_MODE.
+   *
+   * - DISABLED_MODE (-1): the first component; a warning says so.
+   * - MAGNITUDE_MODE (0): the Euclidean norm.
+   * - COMPONENT_MODE (1): component VectorComponent.
+   */
+  virtual void SetVectorMode(int mode);
+  vtkGetMacro(VectorMode, int);
+  const char* GetVectorModeAsString();
+  void SetVectorModeToDisabled() { this->SetVectorMode(DISABLED_MODE); }
+  void SetVectorModeToMagnitude() { this->SetVectorMode(MAGNITUDE_MODE); }
+  void SetVectorModeToComponent() { this->SetVectorMode(COMPONENT_MODE); }
+  ///@}
+
+  ///@{
+  /**
+   * Set the component that COMPONENT_MODE takes, counted from 0. Default 0.
+   *
+   * @warning A frame fails with an error if the array has no such component.
+   */
+  virtual void SetVectorComponent(int component);
+  vtkGetMacro(VectorComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Set whether rays end at opaque geometry that was drawn before, by the depth buffer. Off: the
+   * volume is in front of all geometry. Default on.
+   */
+  vtkSetMacro(IntermixIntersectingGeometry, vtkTypeBool);
+  vtkGetMacro(IntermixIntersectingGeometry, vtkTypeBool);
+  vtkBooleanMacro(IntermixIntersectingGeometry, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * As in the superclass; NaN is refused with an error.
+   */
+  void SetCroppingRegionPlanes(
+    double xMin, double xMax, double yMin, double yMax, double zMin, double zMax) override;
+  void SetCroppingRegionPlanes(const double planes[6]) override;
+  ///@}
+
+  /**
+   * Why the input can't be rendered with the present choice of an array, in one line; empty if it
+   * can. The input must be up to date.
+   */
+  std::string GetObstacle();
+
+  /**
+   * The picture of the last frame as it was cast, before anything was done to it: one point for
+   * each ray, bottom row first, over the viewport, or the part of it in the window. Point arrays
+   * RGBA, the scalars: four floats, premultiplied, without any background; Depth: a float, distance
+   * along the ray in world units, from the camera or in a parallel projection from the plane
+   * through it, to the near end of the first slab that contributes, -1 where there is none. Empty
+   * before the first frame and after one that failed; incomplete after one that was aborted.
+   * Belongs to the mapper, which overwrites it in the next frame.
+   */
+  vtkImageData* GetOutputImage();
+
+  /**
+   * What the last frame was made of, as JSON: what was rebuilt, times in seconds, counts, the error
+   * estimate, what the scene did not need. "{}" before the first frame.
+   */
+  std::string GetStatistics();
+
+  /**
+   * Estimated largest error of a channel in the last frame, absolute, 0..1, against the same slices
+   * in exact arithmetic. The sum of what GetStatistics() has below "error": ending rays early,
+   * adding samples up in single precision, and colour functions that were subdivided.
+   *
+   * Not covered: that there are slices at all, whose distance is the user's choice; rounding places
+   * and scalars to single precision; interpolation between rays more than a pixel apart.
+   */
+  double GetErrorEstimate();
+
+  /**
+   * Return whether GetErrorEstimate() is at most MaximumError; true if MaximumError is below 1e-6,
+   * which single precision does not reach.
+   */
+  bool IsMaximumErrorKept();
+
+  /**
+   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
+   *
+   * Draws one frame. Invokes VolumeMapperRenderStartEvent, VolumeMapperRenderProgressEvent
+   * with a double 0..1, and VolumeMapperRenderEndEvent. Each time the render window is asked
+   * whether to abort: an aborted frame is not drawn. Draws nothing where a vtkHardwareSelector
+   * looks for what is under the cursor: volumes have no ids.
+   */
+  void Render(vtkRenderer* renderer, vtkVolume* volume) override;
+
+  /**
+   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
+   */
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+protected:
+  vtkTriangleCasterMapper();
+  ~vtkTriangleCasterMapper() override;
+
+  double MaximumError = 1e-4;
+  double SampleDistance = 0;
+  double InteractiveSampleDistance = 0;
+  int SliceShape = PLANE_SLICES;
+  int OpacityModel = POWER_OPACITY;
+  vtkTypeBool CorrectOpacity = 1;
+  vtkTypeBool EndTriangles = 1;
+  vtkTypeBool SkipPixels = 1;
+  vtkTypeBool SkipEmptySpace = 1;
+  int TileSize = 8;
+  vtkTypeBool CastTriangles = 0;
+  int NumberOfThreads = 0;
+  float ImageSampleDistance = 1;
+  float MinimumImageSampleDistance = 1;
+  float MaximumImageSampleDistance = 10;
+  vtkTypeBool AutoAdjustSampleDistances = 1;
+  int VectorMode = DISABLED_MODE;
+  int VectorComponent = 0;
+  vtkTypeBool IntermixIntersectingGeometry = 1;
+
+private:
+  vtkTriangleCasterMapper(const vtkTriangleCasterMapper&) = delete;
+  void operator=(const vtkTriangleCasterMapper&) = delete;
+
+  class Internals;
+  std::unique_ptr<Internals> Private;
+};
+
+#endif
