@@ -71,11 +71,7 @@ TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch&
   const RayPacket& rays = scratch.Rays;
   const int first = chunk * LaneCount;
   const RayFrame& frame = in.Frame;
-  unsigned rest = 0;
-  for (int i = 0; i < LaneCount; ++i)
-  {
-    rest |= rays.Hit[first + i] >= 0 ? 1u << i : 0u;
-  }
+  unsigned rest = scratch.HitRays[chunk];
 #pragma omp simd
   for (int i = first; i < first + LaneCount; ++i)
   {

@@ -126,7 +126,8 @@ struct IsosurfaceScratch
   float WindowDepths[RayPacket::MaximumRays];
 
   // The hits of a layer.
-  double Points[3][RayPacket::MaximumRays]; ///< in the mesh's frame
+  std::uint8_t HitRays[RayPacket::MaximumChunks]; ///< those of a chunk that hit, one bit each
+  double Points[3][RayPacket::MaximumRays];       ///< in the mesh's frame
   float Gradients[3][RayPacket::MaximumRays];
   float HitColors[4][RayPacket::MaximumRays]; ///< and opacities, if ColorScalars counts
   std::int32_t Surfaces[RayPacket::MaximumRays];

@@ -140,11 +140,7 @@ TETRALUX_INLINE int CompositeChunk(const IsosurfaceInput& in, IsosurfaceScratch&
 {
   const RayPacket& rays = scratch.Rays;
   const int begin = chunk * LaneCount;
-  unsigned bits = 0;
-  for (int i = 0; i < LaneCount; ++i)
-  {
-    bits |= rays.Hit[begin + i] >= 0 ? 1u << i : 0u;
-  }
+  const unsigned bits = scratch.HitRays[chunk];
   const Mask8 hits = MaskFromBits(bits);
   const Int8 surface = Select(hits, LoadInt8(scratch.Surfaces + begin), Int8(0));
   Double8 length;
@@ -241,19 +237,19 @@ TETRALUX_INLINE void CountLostRays(
   }
 }
 
-/// The chunks that have hits, one bit each.
-TETRALUX_INLINE std::uint32_t FindHitChunks(const RayPacket& packet)
+/// Finds the rays that have hits. Returns their chunks, one bit each.
+TETRALUX_INLINE std::uint32_t FindHitRays(IsosurfaceScratch& scratch)
 {
   std::uint32_t chunks = 0;
   for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
   {
-    // A hit is not negative, so its sign bit is clear.
-    std::int64_t all = -1;
-    for (int i = chunk * LaneCount; i < (chunk + 1) * LaneCount; ++i)
+    unsigned rays = 0;
+    for (int i = 0; i < LaneCount; ++i)
     {
-      all &= packet.Hit[i];
+      rays |= scratch.Rays.Hit[chunk * LaneCount + i] >= 0 ? 1u << i : 0u;
     }
-    chunks |= (all >= 0 ? 1u : 0u) << chunk;
+    scratch.HitRays[chunk] = static_cast<std::uint8_t>(rays);
+    chunks |= (rays != 0 ? 1u : 0u) << chunk;
   }
   return chunks;
 }
@@ -274,7 +270,7 @@ bool DrawLayers(
     {
       PacketTraversal<false>(in.Tree, in.Frame, in.Limits, packet, counts.Primary).Trace();
     }
-    const std::uint32_t chunks = FindHitChunks(packet);
+    const std::uint32_t chunks = FindHitRays(scratch);
     if (chunks == 0)
     {
       return layer > 0;
