@@ -9,7 +9,7 @@
 #include "Isosurface/IsosurfaceKernel.h"
 #include "Isosurface/OcclusionRays.h"
 #include "Isosurface/PixelStore.h"
-#include "Isosurface/PolygonBlock.h"
+#include "Isosurface/PlacedTraversal.h"
 #include "Isosurface/ShadowRays.h"
 #include "Lighting/LaneLights.h"
 
@@ -88,24 +88,23 @@ TETRALUX_INLINE bool StartRays(const IsosurfaceInput& in, int x0, int y0, int x1
   return FitBounds(packet, margin);
 }
 
-/// Bounds of the rays of pixels, and nothing else of a packet.
-TETRALUX_INLINE void SetPixelBounds(RayPacket& bounds, int x0, int y0, int x1, int y1)
-{
-  bounds.LowU = x0;
-  bounds.HighU = x1 - 1;
-  bounds.LowV = y0;
-  bounds.HighV = y1 - 1;
-}
-
 /// Whether pixels miss all that there is, before their rays are filled.
-TETRALUX_INLINE bool MissesAll(const IsosurfaceInput& in, int x0, int y0, int x1, int y1)
+TETRALUX_INLINE bool MissesAll(
+  const IsosurfaceInput& in, int x0, int y0, int x1, int y1, TraceCounts& counts)
 {
   if (!in.Tree.Nodes)
   {
     return true;
   }
   RayPacket bounds;
-  SetPixelBounds(bounds, x0, y0, x1, y1);
+  bounds.LowU = x0;
+  bounds.HighU = x1 - 1;
+  bounds.LowV = y0;
+  bounds.HighV = y1 - 1;
+  if (in.Placed)
+  {
+    return MissesPlaced(in.Tree, *in.Placed, bounds, counts);
+  }
   float nearness;
   return PacketFrustum(in.Frame, bounds, in.Limits).Misses(in.Tree.Nodes[0], nearness);
 }
@@ -262,9 +261,9 @@ bool DrawLayers(
   RayPacket& packet = scratch.Rays;
   for (int layer = 0; layer < in.MaximumLayers; ++layer)
   {
-    if (in.Blocks)
+    if (in.Placed)
     {
-      HitBlock<false>(in.Limits, in.Frame, *scratch.Block, packet, counts.Primary);
+      TracePlaced<false>(in.Tree, in.Frame, in.Limits, *in.Placed, packet, counts.Primary);
     }
     else
     {
@@ -313,9 +312,8 @@ void DrawPacket(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
   IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
   const float margin = GetPacketMargin(x1 > y1 ? x1 : y1);
-  const bool isEmpty = in.Blocks ? scratch.Block->Count == 0 : MissesAll(in, x0, y0, x1, y1);
-  const bool any = !isEmpty && StartRays(in, x0, y0, x1, y1, margin, scratch) &&
-    DrawLayers(in, margin, scratch, counts);
+  const bool any = !MissesAll(in, x0, y0, x1, y1, counts.Primary) &&
+    StartRays(in, x0, y0, x1, y1, margin, scratch) && DrawLayers(in, margin, scratch, counts);
   if (any)
   {
     StorePixels(in, x0, y0, x1, y1, scratch);
@@ -329,13 +327,6 @@ void DrawPacket(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
 void DrawBlock(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
   IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
-  static_assert(sizeof(PlacedPolygon) <= PlacedPolygonBytes, "room for a polygon");
-  if (in.Blocks)
-  {
-    RayPacket& bounds = scratch.Rays; // not in use yet
-    SetPixelBounds(bounds, x0, y0, x1, y1);
-    GatherPolygons(in.Tree, in.Frame, in.Limits, bounds, *scratch.Block, counts.Primary);
-  }
   for (int y = y0; y < y1; y += RayPacket::Edge)
   {
     for (int x = x0; x < x1; x += RayPacket::Edge)

@@ -7,6 +7,7 @@
 
 #include "Isosurface/FrustumTraversal.h"
 #include "Isosurface/IsosurfaceKernel.h"
+#include "Isosurface/PlacedTraversal.h"
 
 namespace tetralux
 {
@@ -23,12 +24,21 @@ constexpr double ShadowOffset = 1e-6;
 /// about the radius of the mesh's frame.
 constexpr double ShadowLargest = 2;
 
-/// Traces scratch.ShadowRays: rays that are blocked hit something.
+/// Traces scratch.ShadowRays: rays that are blocked hit something. placed: of the frame; nullptr:
+/// there is none.
 TETRALUX_INLINE void TraceShadows(const IsosurfaceInput& in, const RayFrame& frame,
-  IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
+  const PlacedTree* placed, IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
   RayPacket& packet = scratch.ShadowRays;
-  if (FitBounds(packet, GetPacketMargin(ShadowLargest)))
+  if (!FitBounds(packet, GetPacketMargin(ShadowLargest)))
+  {
+    return;
+  }
+  if (placed)
+  {
+    TracePlaced<true>(in.Tree, frame, in.ShadowLimits, *placed, packet, counts.Shadow);
+  }
+  else
   {
     PacketTraversal<true>(in.Tree, frame, in.ShadowLimits, packet, counts.Shadow).Trace();
   }
@@ -174,7 +184,7 @@ TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource
     }
     const RayFrame& frame = source.Frames[side];
     FillShadowRays(frame, sides.Rays[side], scratch);
-    TraceShadows(in, frame, scratch, counts);
+    TraceShadows(in, frame, source.Placed[side], scratch, counts);
     const RayPacket& packet = scratch.ShadowRays;
     for (int i = 0; i < RayPacket::MaximumRays; ++i)
     {
