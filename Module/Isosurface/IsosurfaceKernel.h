@@ -95,7 +95,7 @@ struct IsosurfaceCounts
   double LostOpacity = 0;    ///< largest share of light that such a ray lets through
 };
 
-/// Packets along the edge of a block.
+/// Packets along the edge of a block, which a thread draws at a time.
 constexpr int BlockPackets = 4;
 constexpr int BlockEdge = BlockPackets * RayPacket::Edge;
 

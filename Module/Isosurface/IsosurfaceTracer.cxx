@@ -388,6 +388,10 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   {
     this->Private->PlacePolygons(step.Active.Get(), options, threads, in);
   }
+  else
+  {
+    this->Private->Placed = PlacedTrees();
+  }
   this->Private->TraceTiles(in, options, threads, statistics);
   if (IsSampled(scene, options) && !statistics.Aborted)
   {

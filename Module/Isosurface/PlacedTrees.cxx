@@ -59,6 +59,7 @@ const PlacedTree* PlacedTrees::Add(
 
 void PlacedTrees::Fill(const TraceTree& tree, PlaceKernel kernel, int threads)
 {
+  this->Entries.resize(this->Count);
   const auto count = static_cast<std::int64_t>(this->Count);
   for (std::int64_t t = 0; t < count; ++t)
   {

@@ -13,7 +13,7 @@
 namespace tetralux
 {
 
-/// The PlacedTrees of a picture, in memory that the next picture uses again.
+/// The PlacedTrees of a picture, in memory that those of the next picture use again.
 class PlacedTrees
 {
 public:
