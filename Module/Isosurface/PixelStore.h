@@ -42,11 +42,10 @@ TETRALUX_INLINE void ForEachPixelRow(
   }
 }
 
-/// Copies a part of a row. Rows of whole chunks have a length that the compiler knows.
-template <class Value>
+/// Copies a part of a row. Whole: values of a row of a whole chunk, whose copy is one store.
+template <int Whole, class Value>
 TETRALUX_INLINE void CopyRow(const Value* values, int count, Value* result)
 {
-  constexpr int Whole = RayPacket::ChunkWidth * static_cast<int>(sizeof(float) / sizeof(Value));
   if (count == Whole)
   {
     __builtin_memcpy(result, values, Whole * sizeof(Value));
@@ -71,7 +70,10 @@ TETRALUX_INLINE void StoreWindowPixels(
   }
   ForEachPixelRow(in, x0, y0, x1, y1,
     [&](const PixelRow& row)
-    { CopyRow(bytes + 4 * row.First, 4 * row.Count, in.WindowColors + 4 * row.Pixel); });
+    {
+      CopyRow<4 * RayPacket::ChunkWidth>(
+        bytes + 4 * row.First, 4 * row.Count, in.WindowColors + 4 * row.Pixel);
+    });
 }
 
 TETRALUX_INLINE void StoreWindowDepths(
@@ -79,7 +81,10 @@ TETRALUX_INLINE void StoreWindowDepths(
 {
   ForEachPixelRow(in, x0, y0, x1, y1,
     [&](const PixelRow& row)
-    { CopyRow(scratch.WindowDepths + row.First, row.Count, in.WindowDepths + row.Pixel); });
+    {
+      CopyRow<RayPacket::ChunkWidth>(
+        scratch.WindowDepths + row.First, row.Count, in.WindowDepths + row.Pixel);
+    });
 }
 
 /// Stores the packet's part of the picture.
