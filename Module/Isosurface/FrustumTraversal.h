@@ -91,18 +91,7 @@ public:
   /// The least key that may still change the packet.
   void SetFarthest(const RayFrame& frame, const RayPacket& packet)
   {
-    Float8 least = LoadFloat8(packet.ChunkFar);
-    for (int first = LaneCount; first < RayPacket::MaximumChunks; first += LaneCount)
-    {
-      least = Min(LoadFloat8(packet.ChunkFar + first), least);
-    }
-    float keys[LaneCount];
-    Store(keys, least);
-    float key = keys[0];
-    for (int i = 1; i < LaneCount; ++i)
-    {
-      key = keys[i] < key ? keys[i] : key;
-    }
+    const float key = GetLeastFar(packet);
     const double depth = frame.Parallel ? -static_cast<double>(key)
       : key > 0                         ? 1 / static_cast<double>(key)
                                         : InfiniteKey;

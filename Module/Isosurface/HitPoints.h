@@ -65,31 +65,64 @@ TETRALUX_NOINLINE void FindHitColors(const IsosurfaceInput& in, IsosurfaceScratc
   }
 }
 
+/// A component of a field at the points of lanes.
+TETRALUX_INLINE Float8 EvaluateLanes(
+  const CellField<3>& field, int component, const Double8 (&point)[3])
+{
+  Double8 value = field.Base[component];
+  for (int a = 0; a < 3; ++a)
+  {
+    value = value + Double8(field.Slope[component][a]) * (point[a] - Double8(field.Origin[a]));
+  }
+  return ToFloat(value);
+}
+
+/// The gradients of a polygon at the points of lanes.
+TETRALUX_INLINE void FindGradients(const IsosurfaceInput& in, std::int64_t id, std::int32_t cell,
+  const Double8 (&point)[3], Float8 (&gradient)[3])
+{
+  if (!in.Lighting->OfPoints)
+  {
+    const GradientRow& row = in.CellGradients ? in.CellGradients[id] : in.Lighting->Gradients[cell];
+    gradient[0] = row.X;
+    gradient[1] = row.Y;
+    gradient[2] = row.Z;
+    return;
+  }
+  CellField<3> made;
+  const CellField<3>* field = in.Gradients ? in.Gradients + id : &made;
+  if (!in.Gradients)
+  {
+    MakeGradientField(in.Tree.Source, in.Lighting->Gradients, cell, made);
+  }
+  for (int a = 0; a < 3; ++a)
+  {
+    gradient[a] = EvaluateLanes(*field, a, point);
+  }
+}
+
 /// Fills the points and, where there is light, the gradients of a chunk's hits.
 TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch& scratch, int chunk)
 {
   const RayPacket& rays = scratch.Rays;
   const int first = chunk * LaneCount;
   const RayFrame& frame = in.Frame;
-  unsigned rest = 0;
-  for (int i = 0; i < LaneCount; ++i)
+  const Double8 far = LoadDouble8(rays.Far + first);
+  const Double8 depth = frame.Parallel ? Double8(0.) - far : Double8(1.) / far;
+  const Double8 scale = frame.Parallel ? Double8(1.) : depth;
+  const Double8 u = LoadDouble8(rays.U + first);
+  const Double8 v = LoadDouble8(rays.V + first);
+  Double8 point[3];
+  for (int a = 0; a < 3; ++a)
   {
-    rest |= rays.Hit[first + i] >= 0 ? 1u << i : 0u;
+    point[a] = Double8(frame.Origin[a]) +
+      (u * Double8(frame.Axes[0][a]) + v * Double8(frame.Axes[1][a])) * scale +
+      depth * Double8(frame.Axes[2][a]);
+    Store(scratch.Points[a] + first, point[a]);
   }
-#pragma omp simd
-  for (int i = first; i < first + LaneCount; ++i)
-  {
-    const double depth = frame.Parallel ? -rays.Far[i] : 1 / rays.Far[i];
-    const double scale = frame.Parallel ? 1 : depth;
-    const double u = rays.U[i];
-    const double v = rays.V[i];
-    for (int a = 0; a < 3; ++a)
-    {
-      scratch.Points[a][i] = frame.Origin[a] +
-        (u * frame.Axes[0][a] + v * frame.Axes[1][a]) * scale + depth * frame.Axes[2][a];
-    }
-  }
-  while (rest != 0)
+  Int8 surfaces = 0;
+  Float8 gradients[3] = { 0.f, 0.f, 0.f };
+  for (unsigned rest = scratch.HitRays[chunk]; rest != 0;)
   {
     // The rays that hit one polygon.
     const std::int64_t id = rays.Hit[first + __builtin_ctz(rest)];
@@ -104,56 +137,26 @@ TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch&
       in.Tree.Polygons ? in.Tree.Polygons[id].Cell : static_cast<std::int32_t>(id >> 32);
     const std::int32_t surface =
       in.Tree.Polygons ? in.Tree.Polygons[id].Surface : static_cast<std::int32_t>(id & 0xffffffff);
-    for (int i = 0; i < LaneCount; ++i)
-    {
-      scratch.Surfaces[first + i] = (same >> i & 1) != 0 ? surface : scratch.Surfaces[first + i];
-    }
+    const Mask8 lanes = MaskFromBits(same);
+    surfaces = Select(lanes, Int8(surface), surfaces);
     if (in.ColorScalars)
     {
       FindHitColors(in, scratch, id, cell, first, same);
     }
-    if (!in.Lighting)
+    if (in.Lighting)
     {
-      continue;
-    }
-    float gradient[3][LaneCount];
-    if (in.Lighting->OfPoints)
-    {
-      CellField<3> made;
-      const CellField<3>* field = in.Gradients ? in.Gradients + id : &made;
-      if (!in.Gradients)
-      {
-        MakeGradientField(in.Tree.Source, in.Lighting->Gradients, cell, made);
-      }
+      Float8 own[3];
+      FindGradients(in, id, cell, point, own);
       for (int a = 0; a < 3; ++a)
       {
-#pragma omp simd
-        for (int i = 0; i < LaneCount; ++i)
-        {
-          gradient[a][i] = static_cast<float>(EvaluateField(*field, a, scratch.Points[0][first + i],
-            scratch.Points[1][first + i], scratch.Points[2][first + i]));
-        }
+        gradients[a] = Select(lanes, own[a], gradients[a]);
       }
     }
-    else
-    {
-      const GradientRow& row =
-        in.CellGradients ? in.CellGradients[id] : in.Lighting->Gradients[cell];
-      for (int i = 0; i < LaneCount; ++i)
-      {
-        gradient[0][i] = row.X;
-        gradient[1][i] = row.Y;
-        gradient[2][i] = row.Z;
-      }
-    }
-    for (int a = 0; a < 3; ++a)
-    {
-      for (int i = 0; i < LaneCount; ++i)
-      {
-        float& result = scratch.Gradients[a][first + i];
-        result = (same >> i & 1) != 0 ? gradient[a][i] : result;
-      }
-    }
+  }
+  Store(scratch.Surfaces + first, surfaces);
+  for (int a = 0; a < 3; ++a)
+  {
+    Store(scratch.Gradients[a] + first, gradients[a]);
   }
 }
 

@@ -7,6 +7,7 @@
 // instruction set.
 
 #include "Isosurface/CellField.h"
+#include "Isosurface/PlacedTree.h"
 #include "Isosurface/TraceInput.h"
 #include "Lighting/KernelLighting.h"
 #include "Optics/IntervalTable.h"
@@ -27,6 +28,7 @@ struct ShadowSource
   ///@{
   bool Positional;
   RayFrame Frames[6];
+  const PlacedTree* Placed[6]; ///< of each frame; nullptr: there is none
   ///@}
   double Place[3]; ///< in the mesh's frame: position, or direction to the light
 };
@@ -34,8 +36,9 @@ struct ShadowSource
 /// A direction from which ambient light comes.
 struct OcclusionSample
 {
-  RayFrame Frame;     ///< of rays that come from there; depths are lengths in the world
-  float Direction[3]; ///< to there, in the world, of length 1
+  RayFrame Frame;           ///< of rays that come from there; depths are lengths in the world
+  float Direction[3];       ///< to there, in the world, of length 1
+  const PlacedTree* Placed; ///< of the frame; nullptr: there is none
 };
 
 struct IsosurfaceInput
@@ -66,7 +69,7 @@ struct IsosurfaceInput
   double OcclusionRadius;   ///< what is farther blocks no ambient light; in the world
   double OcclusionOffset;   ///< what is nearer blocks none either; in the world
   TraceLimits ShadowLimits; ///< what is cut away blocks no light
-  bool Blocks;              ///< whether polygons are gathered for blocks, see PolygonBlock.h
+  const PlacedTree* Placed; ///< of Frame; nullptr: each packet prepares what it meets
   int MaximumLayers;        ///< surfaces that a ray meets at most
   float MaximumOpacity;     ///< a ray ends where it is this opaque
 
@@ -92,32 +95,13 @@ struct IsosurfaceCounts
   double LostOpacity = 0;    ///< largest share of light that such a ray lets through
 };
 
-/// Packets along the edge of a block.
+/// Packets along the edge of a block, which a thread draws at a time.
 constexpr int BlockPackets = 4;
 constexpr int BlockEdge = BlockPackets * RayPacket::Edge;
-
-/// Polygons of a block, owned by one thread and grown on demand: their bounds in u and v, and what
-/// else the kernel keeps of each.
-struct BlockMemory
-{
-  void* Polygons = nullptr;
-  float* LowU = nullptr;
-  float* HighU = nullptr;
-  float* LowV = nullptr;
-  float* HighV = nullptr;
-  int Count = 0;
-  int Capacity = 0;
-  /// Makes room for that many, and keeps what there is.
-  void (*Grow)(BlockMemory&, int count) = nullptr;
-};
-
-/// Bytes of what a kernel keeps of a polygon, at most.
-constexpr int PlacedPolygonBytes = 256;
 
 /// Memory of a thread.
 struct IsosurfaceScratch
 {
-  BlockMemory* Block;
   RayPacket Rays;
   RayPacket ShadowRays;
   double StartFar[RayPacket::MaximumRays];
@@ -126,7 +110,8 @@ struct IsosurfaceScratch
   float WindowDepths[RayPacket::MaximumRays];
 
   // The hits of a layer.
-  double Points[3][RayPacket::MaximumRays]; ///< in the mesh's frame
+  std::uint8_t HitRays[RayPacket::MaximumChunks]; ///< those of a chunk that hit, one bit each
+  double Points[3][RayPacket::MaximumRays];       ///< in the mesh's frame
   float Gradients[3][RayPacket::MaximumRays];
   float HitColors[4][RayPacket::MaximumRays]; ///< and opacities, if ColorScalars counts
   std::int32_t Surfaces[RayPacket::MaximumRays];
@@ -136,13 +121,24 @@ struct IsosurfaceScratch
 };
 
 /// Draws the pixels from (x0, y0) up to but without (x1, y1): a block at most.
-using IsosurfaceKernel = void (*)(
+using DrawKernel = void (*)(
   const IsosurfaceInput&, int x0, int y0, int x1, int y1, IsosurfaceScratch&, IsosurfaceCounts&);
 
-IsosurfaceKernel GetIsosurfaceKernelGeneric();
+/// Fills the leaves of a PlacedTree among the nodes from first up to but without end. bounds: of
+/// all rays of the frame, least u and v, then largest u and v.
+using PlaceKernel = void (*)(const TraceTree&, const RayFrame&, const TraceLimits&,
+  const double (&bounds)[4], std::int32_t first, std::int32_t end, const PlacedTree&);
+
+struct IsosurfaceKernels
+{
+  DrawKernel Draw;
+  PlaceKernel Place;
+};
+
+IsosurfaceKernels GetIsosurfaceKernelsGeneric();
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-IsosurfaceKernel GetIsosurfaceKernelAvx2();
-IsosurfaceKernel GetIsosurfaceKernelAvx512();
+IsosurfaceKernels GetIsosurfaceKernelsAvx2();
+IsosurfaceKernels GetIsosurfaceKernelsAvx512();
 #endif
 
 } // namespace tetralux

@@ -9,7 +9,7 @@
 #include "Isosurface/IsosurfaceKernel.h"
 #include "Isosurface/OcclusionRays.h"
 #include "Isosurface/PixelStore.h"
-#include "Isosurface/PolygonBlock.h"
+#include "Isosurface/PlacedTraversal.h"
 #include "Isosurface/ShadowRays.h"
 #include "Lighting/LaneLights.h"
 
@@ -88,24 +88,23 @@ TETRALUX_INLINE bool StartRays(const IsosurfaceInput& in, int x0, int y0, int x1
   return FitBounds(packet, margin);
 }
 
-/// Bounds of the rays of pixels, and nothing else of a packet.
-TETRALUX_INLINE void SetPixelBounds(RayPacket& bounds, int x0, int y0, int x1, int y1)
-{
-  bounds.LowU = x0;
-  bounds.HighU = x1 - 1;
-  bounds.LowV = y0;
-  bounds.HighV = y1 - 1;
-}
-
 /// Whether pixels miss all that there is, before their rays are filled.
-TETRALUX_INLINE bool MissesAll(const IsosurfaceInput& in, int x0, int y0, int x1, int y1)
+TETRALUX_INLINE bool MissesAll(
+  const IsosurfaceInput& in, int x0, int y0, int x1, int y1, TraceCounts& counts)
 {
   if (!in.Tree.Nodes)
   {
     return true;
   }
   RayPacket bounds;
-  SetPixelBounds(bounds, x0, y0, x1, y1);
+  bounds.LowU = x0;
+  bounds.HighU = x1 - 1;
+  bounds.LowV = y0;
+  bounds.HighV = y1 - 1;
+  if (in.Placed)
+  {
+    return MissesPlaced(in.Tree, *in.Placed, bounds, counts);
+  }
   float nearness;
   return PacketFrustum(in.Frame, bounds, in.Limits).Misses(in.Tree.Nodes[0], nearness);
 }
@@ -140,11 +139,7 @@ TETRALUX_INLINE int CompositeChunk(const IsosurfaceInput& in, IsosurfaceScratch&
 {
   const RayPacket& rays = scratch.Rays;
   const int begin = chunk * LaneCount;
-  unsigned bits = 0;
-  for (int i = 0; i < LaneCount; ++i)
-  {
-    bits |= rays.Hit[begin + i] >= 0 ? 1u << i : 0u;
-  }
+  const unsigned bits = scratch.HitRays[chunk];
   const Mask8 hits = MaskFromBits(bits);
   const Int8 surface = Select(hits, LoadInt8(scratch.Surfaces + begin), Int8(0));
   Double8 length;
@@ -241,19 +236,19 @@ TETRALUX_INLINE void CountLostRays(
   }
 }
 
-/// The chunks that have hits, one bit each.
-TETRALUX_INLINE std::uint32_t FindHitChunks(const RayPacket& packet)
+/// Finds the rays that have hits. Returns their chunks, one bit each.
+TETRALUX_INLINE std::uint32_t FindHitRays(IsosurfaceScratch& scratch)
 {
   std::uint32_t chunks = 0;
   for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
   {
-    // A hit is not negative, so its sign bit is clear.
-    std::int64_t all = -1;
-    for (int i = chunk * LaneCount; i < (chunk + 1) * LaneCount; ++i)
+    unsigned rays = 0;
+    for (int i = 0; i < LaneCount; ++i)
     {
-      all &= packet.Hit[i];
+      rays |= scratch.Rays.Hit[chunk * LaneCount + i] >= 0 ? 1u << i : 0u;
     }
-    chunks |= (all >= 0 ? 1u : 0u) << chunk;
+    scratch.HitRays[chunk] = static_cast<std::uint8_t>(rays);
+    chunks |= (rays != 0 ? 1u : 0u) << chunk;
   }
   return chunks;
 }
@@ -266,15 +261,15 @@ bool DrawLayers(
   RayPacket& packet = scratch.Rays;
   for (int layer = 0; layer < in.MaximumLayers; ++layer)
   {
-    if (in.Blocks)
+    if (in.Placed)
     {
-      HitBlock<false>(in.Limits, in.Frame, *scratch.Block, packet, counts.Primary);
+      TracePlaced<false>(in.Tree, in.Frame, in.Limits, *in.Placed, packet, counts.Primary);
     }
     else
     {
       PacketTraversal<false>(in.Tree, in.Frame, in.Limits, packet, counts.Primary).Trace();
     }
-    const std::uint32_t chunks = FindHitChunks(packet);
+    const std::uint32_t chunks = FindHitRays(scratch);
     if (chunks == 0)
     {
       return layer > 0;
@@ -317,9 +312,8 @@ void DrawPacket(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
   IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
   const float margin = GetPacketMargin(x1 > y1 ? x1 : y1);
-  const bool isEmpty = in.Blocks ? scratch.Block->Count == 0 : MissesAll(in, x0, y0, x1, y1);
-  const bool any = !isEmpty && StartRays(in, x0, y0, x1, y1, margin, scratch) &&
-    DrawLayers(in, margin, scratch, counts);
+  const bool any = !MissesAll(in, x0, y0, x1, y1, counts.Primary) &&
+    StartRays(in, x0, y0, x1, y1, margin, scratch) && DrawLayers(in, margin, scratch, counts);
   if (any)
   {
     StorePixels(in, x0, y0, x1, y1, scratch);
@@ -333,13 +327,6 @@ void DrawPacket(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
 void DrawBlock(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
   IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
-  static_assert(sizeof(PlacedPolygon) <= PlacedPolygonBytes, "room for a polygon");
-  if (in.Blocks)
-  {
-    RayPacket& bounds = scratch.Rays; // not in use yet
-    SetPixelBounds(bounds, x0, y0, x1, y1);
-    GatherPolygons(in.Tree, in.Frame, in.Limits, bounds, *scratch.Block, counts.Primary);
-  }
   for (int y = y0; y < y1; y += RayPacket::Edge)
   {
     for (int x = x0; x < x1; x += RayPacket::Edge)

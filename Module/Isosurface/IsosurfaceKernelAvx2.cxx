@@ -6,6 +6,9 @@
 namespace tetralux
 {
 
-IsosurfaceKernel GetIsosurfaceKernelAvx2() { return TETRALUX_ISA::DrawBlock; }
+IsosurfaceKernels GetIsosurfaceKernelsAvx2()
+{
+  return { TETRALUX_ISA::DrawBlock, TETRALUX_ISA::PlaceLeaves };
+}
 
 } // namespace tetralux

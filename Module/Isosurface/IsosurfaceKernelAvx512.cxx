@@ -6,6 +6,9 @@
 namespace tetralux
 {
 
-IsosurfaceKernel GetIsosurfaceKernelAvx512() { return TETRALUX_ISA::DrawBlock; }
+IsosurfaceKernels GetIsosurfaceKernelsAvx512()
+{
+  return { TETRALUX_ISA::DrawBlock, TETRALUX_ISA::PlaceLeaves };
+}
 
 } // namespace tetralux

@@ -6,6 +6,9 @@
 namespace tetralux
 {
 
-IsosurfaceKernel GetIsosurfaceKernelGeneric() { return TETRALUX_ISA::DrawBlock; }
+IsosurfaceKernels GetIsosurfaceKernelsGeneric()
+{
+  return { TETRALUX_ISA::DrawBlock, TETRALUX_ISA::PlaceLeaves };
+}
 
 } // namespace tetralux

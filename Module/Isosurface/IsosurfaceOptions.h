@@ -64,9 +64,9 @@ struct IsosurfaceOptions
   TreeBuild Build = TreeBuild::SpatialMedian;
   Isopolygons Polygons = Isopolygons::Precomputed;
 
-  /// Whether precomputed isopolygons are prepared once for blocks of packets, which gives up to
-  /// skip hidden ones. Without a value: if there are few for the size of the picture.
-  std::optional<bool> Blocks;
+  /// Whether precomputed isopolygons are prepared once for all packets. Without a value: if there
+  /// are few for the size of the picture.
+  std::optional<bool> PlaceOnce;
 
   /// Bytes of time steps that are kept beside the present one. 0: none is kept, and boxes are
   /// refitted in place.

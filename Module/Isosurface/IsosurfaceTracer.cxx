@@ -10,6 +10,7 @@
 #include "Isosurface/LimitsOfMesh.h"
 #include "Isosurface/PictureKey.h"
 #include "Isosurface/PictureMean.h"
+#include "Isosurface/PlacedTrees.h"
 #include "Isosurface/TracedScene.h"
 #include "Isosurface/TracerMemory.h"
 #include "View/MeshToWorld.h"
@@ -28,9 +29,9 @@ namespace tetralux
 namespace
 {
 
-/// Polygons for a pixel up to which they are gathered for blocks. Measured on the blunt fin and on
-/// rings of up to 10 million cells.
-constexpr double LargestBlockShare = 0.1;
+/// Polygons for a pixel up to which they are prepared once for all packets. Measured on the blunt
+/// fin and on rings of up to 10 million cells.
+constexpr double LargestPlacedShare = 0.1;
 
 /// How far ambient light is blocked from, in radii of the mesh, unless that is chosen: a part of
 /// the mesh whose size shows in a picture.
@@ -39,22 +40,27 @@ constexpr double AutomaticOcclusionRadius = 0.2;
 /// What is nearer blocks no ambient light, in radii of the mesh, as for shadows.
 constexpr double OcclusionOffset = 1e-6;
 
-IsosurfaceKernel GetKernel(InstructionSet set)
+IsosurfaceKernels GetKernels(InstructionSet set)
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
   switch (set)
   {
     case InstructionSet::Avx512:
-      return GetIsosurfaceKernelAvx512();
+      return GetIsosurfaceKernelsAvx512();
     case InstructionSet::Avx2:
-      return GetIsosurfaceKernelAvx2();
+      return GetIsosurfaceKernelsAvx2();
     default:
       break;
   }
 #else
   static_cast<void>(set);
 #endif
-  return GetIsosurfaceKernelGeneric();
+  return GetIsosurfaceKernelsGeneric();
+}
+
+InstructionSet ChooseInstructionSet(const IsosurfaceOptions& options)
+{
+  return options.Kernels.value_or(GetWidestInstructionSet());
 }
 
 double Dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -176,6 +182,32 @@ bool IsSampled(const VolumeScene& scene, const IsosurfaceOptions& options)
     (options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0));
 }
 
+/// Whether rays from a common origin with |u| and |v| up to 1 may meet a box.
+bool SeesBox(const RayFrame& frame, const MinMaxTree::Node& box)
+{
+  unsigned beyond = 31; // sides that all corners are beyond
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    double placed[3];
+    for (int r = 0; r < 3; ++r)
+    {
+      const double(&row)[4] = frame.Rows[r];
+      placed[r] = row[3];
+      for (int a = 0; a < 3; ++a)
+      {
+        placed[r] += row[a] * ((corner >> a & 1) != 0 ? box.Upper[a] : box.Lower[a]);
+      }
+    }
+    const bool ofCorner[5] = { placed[0] > placed[2], -placed[0] > placed[2], placed[1] > placed[2],
+      -placed[1] > placed[2], placed[2] < 0 };
+    for (int side = 0; side < 5; ++side)
+    {
+      beyond &= ofCorner[side] ? ~0u : ~(1u << side);
+    }
+  }
+  return beyond == 0;
+}
+
 /// An empty tile adds nothing.
 Tile Unite(const Tile& a, const Tile& b)
 {
@@ -193,11 +225,14 @@ class IsosurfaceTracer::Internals
 public:
   SampleRange ChooseSamples(const VolumeScene& scene, const RayGrid& grid, const RayLimits& limits,
     const IsosurfaceOptions& options);
+  void PlacePolygons(
+    const ActiveTree& active, const IsosurfaceOptions& options, int threads, OwningInput& in);
   void TraceTiles(const OwningInput& in, const IsosurfaceOptions& options, int threads,
     IsosurfaceStatistics& statistics);
 
   IsosurfaceSteps Steps;
   PictureMean Mean;
+  PlacedTrees Placed;
 };
 
 /// The samples of the next picture of a mean: none when the mean is of all.
@@ -220,18 +255,44 @@ SampleRange IsosurfaceTracer::Internals::ChooseSamples(const VolumeScene& scene,
   return samples;
 }
 
+void IsosurfaceTracer::Internals::PlacePolygons(
+  const ActiveTree& active, const IsosurfaceOptions& options, int threads, OwningInput& in)
+{
+  const MinMaxTree::Node& box = active.Nodes.front();
+  // Points of the mesh are within a radius of 1, and rays to them.
+  const double ofLight[4] = { -1, -1, 1, 1 };
+  const double ofPicture[4] = { 0, 0, in.Grid->Width - 1., in.Grid->Height - 1. };
+  this->Placed.Start(active);
+  in.Placed = this->Placed.Add(in.Frame, in.Limits, ofPicture);
+  for (ShadowSource& source : in.ShadowSources)
+  {
+    for (int side = 0; side < (source.Positional ? 6 : 1); ++side)
+    {
+      const RayFrame& frame = source.Frames[side];
+      if (frame.Parallel || SeesBox(frame, box))
+      {
+        source.Placed[side] = this->Placed.Add(frame, in.ShadowLimits, ofLight);
+      }
+    }
+  }
+  for (OcclusionSample& sample : in.OcclusionSamples)
+  {
+    sample.Placed = this->Placed.Add(sample.Frame, in.ShadowLimits, ofLight);
+  }
+  this->Placed.Fill(in.Tree, GetKernels(ChooseInstructionSet(options)).Place, threads);
+}
+
 void IsosurfaceTracer::Internals::TraceTiles(const OwningInput& in,
   const IsosurfaceOptions& options, int threads, IsosurfaceStatistics& statistics)
 {
-  const InstructionSet set = options.Kernels.value_or(GetWidestInstructionSet());
-  const IsosurfaceKernel kernel = GetKernel(set);
+  const InstructionSet set = ChooseInstructionSet(options);
+  const DrawKernel kernel = GetKernels(set).Draw;
   std::vector<std::unique_ptr<TracerMemory>> memory;
   for (int t = 0; t < threads; ++t)
   {
     memory.push_back(std::make_unique<TracerMemory>());
     memory.back()->Visible.assign(
       in.NumberOfShadows > 0 ? options.Lights.size() * RayPacket::MaximumRays : 0, 1.f);
-    memory.back()->Scratch.Block = &memory.back()->Block;
     memory.back()->Scratch.Visible =
       in.NumberOfShadows > 0 ? memory.back()->Visible.data() : nullptr;
   }
@@ -312,9 +373,6 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
   in.MaximumOpacity = static_cast<float>(1 - statistics.TerminationError);
   in.MaximumLayers =
     options.MaximumLayers > 0 ? options.MaximumLayers : std::numeric_limits<int>::max();
-  in.Blocks = precomputed &&
-    options.Blocks.value_or(static_cast<double>(step.Active.Get().Polygons.size()) <
-      LargestBlockShare * static_cast<double>(pixels));
   in.Colors = colors.data();
   in.Depths = depths.data();
   in.WindowColors = forWindow ? options.WindowColors.data() : nullptr;
@@ -323,6 +381,16 @@ IsosurfaceStatistics IsosurfaceTracer::Trace(VolumeScene& scene, const RayGrid& 
     in.WindowDepths = options.WindowDepths.data();
     FillDepthFactors(grid, in.Frame, options.Depth.Depth, in.DepthFactors);
     FillDepthFactors(grid, in.Frame, options.Depth.Divisor, in.DivisorFactors);
+  }
+  if (precomputed && in.Tree.Nodes &&
+    options.PlaceOnce.value_or(static_cast<double>(step.Active.Get().Polygons.size()) <
+      LargestPlacedShare * static_cast<double>(pixels)))
+  {
+    this->Private->PlacePolygons(step.Active.Get(), options, threads, in);
+  }
+  else
+  {
+    this->Private->Placed = PlacedTrees();
   }
   this->Private->TraceTiles(in, options, threads, statistics);
   if (IsSampled(scene, options) && !statistics.Aborted)

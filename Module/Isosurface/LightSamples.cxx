@@ -142,7 +142,7 @@ std::vector<OcclusionSample> MakeOcclusionSamples(
     const double world[3] = { -towards[0], -towards[1], -towards[2] };
     double direction[3];
     ToMesh(grid, mesh, world, false, direction);
-    OcclusionSample sample;
+    OcclusionSample sample{};
     sample.Frame = MakeParallelFrame(direction);
     for (int a = 0; a < 3; ++a)
     {

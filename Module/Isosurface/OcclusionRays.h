@@ -91,7 +91,7 @@ TETRALUX_NOINLINE void FindOcclusion(const IsosurfaceInput& in, std::uint32_t ch
         packet.Near[i] = in.OcclusionRadius - placed[2];
       }
     }
-    TraceShadows(in, sample.Frame, scratch, counts);
+    TraceShadows(in, sample.Frame, sample.Placed, scratch, counts);
     for (int i = 0; i < RayPacket::MaximumRays; ++i)
     {
       all[i] += weights[i];

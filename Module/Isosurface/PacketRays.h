@@ -97,6 +97,24 @@ TETRALUX_INLINE void UpdateChunkFar(RayPacket& packet, int chunk)
   packet.ChunkFar[chunk] = RoundDown(least);
 }
 
+/// The least Far of a packet, rounded down.
+TETRALUX_INLINE float GetLeastFar(const RayPacket& packet)
+{
+  Float8 least = LoadFloat8(packet.ChunkFar);
+  for (int first = LaneCount; first < RayPacket::MaximumChunks; first += LaneCount)
+  {
+    least = Min(LoadFloat8(packet.ChunkFar + first), least);
+  }
+  float keys[LaneCount];
+  Store(keys, least);
+  float key = keys[0];
+  for (int i = 1; i < LaneCount; ++i)
+  {
+    key = keys[i] < key ? keys[i] : key;
+  }
+  return key;
+}
+
 /// Stores the bounds of a chunk, and widens those of the packet.
 TETRALUX_INLINE void SetChunkBounds(
   RayPacket& packet, int chunk, double lowU, double highU, double lowV, double highV, float margin)

@@ -42,30 +42,37 @@ TETRALUX_INLINE void ForEachPixelRow(
   }
 }
 
+/// Copies a part of a row. Whole: values of a row of a whole chunk, whose copy is one store.
+template <int Whole, class Value>
+TETRALUX_INLINE void CopyRow(const Value* values, int count, Value* result)
+{
+  if (count == Whole)
+  {
+    __builtin_memcpy(result, values, Whole * sizeof(Value));
+    return;
+  }
+  __builtin_memcpy(result, values, count * sizeof(Value));
+}
+
 /// Stores the packet's part of the picture as a window holds it.
 TETRALUX_INLINE void StoreWindowPixels(
   const IsosurfaceInput& in, int x0, int y0, int x1, int y1, const IsosurfaceScratch& scratch)
 {
-  std::uint8_t bytes[4][RayPacket::MaximumRays];
-  for (int c = 0; c < 4; ++c)
-  {
+  std::uint8_t bytes[4 * RayPacket::MaximumRays];
 #pragma omp simd
-    for (int i = 0; i < RayPacket::MaximumRays; ++i)
+  for (int i = 0; i < RayPacket::MaximumRays; ++i)
+  {
+    for (int c = 0; c < 4; ++c)
     {
       const float channel = 255.f * scratch.Colors[c][i] + 0.5f;
-      bytes[c][i] = static_cast<std::uint8_t>(static_cast<int>(channel));
+      bytes[4 * i + c] = static_cast<std::uint8_t>(static_cast<int>(channel));
     }
   }
   ForEachPixelRow(in, x0, y0, x1, y1,
     [&](const PixelRow& row)
     {
-      for (int i = 0; i < row.Count; ++i)
-      {
-        for (int c = 0; c < 4; ++c)
-        {
-          in.WindowColors[4 * (row.Pixel + i) + c] = bytes[c][row.First + i];
-        }
-      }
+      CopyRow<4 * RayPacket::ChunkWidth>(
+        bytes + 4 * row.First, 4 * row.Count, in.WindowColors + 4 * row.Pixel);
     });
 }
 
@@ -75,10 +82,8 @@ TETRALUX_INLINE void StoreWindowDepths(
   ForEachPixelRow(in, x0, y0, x1, y1,
     [&](const PixelRow& row)
     {
-      for (int i = 0; i < row.Count; ++i)
-      {
-        in.WindowDepths[row.Pixel + i] = scratch.WindowDepths[row.First + i];
-      }
+      CopyRow<RayPacket::ChunkWidth>(
+        scratch.WindowDepths + row.First, row.Count, in.WindowDepths + row.Pixel);
     });
 }
 
@@ -109,33 +114,34 @@ TETRALUX_INLINE void StorePixels(
     });
 }
 
+template <class Value>
+TETRALUX_INLINE void FillRow(Value* row, int count, Value value)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    row[i] = value;
+  }
+}
+
 /// Stores pixels where nothing is.
 TETRALUX_INLINE void StoreEmptyPixels(const IsosurfaceInput& in, int x0, int y0, int x1, int y1)
 {
+  const int width = x1 - x0;
   for (int y = y0; y < y1; ++y)
   {
-    const std::int64_t row = static_cast<std::int64_t>(y) * in.Grid->Width;
-    for (std::int64_t i = 4 * (row + x0); i < 4 * (row + x1); ++i)
+    const std::int64_t first = static_cast<std::int64_t>(y) * in.Grid->Width + x0;
+    if (in.WindowColors)
     {
-      if (in.WindowColors)
-      {
-        in.WindowColors[i] = 0;
-      }
-      else
-      {
-        in.Colors[i] = 0;
-      }
+      FillRow(in.WindowColors + 4 * first, 4 * width, std::uint8_t{ 0 });
     }
-    for (std::int64_t i = row + x0; i < row + x1; ++i)
+    else
     {
-      if (in.WindowDepths)
-      {
-        in.WindowDepths[i] = 1;
-      }
-      if (!in.WindowColors)
-      {
-        in.Depths[i] = -1;
-      }
+      FillRow(in.Colors + 4 * first, 4 * width, 0.f);
+      FillRow(in.Depths + first, width, -1.f);
+    }
+    if (in.WindowDepths)
+    {
+      FillRow(in.WindowDepths + first, width, 1.f);
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include "Isosurface/FrustumTraversal.h"
 #include "Isosurface/IsosurfaceKernel.h"
+#include "Isosurface/PlacedTraversal.h"
 
 namespace tetralux
 {
@@ -23,12 +24,21 @@ constexpr double ShadowOffset = 1e-6;
 /// about the radius of the mesh's frame.
 constexpr double ShadowLargest = 2;
 
-/// Traces scratch.ShadowRays: rays that are blocked hit something.
+/// Traces scratch.ShadowRays: rays that are blocked hit something. placed: of the frame; nullptr:
+/// there is none.
 TETRALUX_INLINE void TraceShadows(const IsosurfaceInput& in, const RayFrame& frame,
-  IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
+  const PlacedTree* placed, IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
   RayPacket& packet = scratch.ShadowRays;
-  if (FitBounds(packet, GetPacketMargin(ShadowLargest)))
+  if (!FitBounds(packet, GetPacketMargin(ShadowLargest)))
+  {
+    return;
+  }
+  if (placed)
+  {
+    TracePlaced<true>(in.Tree, frame, in.ShadowLimits, *placed, packet, counts.Shadow);
+  }
+  else
   {
     PacketTraversal<true>(in.Tree, frame, in.ShadowLimits, packet, counts.Shadow).Trace();
   }
@@ -43,77 +53,116 @@ TETRALUX_INLINE void ClearShadowRay(RayPacket& packet, int ray)
   packet.U[ray] = packet.V[ray] = 0;
 }
 
-/// No frame: the ray takes no part.
-constexpr std::int64_t NoSide = -1;
-
-/// Which frame of a source each hit's shadow ray belongs to. None where the light does not shine on
-/// the viewer's side of the surface: its shadow changes nothing there. Returns a bit for each frame
-/// that has rays.
-TETRALUX_INLINE unsigned FindSides(const IsosurfaceInput& in, const ShadowSource& source,
-  const IsosurfaceScratch& scratch, std::int64_t (&sides)[RayPacket::MaximumRays])
+/// The hits whose shadow rays belong to each frame of a source, one bit a ray.
+struct ShadowSides
 {
-  const RayPacket& rays = scratch.Rays;
+  std::uint8_t Rays[6][RayPacket::MaximumChunks];
+};
+
+/// Finds them. A hit belongs to none where the light does not shine on the viewer's side of the
+/// surface: its shadow changes nothing there. Returns a bit for each frame that has rays.
+TETRALUX_INLINE unsigned FindSides(const IsosurfaceInput& in, const ShadowSource& source,
+  const IsosurfaceScratch& scratch, ShadowSides& sides)
+{
   const RayFrame& frame = in.Frame;
-  const double positional = source.Positional ? 1 : 0;
-  const double perspective = frame.Parallel ? 0 : 1;
-#pragma omp simd
-  for (int i = 0; i < RayPacket::MaximumRays; ++i)
-  {
-    const double u = perspective * rays.U[i];
-    const double v = perspective * rays.V[i];
-    double way[3], size[3];
-    double towards = 0, view = 0, steepness = 0;
-    for (int a = 0; a < 3; ++a)
-    {
-      way[a] = source.Place[a] - positional * scratch.Points[a][i];
-      size[a] = way[a] < 0 ? -way[a] : way[a];
-      const double g = scratch.Gradients[a][i];
-      towards += g * way[a];
-      view += g * (frame.Axes[2][a] + u * frame.Axes[0][a] + v * frame.Axes[1][a]);
-      steepness += g < 0 ? -g : g;
-    }
-    // What has no gradient faces the viewer.
-    const bool faces = !(steepness > 0) | (view > 0 ? towards < 0 : towards > 0);
-    const bool xIsLargest = (size[0] >= size[1]) & (size[0] >= size[2]);
-    const bool yIsLargest = size[1] >= size[2];
-    const double largest = xIsLargest ? way[0] : yIsLargest ? way[1] : way[2];
-    // Rays run away from the light.
-    const std::int64_t axis = xIsLargest ? 0 : yIsLargest ? 2 : 4;
-    const std::int64_t side = axis + (largest < 0 ? 1 : 0);
-    const bool takesPart = (rays.Hit[i] >= 0) & faces & (largest != 0);
-    sides[i] = takesPart ? (source.Positional ? side : 0) : NoSide;
-  }
+  const Double8 none = 0.;
+  const Double8 positional = source.Positional ? 1. : 0.;
+  const Double8 perspective = frame.Parallel ? 0. : 1.;
   unsigned found = 0;
-  for (const std::int64_t side : sides)
+  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
   {
-    found |= side >= 0 ? 1u << side : 0u;
+    const int first = chunk * LaneCount;
+    unsigned rays[6] = { 0, 0, 0, 0, 0, 0 };
+    if (scratch.HitRays[chunk] != 0)
+    {
+      const Double8 u = perspective * LoadDouble8(scratch.Rays.U + first);
+      const Double8 v = perspective * LoadDouble8(scratch.Rays.V + first);
+      Double8 way[3], size[3];
+      Double8 towards = 0., view = 0., steepness = 0.;
+      for (int a = 0; a < 3; ++a)
+      {
+        way[a] = Double8(source.Place[a]) - positional * LoadDouble8(scratch.Points[a] + first);
+        size[a] = Abs(way[a]);
+        const Double8 g = ToDouble(LoadFloat8(scratch.Gradients[a] + first));
+        towards = towards + g * way[a];
+        view = view +
+          g *
+            (Double8(frame.Axes[2][a]) + u * Double8(frame.Axes[0][a]) +
+              v * Double8(frame.Axes[1][a]));
+        steepness = steepness + Abs(g);
+      }
+      // What has no gradient faces the viewer.
+      const unsigned behind = Bits(none < view);
+      const unsigned faces = (~Bits(none < steepness)) | (behind & Bits(towards < none)) |
+        (~behind & Bits(none < towards));
+      const unsigned takesPart = scratch.HitRays[chunk] & faces;
+      const unsigned x = Bits(size[1] <= size[0]) & Bits(size[2] <= size[0]);
+      const unsigned y = ~x & Bits(size[2] <= size[1]);
+      const unsigned largest[3] = { x, y, ~(x | y) };
+      for (int a = 0; a < 3; ++a)
+      {
+        // Rays run away from the light.
+        const unsigned own = takesPart & largest[a] & Bits(none < size[a]);
+        const unsigned negative = Bits(way[a] < none);
+        rays[source.Positional ? 2 * a : 0] |= own & (source.Positional ? ~negative : AllLanes);
+        rays[source.Positional ? 2 * a + 1 : 0] |= own & (source.Positional ? negative : 0u);
+      }
+    }
+    for (int side = 0; side < 6; ++side)
+    {
+      sides.Rays[side][chunk] = static_cast<std::uint8_t>(rays[side]);
+      found |= rays[side] != 0 ? 1u << side : 0u;
+    }
   }
   return found;
 }
 
 /// Fills the shadow rays of one frame.
-TETRALUX_INLINE void FillShadowRays(const RayFrame& frame, std::int64_t side,
-  const std::int64_t (&sides)[RayPacket::MaximumRays], IsosurfaceScratch& scratch)
+TETRALUX_INLINE void FillShadowRays(const RayFrame& frame,
+  const std::uint8_t (&rays)[RayPacket::MaximumChunks], IsosurfaceScratch& scratch)
 {
   RayPacket& packet = scratch.ShadowRays;
-  const bool parallel = frame.Parallel;
-  const double(&m)[3][4] = frame.Rows;
-#pragma omp simd
-  for (int i = 0; i < RayPacket::MaximumRays; ++i)
+  const Double8 never = InfiniteKey;
+  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
   {
-    const double x = scratch.Points[0][i], y = scratch.Points[1][i], z = scratch.Points[2][i];
-    const double u = m[0][0] * x + m[0][1] * y + m[0][2] * z + m[0][3];
-    const double v = m[1][0] * x + m[1][1] * y + m[1][2] * z + m[1][3];
-    const double depth = m[2][0] * x + m[2][1] * y + m[2][2] * z + m[2][3];
-    const double nearer = depth - ShadowOffset;
-    const double divisor = parallel ? 1 : depth;
-    const double far = parallel ? -nearer : nearer > 0 ? 1 / nearer : InfiniteKey;
-    const bool takesPart = sides[i] == side;
-    packet.U[i] = takesPart ? u / divisor : 0;
-    packet.V[i] = takesPart ? v / divisor : 0;
-    packet.Far[i] = takesPart ? far : InfiniteKey;
-    packet.Near[i] = InfiniteKey;
-    packet.Hit[i] = -1;
+    const int first = chunk * LaneCount;
+    Double8 u = 0., v = 0., far = never;
+    if (rays[chunk] != 0)
+    {
+      Double8 placed[3];
+      for (int r = 0; r < 3; ++r)
+      {
+        const double(&row)[4] = frame.Rows[r];
+        placed[r] = Double8(row[0]) * LoadDouble8(scratch.Points[0] + first) +
+          Double8(row[1]) * LoadDouble8(scratch.Points[1] + first) +
+          Double8(row[2]) * LoadDouble8(scratch.Points[2] + first) + Double8(row[3]);
+      }
+      const Double8 nearer = placed[2] - Double8(ShadowOffset);
+      const Mask8 takesPart = MaskFromBits(rays[chunk]);
+      if (frame.Parallel)
+      {
+        u = placed[0];
+        v = placed[1];
+        far = Double8(0.) - nearer;
+      }
+      else
+      {
+        u = placed[0] / placed[2];
+        v = placed[1] / placed[2];
+        far = Select(Double8(0.) < nearer, Double8(1.) / nearer, never);
+      }
+      u = Keep(takesPart, u);
+      v = Keep(takesPart, v);
+      far = Select(takesPart, far, never);
+    }
+    Store(packet.U + first, u);
+    Store(packet.V + first, v);
+    Store(packet.Far + first, far);
+    Store(packet.Near + first, never);
+    for (int i = first; i < first + LaneCount; ++i)
+    {
+      packet.Hit[i] = -1;
+    }
   }
 }
 
@@ -121,7 +170,7 @@ TETRALUX_INLINE void FillShadowRays(const RayFrame& frame, std::int64_t side,
 TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource& source,
   IsosurfaceScratch& scratch, IsosurfaceCounts& counts, float* visible)
 {
-  std::int64_t sides[RayPacket::MaximumRays];
+  ShadowSides sides;
   const unsigned found = FindSides(in, source, scratch, sides);
   for (int i = 0; source.First && i < RayPacket::MaximumRays; ++i)
   {
@@ -134,8 +183,8 @@ TETRALUX_NOINLINE void FindShadows(const IsosurfaceInput& in, const ShadowSource
       continue;
     }
     const RayFrame& frame = source.Frames[side];
-    FillShadowRays(frame, side, sides, scratch);
-    TraceShadows(in, frame, scratch, counts);
+    FillShadowRays(frame, sides.Rays[side], scratch);
+    TraceShadows(in, frame, source.Placed[side], scratch, counts);
     const RayPacket& packet = scratch.ShadowRays;
     for (int i = 0; i < RayPacket::MaximumRays; ++i)
     {

@@ -329,7 +329,7 @@ void StudyTraversal(const Study& study)
   {
     StudySettings settings = study.MakeSettings(std::string("tracer, ") + GetName(polygons));
     settings.Options.Polygons = polygons;
-    settings.Options.Blocks = false; // each packet by itself, as in the paper
+    settings.Options.PlaceOnce = false; // each packet by itself, as in the paper
     cases.push_back(study.MakeCase(settings));
     cases.back()->DrawFrame();
   }

@@ -211,6 +211,67 @@ TEST(IsosurfaceShadows, InvisibleSurfacesBlockNothing)
   }
 }
 
+/// Scenes with lights of all kinds, seen in perspective and in parallel, and cut in several ways.
+std::vector<RayScene> MakeLitScenes()
+{
+  std::vector<RayScene> result;
+  for (const RayScene& uncut : MakeScenes())
+  {
+    const MeshBox box(uncut.Mesh);
+    RayScene clipped = uncut;
+    clipped.Limits.Planes = { { -0.5, -0.7, 0.2,
+      0.5 * box.Middle[0] + 0.7 * box.Middle[1] - 0.2 * box.Middle[2] + 0.1 * box.Radius } };
+    RayScene cropped = uncut;
+    cropped.Limits.Cropping = true;
+    cropped.Limits.CroppingFlags = 0x5a5a5a5;
+    for (int i = 0; i < 6; ++i)
+    {
+      cropped.Limits.CroppingPlanes[i] = box.Middle[i / 2] + (i % 2 == 0 ? -0.1 : 0.2) * box.Radius;
+    }
+    for (RayScene scene : { uncut, clipped, cropped })
+    {
+      scene.Lights = MakeIsosurfaceLights(scene.Mesh); // a distant one, a positional one, a spot
+      scene.Lights.push_back(MakeLight(true, GetPlace(scene, 1.2, 1.5, 0.4)));
+      scene.Lights.push_back(MakeLight(true, GetPlace(scene, 0.3, -0.2, 0.1))); // inside
+      scene.Lights.push_back(MakeLight(false, { -0.36, 0.48, 0.8 }));
+      for (const bool parallel : { false, true })
+      {
+        scene.Grid = MakeOuterGrid(scene.Mesh, parallel, 67, 51);
+        result.push_back(scene);
+      }
+    }
+  }
+  return result;
+}
+
+TEST(IsosurfaceShadows, GiveTheSameBitsForPolygonsPlacedOnce)
+{
+  for (const RayScene& scene : MakeLitScenes())
+  {
+    for (const bool sampled : { false, true })
+    {
+      IsosurfaceOptions options;
+      options.Shadows = true;
+      options.ShadowSoftness = sampled ? 0.1 : 0;
+      options.AmbientOcclusion = sampled;
+      options.PlaceOnce = false;
+      options.NumberOfThreads = 1;
+      const TracedPicture expected = TracePicture(scene, options);
+      EXPECT_GT(expected.Statistics.Shadow.Packets, 0);
+      options.PlaceOnce = true;
+      for (const int threads : { 1, 3 })
+      {
+        options.NumberOfThreads = threads;
+        const TracedPicture placed = TracePicture(scene, options);
+        EXPECT_TRUE(IsSame(placed, expected)) << threads << " threads";
+        EXPECT_EQ(placed.Statistics.Shadow.Packets, expected.Statistics.Shadow.Packets);
+        // Boxes that fit what the light sees let packets go through fewer nodes.
+        EXPECT_LT(placed.Statistics.Shadow.NodeTests, expected.Statistics.Shadow.NodeTests);
+      }
+    }
+  }
+}
+
 TEST(IsosurfaceShadows, LightAtTheViewerCastsNone)
 {
   RayScene scene = MakeScene("random", { { "cells", 8 } });

@@ -212,6 +212,21 @@ TEST(IsosurfaceTracer, GivesTheSameBitsForPolygonsOnTheFly)
   }
 }
 
+TEST(IsosurfaceTracer, GivesTheSameBitsForPolygonsPlacedOnce)
+{
+  for (const RayScene& scene : MakeSceneOptions())
+  {
+    IsosurfaceOptions options;
+    options.PlaceOnce = false;
+    const TracedPicture expected = TracePicture(scene, options);
+    options.PlaceOnce = true;
+    const TracedPicture placed = TracePicture(scene, options);
+    EXPECT_TRUE(IsSame(placed, expected));
+    // Packets go through nodes by other boxes.
+    EXPECT_NE(placed.Statistics.Primary.NodeTests, expected.Statistics.Primary.NodeTests);
+  }
+}
+
 TEST(IsosurfaceTracer, GivesTheSameBitsForBothTrees)
 {
   // No ray of these scenes goes exactly through an edge, where the first of equal hits counts.
@@ -251,6 +266,11 @@ TEST(IsosurfaceTracer, GivesTheSameBitsForRaysThroughEdges)
       IsosurfaceOptions options;
       const TracedPicture expected = TracePicture(scene, options);
       EXPECT_GT(expected.Statistics.Hits, 1000);
+      for (const bool once : { false, true })
+      {
+        options.PlaceOnce = once;
+        EXPECT_TRUE(IsSame(TracePicture(scene, options), expected));
+      }
       options.Polygons = Isopolygons::OnTheFly;
       EXPECT_TRUE(IsSame(TracePicture(scene, options), expected));
       options.Build = TreeBuild::SurfaceArea;
