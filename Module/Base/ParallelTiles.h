@@ -41,6 +41,10 @@ struct TileGrid
 /// Between two reports of progress: short for a user who wants to abort, long for the work.
 constexpr std::chrono::milliseconds ReportInterval(5);
 
+/// Between two looks of the calling thread at whether others have finished their last tiles: a small
+/// part of a frame of some milliseconds.
+constexpr std::chrono::microseconds WaitInterval(100);
+
 /// Calls cast(tile, thread) once for each tile. threads is at least 1; thread is in 0..threads - 1.
 /// Calls with the same thread never overlap, so each can own memory.
 ///
@@ -108,7 +112,7 @@ bool ForEachTile(
     // The calling thread goes on reporting while others finish their tiles.
     while (omp_get_thread_num() == 0 && progress && !stop && done < count)
     {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::sleep_for(WaitInterval);
       guard(report);
     }
   }
