@@ -106,7 +106,7 @@ vtkSmartPointer<vtkAbstractVolumeMapper> MakeConfiguredMapper(
 bool MayRenderImages(const RenderOptions& options)
 {
   return options.Method == "auto" && options.Isovalues.empty() && options.ColorArray.empty() &&
-    !options.Shade && TakesSettings(ImageMethod, options.Scene.NumberOfThreads, options.Settings);
+    TakesSettings(ImageMethod, options.Scene.NumberOfThreads, options.Settings);
 }
 
 std::vector<MethodChoice> ListMethodsFor(const RenderOptions& options, vtkRenderWindow* window)
