@@ -66,7 +66,7 @@ PictureDifference ExpectOracle(const RayScene& scene, const TracedPicture& pictu
       {
         // What is not a number stays.
         const double difference = std::abs(color[c] - pixel.Rgba[c]);
-        channel = difference <= channel ? channel : difference;
+        channel = std::isnan(channel) || difference <= channel ? channel : difference;
       }
       return depth <= depthTolerance && channel <= tolerance.Channel;
     };

@@ -95,6 +95,9 @@ ReferenceRounding FindRounding(const ImageScene& scene)
   return rounding;
 }
 
+/// What is not a number is larger than any.
+double FindLarger(double a, double b) { return a <= b || std::isnan(b) ? b : a; }
+
 Vector Mix(const Vector& a, const Vector& b, double share)
 {
   Vector result;
@@ -418,9 +421,7 @@ double FindDifference(const CastPicture& a, const CastPicture& b)
   double largest = 0;
   for (std::size_t k = 0; k < a.Colors.size(); ++k)
   {
-    // What is not a number stays.
-    const double difference = std::abs(a.Colors[k] - b.Colors[k]);
-    largest = difference <= largest ? largest : difference;
+    largest = FindLarger(largest, std::abs(a.Colors[k] - b.Colors[k]));
   }
   return largest;
 }
@@ -440,14 +441,12 @@ ImageDifference ExpectReference(const ImageScene& scene, const CastPicture& pict
     double difference = 0;
     for (int c = 0; c < 4; ++c)
     {
-      // What is not a number stays.
-      const double channel = std::abs(color[c] - pixel.Rgba[c]);
-      difference = channel <= difference ? difference : channel;
+      difference = FindLarger(difference, std::abs(color[c] - pixel.Rgba[c]));
     }
     result.Visible += pixel.Rgba[3] > 0;
     result.Off += !(difference <= ErrorOfMost);
     result.FarOff += !(difference <= ErrorOfAll);
-    result.Largest = std::max(result.Largest, difference);
+    result.Largest = FindLarger(result.Largest, difference);
     double doubt = 0;
     if (!(difference <= SampleRounding))
     {
@@ -489,6 +488,19 @@ std::vector<double> MakeSmoothShares(const std::array<int, 3>& dimensions)
     }
   }
   return shares;
+}
+
+ImageScene MakeBallImageScene()
+{
+  ImageScene scene = MakeSmoothImageScene();
+  std::vector<double> shares;
+  for (int p = 0; p < 33 * 20 * 17; ++p)
+  {
+    shares.push_back(1 - std::hypot(p % 33 - 26., p / 33 % 20 - 14., p / 660 - 12.) / 6);
+  }
+  scene.SetValues(ImageScalar::Float, shares);
+  scene.Options.SampleDistance = 0.3;
+  return scene;
 }
 
 ImageScene MakeSmoothImageScene()

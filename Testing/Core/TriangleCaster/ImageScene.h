@@ -108,6 +108,9 @@ std::vector<double> MakeSmoothShares(const std::array<int, 3>& dimensions);
 /// its scalars 0..1, of unit distance 1.
 ImageScene MakeSmoothImageScene();
 
+/// The same with a ball in a corner, around which there is nothing: slices of tiles are skipped.
+ImageScene MakeBallImageScene();
+
 } // namespace tetralux
 
 #endif

@@ -151,6 +151,14 @@ TEST(ImageCaster, DrawsAlongThePlanesOfTheGrid)
       EXPECT_EQ(difference.Visible, points * (2 * scene.Dimensions[up] - 1));
       EXPECT_EQ(difference.Off, 0);
       EXPECT_EQ(difference.DepthsOff, 0);
+      // A clipping plane along the rays, which keeps those within it.
+      scene.Limits.Planes = { {} };
+      scene.Limits.Planes[0][across] = 1;
+      scene.Limits.Planes[0][3] = -1.5;
+      const ImageDifference clipped = ExpectReference(scene, Cast(scene));
+      EXPECT_EQ(clipped.Visible, (points - 3) * (2 * scene.Dimensions[up] - 1));
+      EXPECT_EQ(clipped.Off, 0);
+      scene.Limits.Planes.clear();
     }
   }
 }
@@ -255,6 +263,45 @@ TEST(ImageCaster, KnowsOpticalDepthsOfAnySize)
           ColorError * reference[p].Rgba[0]);
         ASSERT_NEAR(
           picture.Colors[4 * static_cast<std::size_t>(p) + 3], reference[p].Rgba[3], ConstantError);
+      }
+    }
+  }
+}
+
+TEST(ImageCaster, TakesTheUpperSideOfSteps)
+{
+  // Scalars and nodes without rounding, and functions of any number of intervals.
+  ImageScene scene;
+  scene.Dimensions = { 3, 3, 3 };
+  ImagePlacement().Apply(scene, ImagePlacement::Parallel, 9, 9);
+  scene.Optics.Opacity = StepOpacity::Attenuation;
+  scene.Options.Threshold = 0;
+  scene.Options.NumberOfThreads = 1;
+  for (const bool portable : { false, true })
+  {
+    scene.Options.PortableKernels = portable;
+    for (const int nodes : { 3, 5, 9, 17, 33, 257 })
+    {
+      const double step = 256. / (nodes - 1);
+      scene.Optics.Function.Nodes.clear();
+      for (int k = 0; k < nodes; ++k)
+      {
+        const TransferFunction::Value left{ { 0, 0, 1 }, 0 };
+        const TransferFunction::Value right{ { 1, 0, 0 }, 1 };
+        scene.Optics.Function.Nodes.push_back({ k * step, left, right });
+      }
+      for (int k = 0; k < nodes; k += std::max(1, nodes / 16))
+      {
+        SCOPED_TRACE(testing::Message() << nodes << " nodes, at " << k);
+        scene.SetValues(ImageScalar::Float, std::vector<double>(27, k * step));
+        const CastPicture picture = Cast(scene);
+        const std::vector<ReferencePixel> reference = scene.RenderReference();
+        for (int p = 0; p < scene.GetNumberOfPixels(); ++p)
+        {
+          ASSERT_NEAR(picture.Colors[4 * static_cast<std::size_t>(p)],
+            -std::expm1(-reference[p].Length), ConstantError);
+          ASSERT_EQ(picture.Colors[4 * static_cast<std::size_t>(p) + 2], 0);
+        }
       }
     }
   }
@@ -448,16 +495,7 @@ TEST(ImageCaster, GivesTheSameBitsWithoutEmptySpace)
 {
   std::int64_t skipped = 0;
   std::vector<ImageScene> scenes = MakeScenes(60);
-  // A ball in a corner.
-  ImageScene ball = MakeSmoothImageScene();
-  std::vector<double> shares;
-  for (int p = 0; p < 33 * 20 * 17; ++p)
-  {
-    shares.push_back(1 - std::hypot(p % 33 - 26., p / 33 % 20 - 14., p / 660 - 12.) / 6);
-  }
-  ball.SetValues(ImageScalar::Float, shares);
-  ball.Options.SampleDistance = 0.3;
-  scenes.push_back(ball);
+  scenes.push_back(MakeBallImageScene());
   for (ImageScene& scene : scenes)
   {
     scene.Options.SkipEmptySpace = false;
@@ -535,28 +573,34 @@ TEST(ImageCaster, ForgetsWhatChanged)
     caster.SetOptics(scene.Optics);
     EXPECT_TRUE(IsSame(Cast(caster, scene), Cast(scene)));
   }
-  // Other optics, then other values in the same memory.
-  ImageScene scene = MakeSmoothImageScene();
+  // Other optics, by which the space around the ball is no longer empty, then other values in the
+  // same memory.
+  ImageScene scene = MakeBallImageScene();
   caster.SetVolume(scene.GetVolume());
   caster.SetOptics(scene.Optics);
   const CastPicture first = Cast(caster, scene);
   for (TransferFunction::Node& node : scene.Optics.Function.Nodes)
   {
-    node.Scalar -= 0.3;
+    node.Scalar -= 2;
   }
   caster.SetOptics(scene.Optics);
   const CastPicture second = Cast(caster, scene);
   EXPECT_FALSE(IsSame(second, first));
   EXPECT_TRUE(IsSame(second, Cast(scene)));
   std::vector<double> shares = MakeSmoothShares(scene.Dimensions);
-  std::reverse(shares.begin(), shares.end());
   const unsigned char* memory = scene.Values.data();
   scene.SetValues(scene.Type, shares);
   ASSERT_EQ(scene.Values.data(), memory);
+  scene.Optics = MakeSmoothImageScene().Optics;
   caster.SetVolume(scene.GetVolume());
+  caster.SetOptics(scene.Optics);
   const CastPicture third = Cast(caster, scene);
   EXPECT_FALSE(IsSame(third, second));
   EXPECT_TRUE(IsSame(third, Cast(scene)));
+  shares.assign(shares.size(), 1);
+  scene.SetValues(scene.Type, shares);
+  caster.SetVolume(scene.GetVolume()); // without new optics
+  EXPECT_TRUE(IsSame(Cast(caster, scene), Cast(scene)));
 }
 
 //------------------------------------------------------------------------------------------------
