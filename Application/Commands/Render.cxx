@@ -65,7 +65,7 @@ constexpr const char* ImageMethod = "triangle-caster";
 vtkSmartPointer<vtkAbstractVolumeMapper> MakeConfiguredMapper(
   const std::string& method, const RenderOptions& options)
 {
-  const vtkSmartPointer<vtkAbstractVolumeMapper> made =
+  vtkSmartPointer<vtkAbstractVolumeMapper> made =
     MakeMapper(method, options.Scene.NumberOfThreads, options.Settings);
   if (options.MaximumError)
   {
