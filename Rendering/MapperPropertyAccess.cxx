@@ -91,6 +91,8 @@ AccessorMap MakeCasterAccessors()
     ACCESSORS(Caster, InteractiveSampleDistance),
     ACCESSORS(Caster, SliceShape),
     ACCESSORS(Caster, OpacityModel),
+    ACCESSORS(Caster, GradientNorm),
+    ACCESSORS(Caster, PreIntegration),
     ACCESSORS(Caster, CorrectOpacity),
     ACCESSORS(Caster, EndTriangles),
     ACCESSORS(Caster, SkipPixels),

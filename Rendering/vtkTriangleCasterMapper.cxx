@@ -5,6 +5,7 @@
 #include "Frame/CPUDrawing.h"
 #include "Frame/FrameRecord.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/RendererLights.h"
 #include "ImagePreparation/ImageObstacles.h"
 #include "ImagePreparation/ImagePreparation.h"
 #include "Integral/ErrorBudget.h"
@@ -12,11 +13,13 @@
 #include "Properties/PropertySetters.h"
 #include "Report/Json.h"
 #include "TriangleCaster/ImageCaster.h"
+#include "View/MeshToWorld.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +96,8 @@ public:
 private:
   void SetUp(MapperFrame& frame) const;
   PixelRectangle MakePicture(MapperFrame& frame, const tetralux::CPUPicture& picture);
-  tetralux::ImageCasterOptions MakeOptions(MapperFrame& frame) const;
+  tetralux::ImageCasterOptions MakeOptions(const tetralux::RayGrid& grid, MapperFrame& frame) const;
+  double FindBrightness(const tetralux::RayGrid& grid, const MapperFrame& frame) const;
   double ChooseSampleDistance(const MapperFrame& frame) const;
   void Describe(const tetralux::ImageCastStatistics& statistics,
     const tetralux::ImageCasterOptions& options, const tetralux::CPUPicture& picture,
@@ -113,6 +117,8 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVol
   input.Scalars = this->SelectScalars();
   input.Opacity = this->Self->OpacityModel == POWER_OPACITY ? tetralux::StepOpacity::Power
                                                             : tetralux::StepOpacity::Attenuation;
+  input.Norm = this->Self->GradientNorm == EUCLIDEAN_NORM ? tetralux::GradientNorm::Euclidean
+                                                          : tetralux::GradientNorm::Sum;
   input.MaximumError = frame.MaximumError;
   this->Preparation.Update(input);
 
@@ -136,6 +142,13 @@ void vtkTriangleCasterMapper::Internals::SetUp(MapperFrame& frame) const
 {
   frame.Method = "triangle-caster";
   frame.MaximumError = this->Self->MaximumError;
+  vtkVolumeProperty* property = frame.Volume->GetProperty();
+  if (property->GetShade(0) != 0)
+  {
+    frame.Shaded = true;
+    frame.Lights = tetralux::GetRendererLights(frame.Renderer);
+    frame.Surface = tetralux::GetMaterial(property);
+  }
   tetralux::FrameSettings& settings = frame.Settings;
   settings.IntermixIntersectingGeometry = this->Self->IntermixIntersectingGeometry != 0;
   settings.ClippingPlanes = tetralux::GetClippingPlanes(this->Self);
@@ -162,10 +175,10 @@ PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
   MapperFrame& frame, const tetralux::CPUPicture& picture)
 {
   const tetralux::ImagePlacement& placement = this->Preparation.GetPlacement();
-  const tetralux::ImageCasterOptions options = this->MakeOptions(frame);
-  const tetralux::ImageCastStatistics statistics =
-    this->Preparation.Caster.Cast(ToIndices(placement, picture.Grid),
-      ToIndices(placement, picture.Limits), options, picture.Colors, picture.Depths);
+  const tetralux::RayGrid grid = ToIndices(placement, picture.Grid);
+  const tetralux::ImageCasterOptions options = this->MakeOptions(grid, frame);
+  const tetralux::ImageCastStatistics statistics = this->Preparation.Caster.Cast(
+    grid, ToIndices(placement, picture.Limits), options, picture.Colors, picture.Depths);
   frame.Aborted = statistics.Aborted;
   this->Describe(statistics, options, picture, frame);
   return frame.Aborted ? PixelRectangle() : FindCovered(picture);
@@ -173,19 +186,23 @@ PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
 
 //------------------------------------------------------------------------------------------------
 tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
-  MapperFrame& frame) const
+  const tetralux::RayGrid& grid, MapperFrame& frame) const
 {
   tetralux::ErrorSpending spending;
   spending.Approximated = this->Preparation.GetFunctionError() > 0;
   spending.EndsEarly = this->Self->EndTriangles != 0 || this->Self->SkipPixels != 0;
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError, spending);
-  frame.Brightness = std::max(1., tetralux::GetLargestColor(this->Preparation.GetFunction()));
+  frame.Brightness = this->FindBrightness(grid, frame);
 
   tetralux::ImageCasterOptions options;
   options.SampleDistance = this->ChooseSampleDistance(frame);
   options.Shape = this->Self->SliceShape == PLANE_SLICES ? tetralux::SliceShape::Planes
                                                          : tetralux::SliceShape::Shells;
   options.CorrectOpacity = this->Self->CorrectOpacity != 0;
+  options.PreIntegrated = this->Self->PreIntegration != 0;
+  options.Shaded = frame.Shaded;
+  options.Lights = frame.Lights;
+  options.Surface = frame.Surface;
   options.Threshold = frame.Budget.Termination / frame.Brightness;
   options.EndTriangles = this->Self->EndTriangles != 0;
   options.SkipPixels = this->Self->SkipPixels != 0;
@@ -195,6 +212,23 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
   options.NumberOfThreads = this->Self->NumberOfThreads;
   options.Progress = [&frame](double fraction) { return frame.ReportProgress(fraction); };
   return options;
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTriangleCasterMapper::Internals::FindBrightness(
+  const tetralux::RayGrid& grid, const MapperFrame& frame) const
+{
+  const double colors = std::max(1., tetralux::GetLargestColor(this->Preparation.GetFunction()));
+  if (!frame.Shaded)
+  {
+    return colors;
+  }
+  const int* size = this->Preparation.GetScalars().GetVolume().Dimensions;
+  const double center[3] = { 0.5 * (size[0] - 1), 0.5 * (size[1] - 1), 0.5 * (size[2] - 1) };
+  return colors *
+    tetralux::FindLargestBrightness(frame.Lights, frame.Surface, grid.MeshFromWorld, center,
+      std::hypot(center[0], center[1], center[2]),
+      tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Smallest);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -235,6 +269,7 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
   Json slices;
   slices["shape"] = this->Self->GetSliceShapeAsString();
   slices["opacity_model"] = this->Self->GetOpacityModelAsString();
+  slices["pre_integration"] = options.PreIntegrated;
   slices["distance"] = options.SampleDistance;
   slices["slices"] = statistics.Slices;
   slices["tile_size"] = options.TileSize;
@@ -252,6 +287,9 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
   frame.ReportOmission(options.Threshold == 0, "early termination", "MaximumError allows none");
   frame.ReportOmission(
     !options.SkipEmptySpace, "empty space", "SkipEmptySpace is off, so all of it is sampled");
+  frame.ReportOmission(!frame.Shaded, "shading", "Shade is off");
+  frame.ReportOmission(
+    !this->Preparation.HasGradientOpacity(), "gradient opacity", "the property has none");
   frame.ReportOmission(this->Preparation.GetFunctionError() == 0, "subdivided transfer function",
     "it is piecewise linear");
   frame.ReportOmission(this->Preparation.GetScalars().GetNumberOfCopiedBytes() == 0,
@@ -325,6 +363,7 @@ tetraluxSetNumberMacro(vtkTriangleCasterMapper, SampleDistance, double);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, InteractiveSampleDistance, double);
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, SliceShape);
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, OpacityModel);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, GradientNorm);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, TileSize, int);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, NumberOfThreads, int);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, ImageSampleDistance, float);
@@ -366,6 +405,8 @@ void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
   printer.Print("InteractiveSampleDistance", this->InteractiveSampleDistance);
   printer.Print("SliceShape", this->SliceShape);
   printer.Print("OpacityModel", this->OpacityModel);
+  printer.Print("GradientNorm", this->GradientNorm);
+  printer.Print("PreIntegration", this->PreIntegration);
   printer.Print("CorrectOpacity", this->CorrectOpacity);
   printer.Print("EndTriangles", this->EndTriangles);
   printer.Print("SkipPixels", this->SkipPixels);

@@ -19,6 +19,10 @@
  * opacity of a sample is by OpacityModel that of its own length, so a constant volume is exact. The
  * picture approaches the integral along the ray as SampleDistance becomes smaller.
  *
+ * If the property's Shade is on, lights of the renderer shine on the samples, by gradients as
+ * normals, from the side of the viewer: ambient, diffuse and specular (Blinn). Gradient opacity is
+ * a factor of the scalar opacity.
+ *
  * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
  * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper
  * are in world coordinates and keep their positive side. CroppingRegionPlanes are in coordinates of
@@ -30,8 +34,8 @@
  *
  * @warning There are errors for: rectilinear grids, scalars at cells, ghost, hidden and blanked
  * points and cells, two-dimensional transfer functions, more than 2^31 - 1 points. Any BlendMode
- * but COMPOSITE_BLEND is refused. Warnings say that Shade, gradient opacity, functions of labels,
- * and components but the chosen one are not used.
+ * but COMPOSITE_BLEND is refused. Warnings say that functions of labels, and components but the
+ * first one, are not used.
  *
  * @sa vtkFixedPointVolumeRayCastMapper, vtkTetrahedraRayCastMapper
  */
@@ -134,6 +138,40 @@ public:
   const char* GetOpacityModelAsString();
   void SetOpacityModelToPower() { this->SetOpacityModel(POWER_OPACITY); }
   void SetOpacityModelToAttenuation() { this->SetOpacityModel(ATTENUATION_OPACITY); }
+  ///@}
+
+  enum GradientNormType
+  {
+    EUCLIDEAN_NORM,
+    SUM_NORM
+  };
+
+  ///@{
+  /**
+   * Set what length of a gradient the property's gradient opacity is a function of: over the mean
+   * distance of points, as in VTK's mappers. Default EUCLIDEAN_NORM.
+   *
+   * - EUCLIDEAN_NORM (0): the Euclidean norm.
+   * - SUM_NORM (1): the sum of the components' absolute values (Knittel 1999, section 7).
+   */
+  virtual void SetGradientNorm(int norm);
+  vtkGetMacro(GradientNorm, int);
+  const char* GetGradientNormAsString();
+  void SetGradientNormToEuclidean() { this->SetGradientNorm(EUCLIDEAN_NORM); }
+  void SetGradientNormToSum() { this->SetGradientNorm(SUM_NORM); }
+  ///@}
+
+  ///@{
+  /**
+   * Set whether what is between two slices is looked up in a table over the scalars at both, so
+   * that thin features of the transfer function are not missed (Knittel 1999, section 7). Default
+   * off.
+   *
+   * @warning A frame fails with an error if it is on with Shade or gradient opacity.
+   */
+  vtkSetMacro(PreIntegration, vtkTypeBool);
+  vtkGetMacro(PreIntegration, vtkTypeBool);
+  vtkBooleanMacro(PreIntegration, vtkTypeBool);
   ///@}
 
   ///@{
@@ -335,6 +373,8 @@ protected:
   double InteractiveSampleDistance = 0;
   int SliceShape = PLANE_SLICES;
   int OpacityModel = POWER_OPACITY;
+  int GradientNorm = EUCLIDEAN_NORM;
+  vtkTypeBool PreIntegration = 0;
   vtkTypeBool CorrectOpacity = 1;
   vtkTypeBool EndTriangles = 1;
   vtkTypeBool SkipPixels = 1;

@@ -65,7 +65,7 @@ constexpr const char* ImageMethod = "triangle-caster";
 vtkSmartPointer<vtkAbstractVolumeMapper> MakeConfiguredMapper(
   const std::string& method, const RenderOptions& options)
 {
-  const vtkSmartPointer<vtkAbstractVolumeMapper> made =
+  vtkSmartPointer<vtkAbstractVolumeMapper> made =
     MakeMapper(method, options.Scene.NumberOfThreads, options.Settings);
   if (options.MaximumError)
   {
@@ -106,7 +106,7 @@ vtkSmartPointer<vtkAbstractVolumeMapper> MakeConfiguredMapper(
 bool MayRenderImages(const RenderOptions& options)
 {
   return options.Method == "auto" && options.Isovalues.empty() && options.ColorArray.empty() &&
-    !options.Shade && TakesSettings(ImageMethod, options.Scene.NumberOfThreads, options.Settings);
+    TakesSettings(ImageMethod, options.Scene.NumberOfThreads, options.Settings);
 }
 
 std::vector<MethodChoice> ListMethodsFor(const RenderOptions& options, vtkRenderWindow* window)

@@ -34,10 +34,10 @@ struct MethodChoice
 };
 
 /// Lists the methods to try for cells, one after the other. If method is not "auto", it alone.
-/// Else, of isosurfaces, isosurface, if it has all settings. Else, if the window draws on a graphics
-/// card, gpu-ray-cast and projection, as far as they have all settings, and last ray-cast. A number
-/// of threads leaves ray-cast alone, as software OpenGL does: rays are cast faster without it in
-/// every picture that was measured. RankMethods says which one is faster.
+/// Else, of isosurfaces, isosurface, if it has all settings. Else, if the window draws on a
+/// graphics card, gpu-ray-cast and projection, as far as they have all settings, and last ray-cast.
+/// A number of threads leaves ray-cast alone, as software OpenGL does: rays are cast faster without
+/// it in every picture that was measured. RankMethods says which one is faster.
 std::vector<MethodChoice> ListMethods(const std::string& method, vtkRenderWindow* window,
   int numberOfThreads, const std::vector<std::string>& settings, bool isosurfaces = false);
 

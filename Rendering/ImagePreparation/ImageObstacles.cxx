@@ -26,27 +26,6 @@ bool HasFlags(vtkUnsignedCharArray* ghosts)
   return std::any_of(flags.begin(), flags.end(), [](unsigned char flag) { return flag != 0; });
 }
 
-/// Whether a property has a function of gradients that changes opacities: VTK's mappers make one
-/// that does not.
-bool HasGradientOpacity(vtkVolumeProperty* property)
-{
-  if (property->GetDisableGradientOpacity(0) != 0 || !property->HasGradientOpacity(0))
-  {
-    return false;
-  }
-  vtkPiecewiseFunction* function = property->GetGradientOpacity(0);
-  double node[4];
-  for (int i = 0; i < function->GetSize(); ++i)
-  {
-    function->GetNodeValue(i, node);
-    if (node[1] != 1)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 } // namespace
 
 std::string FindObstacle(vtkDataObject* data, const ScalarSelection& selection)
@@ -95,13 +74,30 @@ std::string FindObstacle(vtkVolumeProperty* property)
   return "";
 }
 
+bool HasGradientOpacity(vtkVolumeProperty* property)
+{
+  if (property->GetDisableGradientOpacity(0) != 0 || !property->HasGradientOpacity(0))
+  {
+    return false;
+  }
+  vtkPiecewiseFunction* function = property->GetGradientOpacity(0);
+  double node[4];
+  for (int i = 0; i < function->GetSize(); ++i)
+  {
+    function->GetNodeValue(i, node);
+    if (node[1] != 1)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::string DescribeUnused(vtkVolumeProperty* property, int numberOfComponents, int vectorMode)
 {
   std::string unused;
   const auto add = [&unused](bool isUnused, const char* text)
   { unused += isUnused ? (unused.empty() ? "" : "; ") + std::string(text) : ""; };
-  add(property->GetShade(0) != 0, "Shade is not used");
-  add(HasGradientOpacity(property), "gradient opacity is not used");
   add(property->GetNumberOfLabels() > 0, "functions of labels are not used");
   add(numberOfComponents > 1 && vectorMode == DisabledVectorMode,
     property->GetIndependentComponents() != 0

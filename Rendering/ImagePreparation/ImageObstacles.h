@@ -20,6 +20,10 @@ TETRALUXRENDERING_EXPORT std::string FindObstacle(
 /// Why it can't use a property; empty if it can.
 TETRALUXRENDERING_EXPORT std::string FindObstacle(vtkVolumeProperty* property);
 
+/// Whether a property has a function of gradients that changes opacities: VTK's mappers make one
+/// that does not.
+bool HasGradientOpacity(vtkVolumeProperty* property);
+
 /// What of a property it does not use, in one line; empty if nothing. numberOfComponents: of the
 /// array.
 TETRALUXRENDERING_EXPORT std::string DescribeUnused(

@@ -9,6 +9,8 @@
 
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -39,6 +41,30 @@ double FindLongestPath(const ImageVolume& volume, const double steps[3])
     squares += edge * edge;
   }
   return std::exp2(std::ceil(std::log2(std::sqrt(squares))));
+}
+
+/// Opacities above 1 count as 1.
+void ClampOpacities(TransferFunction& function)
+{
+  for (TransferFunction::Node& node : function.Nodes)
+  {
+    node.Left.Attenuation = std::min(node.Left.Attenuation, 1.);
+    node.Right.Attenuation = std::min(node.Right.Attenuation, 1.);
+  }
+}
+
+/// The gradient opacity of a property, in the place of attenuation; error: receives what
+/// approximating it adds.
+TransferFunction MakeGradientOpacity(
+  vtkVolumeProperty* property, double maximumError, double longestPath, double& error)
+{
+  vtkNew<vtkVolumeProperty> gradients;
+  gradients->SetScalarOpacity(property->GetGradientOpacity(0));
+  PropertyTransferFunction function =
+    TransferFunctionFromProperty(gradients, maximumError, longestPath);
+  error = function.Error;
+  ClampOpacities(function.Function);
+  return std::move(function.Function);
 }
 
 } // namespace
@@ -77,12 +103,22 @@ void ImagePreparation::PrepareFunction(const ImageInput& input)
   double steps[3];
   MeasureSteps(this->Placement, input.Matrix, steps);
   const double longestPath = FindLongestPath(this->Scalars.GetVolume(), steps);
+  const double gradientLength = (steps[0] + steps[1] + steps[2]) / 3; // as VTK has it
   ErrorSpending spending;
   spending.Approximated = true;
   const double maximumError =
     std::max(MakeErrorBudget(input.MaximumError, spending).Functions, SmallestFunctionError);
   CacheKey exactKey = GetPropertyKey(input.Property);
   exactKey.Add(input.Opacity);
+  const bool hasGradients = tetralux::HasGradientOpacity(input.Property);
+  exactKey.Add(hasGradients);
+  if (hasGradients)
+  {
+    exactKey.Add(input.Norm);
+    exactKey.Add(gradientLength);
+    exactKey.Add(input.Property->GetGradientOpacity(0));
+    exactKey.Add(input.Property->GetGradientOpacity(0)->GetMTime());
+  }
   CacheKey key = exactKey;
   key.Add(maximumError);
   key.Add(longestPath);
@@ -99,16 +135,22 @@ void ImagePreparation::PrepareFunction(const ImageInput& input)
   RemoveUnitDistance(function.Function, this->Optics.UnitDistance);
   if (input.Opacity == StepOpacity::Power)
   {
-    for (TransferFunction::Node& node : function.Function.Nodes)
-    {
-      node.Left.Attenuation = std::min(node.Left.Attenuation, 1.);
-      node.Right.Attenuation = std::min(node.Right.Attenuation, 1.);
-    }
+    ClampOpacities(function.Function);
   }
   this->Optics.Function = std::move(function.Function);
   this->Optics.Opacity = input.Opacity;
-  this->Caster.SetOptics(this->Optics);
   this->FunctionError = function.Error;
+  this->Optics.GradientOpacity = TransferFunction();
+  if (hasGradients)
+  {
+    double error;
+    this->Optics.GradientOpacity =
+      MakeGradientOpacity(input.Property, maximumError, longestPath, error);
+    this->Optics.GradientLength = gradientLength;
+    this->Optics.Norm = input.Norm;
+    this->FunctionError += error;
+  }
+  this->Caster.SetOptics(this->Optics);
   this->Function.Set(this->FunctionError == 0 ? exactKey : key);
   this->FunctionSeconds = stopwatch.GetSeconds();
   this->Rebuilt.emplace_back("transfer function");

@@ -31,6 +31,7 @@ struct ImageInput
   vtkMatrix4x4* Matrix = nullptr; ///< of the volume: world from data
   ScalarSelection Scalars;
   StepOpacity Opacity = StepOpacity::Power;
+  GradientNorm Norm = GradientNorm::Euclidean;
   double MaximumError = 1e-4; ///< of a channel, 0..1
 };
 
@@ -51,7 +52,10 @@ public:
   const ImageScalars& GetScalars() const { return this->Scalars; }
   const TransferFunction& GetFunction() const { return this->Optics.Function; }
 
-  /// Error of a channel by colour functions that are not piecewise linear.
+  /// Whether opacities depend on gradients.
+  bool HasGradientOpacity() const { return !this->Optics.GradientOpacity.Nodes.empty(); }
+
+  /// Error of a channel by functions that are not piecewise linear.
   double GetFunctionError() const { return this->FunctionError; }
 
   /// The last Update: which stages were made anew.

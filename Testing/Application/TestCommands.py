@@ -116,6 +116,10 @@ class Commands(ToolTest):
         cells, statistics = self.render_image("--method", "ray-cast")
         self.assertEqual(statistics["tables"]["tetrahedra"], 5 * 13 * 10 * 8)
         self.assertLess(abs(picture - cells).max(), 0.06)
+        lit, statistics = self.render_image(*model, "--shade")
+        self.assertEqual(statistics["method"], "triangle-caster")
+        self.assertNotIn("shading", statistics["left_out"])
+        self.assertGreater(abs(picture - lit).max(), 0.1)
         self.succeed("render", "image.vti", "--size", "40,30", "--output", "out.png")
         self.assertEqual(self.read_png("out.png").shape, (30, 40, 3))
         self.assertGreater(self.read_png("out.png").max(), 0.2)
@@ -135,8 +139,7 @@ class Commands(ToolTest):
         self.write_image("image.vti", values)
         self.assertEqual(self.render_image()[1]["method"], "triangle-caster")
         for arguments in (
-            ["--shade"], ["--isovalues", "20"], ["--set", "BlendMode=additive"],
-            ["--set", "MergePoints=off"],
+            ["--isovalues", "20"], ["--set", "BlendMode=additive"], ["--set", "MergePoints=off"],
         ):
             with self.subTest(arguments=arguments):
                 _, statistics = self.render_image(*arguments)

@@ -27,7 +27,7 @@ CLASSES = {
     ],
     tetralux.vtkTetrahedraIsosurfaceMapper: ["MergePoints", "VectorMode"],
     tetralux.vtkTriangleCasterMapper: [
-        "BlendMode", "OpacityModel", "SliceShape", "VectorMode",
+        "BlendMode", "GradientNorm", "OpacityModel", "SliceShape", "VectorMode",
     ],
     tetralux.vtkPreIntegrationTableSource: ["BlendMode", "Format", "LengthScale", "ScalarAxis"],
     tetralux.vtkMeshedPolyhedraVisibilitySort: ["Order"],

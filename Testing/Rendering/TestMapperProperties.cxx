@@ -341,6 +341,7 @@ TEST_F(MapperProperties, NamesAreThoseOfTheEnumerators)
       { Mapper::BOUNDARY_LAYERS_REENTRY, "boundary-layers" }, { Mapper::NO_REENTRY, "none" } });
   using Caster = vtkTriangleCasterMapper;
   expect("SliceShape", { { Caster::PLANE_SLICES, "planes" }, { Caster::SHELL_SLICES, "shells" } });
+  expect("GradientNorm", { { Caster::EUCLIDEAN_NORM, "euclidean" }, { Caster::SUM_NORM, "sum" } });
   expect("OpacityModel",
     { { Caster::POWER_OPACITY, "power" }, { Caster::ATTENUATION_OPACITY, "attenuation" } });
   EXPECT_EQ(static_cast<int>(Caster::MAGNITUDE_MODE), static_cast<int>(Mapper::MAGNITUDE_MODE));

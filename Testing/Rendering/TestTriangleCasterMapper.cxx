@@ -144,6 +144,96 @@ TEST(TriangleCasterMapper, PictureIsThatOfTetrahedra)
   EXPECT_LE(FindDifference(picture, expected), Tolerance);
 }
 
+/// A field with the same gradient everywhere.
+vtkSmartPointer<vtkImageData> MakeRamp(double x, double y, double z)
+{
+  vtkSmartPointer<vtkImageData> image = MakeImage();
+  for (vtkIdType p = 0; p < image->GetNumberOfPoints(); ++p)
+  {
+    const double* point = image->GetPoint(p);
+    image->GetPointData()->GetScalars()->SetTuple1(
+      p, 50 + x * (point[0] - 6.5) + y * (point[1] - 5) + z * (point[2] - 4));
+  }
+  return image;
+}
+
+// Where all normals are the same, a distant light makes all colours darker by the same share.
+TEST(TriangleCasterMapper, LightsShineBySlopes)
+{
+  ImageScene scene(48, 36);
+  LookAlongZ(scene);
+  scene.Mapper->SetInputData(MakeRamp(3, 0, 4)); // 53 degrees from the viewer
+  const std::vector<float> unlit = scene.Render();
+  vtkVolumeProperty* property = scene.Volume->GetProperty();
+  property->ShadeOn();
+  property->SetAmbient(0.2);
+  property->SetDiffuse(0.7);
+  property->SetSpecular(0);
+  const auto expect = [&](double share, const char* name)
+  {
+    std::vector<float> expected = unlit;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      expected[i] *= static_cast<float>(i % 4 == 3 ? 1 : share);
+    }
+    EXPECT_LE(FindDifference(scene.Render(), expected), Rounding) << name;
+  };
+  expect(0.2 + 0.7 * 0.8, "with the ambient light of the renderer");
+  scene.Renderer->SetAmbient(0, 0, 0);
+  expect(0.7 * 0.8, "the headlight has none");
+}
+
+TEST(TriangleCasterMapper, GradientsWeightOpacities)
+{
+  ImageScene scene(48, 36);
+  LookAlongZ(scene);
+  scene.Mapper->SetMaximumError(0);
+  scene.Mapper->SetInputData(MakeRamp(3, 4, 0));
+  scene.Opacity->RemoveAllPoints();
+  scene.Opacity->AddPoint(0, 0.4);
+  vtkNew<vtkPiecewiseFunction> gradients;
+  gradients->AddPoint(0, 0);
+  gradients->AddPoint(10, 1);
+  scene.Volume->GetProperty()->SetGradientOpacity(gradients);
+  const auto expect = [&](double opacity)
+  { EXPECT_NEAR(GetMiddle(scene.Render(), 48, 36)[3], GetPower(opacity, 8), 1e-5); };
+  expect(0.4 * 0.5);
+  scene.Mapper->SetGradientNormToSum();
+  expect(0.4 * 0.7);
+  gradients->AddPoint(6, 1);
+  expect(0.4);
+  scene.Mapper->SetGradientNormToEuclidean();
+  expect(0.4 * 5 / 6);
+  // Twice as large in all directions, which is no other function.
+  scene.Volume->SetScale(2, 2, 2);
+  EXPECT_NEAR(GetMiddle(scene.Render(), 48, 36)[3], GetPower(0.4 * 5 / 6, 16), 1e-5);
+  scene.Volume->SetScale(1, 1, 1);
+  scene.Volume->GetProperty()->DisableGradientOpacityOn();
+  expect(0.4);
+}
+
+// Slices that are far apart miss what is between them, but not with a table.
+TEST(TriangleCasterMapper, PreIntegratedSlabsMissNothing)
+{
+  constexpr double TexelError = 0.02; // of a table of 256 x 256, by a function as thin as 16 texels
+  ImageScene scene(48, 36);
+  LookAlongZ(scene);
+  scene.Mapper->SetInputData(MakeRamp(0, 0, 8)); // linear along rays, as slabs take it to be
+  scene.Opacity->RemoveAllPoints();
+  for (const auto& [scalar, opacity] :
+    std::vector<std::pair<double, double>>{ { 58, 0 }, { 59, 0.9 }, { 61, 0.9 }, { 62, 0 } })
+  {
+    scene.Opacity->AddPoint(scalar, opacity);
+  }
+  scene.Mapper->SetSampleDistance(0.005);
+  const std::vector<float> exact = scene.Render();
+  scene.Mapper->SetSampleDistance(1);
+  EXPECT_GT(FindDifference(scene.Render(), exact), 10 * TexelError);
+  scene.Mapper->PreIntegrationOn();
+  EXPECT_LE(FindDifference(scene.Render(), exact), TexelError);
+  EXPECT_EQ(scene.Get("pre_integration"), "true");
+}
+
 // Half of the spacing, and less for so few points, as VTK's mappers say.
 TEST(TriangleCasterMapper, SampleDistanceFollowsTheSpacing)
 {

@@ -86,6 +86,16 @@ TEST(TriangleCasterMapperBehavior, RebuildsWhatChanged)
   EXPECT_EQ(RenderAndGetRebuilt(scene), Function);
   scene.Mapper->SetOpacityModelToAttenuation();
   EXPECT_EQ(RenderAndGetRebuilt(scene), Function);
+  vtkNew<vtkPiecewiseFunction> gradients;
+  gradients->AddPoint(0, 1);
+  scene.Volume->GetProperty()->SetGradientOpacity(gradients);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), Nothing); // it changes nothing
+  gradients->AddPoint(5, 0.5);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), Function);
+  scene.Mapper->SetGradientNormToSum();
+  EXPECT_EQ(RenderAndGetRebuilt(scene), Function);
+  scene.Volume->GetProperty()->ShadeOn();
+  EXPECT_EQ(RenderAndGetRebuilt(scene), Nothing);
   // What has to be approximated follows MaximumError.
   scene.Color->SetColorSpaceToLab();
   EXPECT_EQ(RenderAndGetRebuilt(scene), Function);
@@ -464,6 +474,12 @@ TEST(TriangleCasterMapperBehavior, RefusesWhatItLacks)
         GetImage(scene)->SetDirectionMatrix(0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1);
         scene.Mapper->CroppingOn();
       } },
+    { "pre-integrated slabs",
+      [](ImageScene& scene)
+      {
+        scene.Volume->GetProperty()->ShadeOn();
+        scene.Mapper->PreIntegrationOn();
+      } },
     { "distance of slices", [](ImageScene& scene) { scene.Mapper->SetSampleDistance(1e-9); } },
     { "point arrays: none",
       [](ImageScene& scene) { GetImage(scene)->GetPointData()->Initialize(); } },
@@ -494,9 +510,7 @@ TEST(TriangleCasterMapperBehavior, GhostArraysWithoutGhostsAreNoObstacle)
 TEST(TriangleCasterMapperBehavior, WarnsOfWhatItDoesNotUse)
 {
   using Spoil = std::function<void(ImageScene&)>;
-  vtkNew<vtkPiecewiseFunction> gradients;
-  gradients->AddPoint(0, 0);
-  gradients->AddPoint(10, 1);
+  vtkNew<vtkPiecewiseFunction> opacity;
   const auto addComponent = [](ImageScene& scene)
   {
     vtkNew<vtkDoubleArray> two;
@@ -507,12 +521,8 @@ TEST(TriangleCasterMapperBehavior, WarnsOfWhatItDoesNotUse)
     GetImage(scene)->GetPointData()->SetScalars(two);
   };
   const std::vector<std::pair<std::string, Spoil>> cases = {
-    { "Shade", [](ImageScene& scene) { scene.Volume->GetProperty()->ShadeOn(); } },
-    { "gradient opacity",
-      [&](ImageScene& scene) { scene.Volume->GetProperty()->SetGradientOpacity(gradients); } },
     { "labels",
-      [&](ImageScene& scene)
-      { scene.Volume->GetProperty()->SetLabelScalarOpacity(1, gradients); } },
+      [&](ImageScene& scene) { scene.Volume->GetProperty()->SetLabelScalarOpacity(1, opacity); } },
     { "independent components", addComponent },
     { "dependent components",
       [&](ImageScene& scene)
