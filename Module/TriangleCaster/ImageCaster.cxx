@@ -455,12 +455,12 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
     [&](const Tile& tile, int thread) { kernel(in, tile, counts[thread]); });
   statistics.InstructionSet = GetName(set);
   statistics.NumberOfThreads = threads;
-  statistics.Rays = static_cast<std::int64_t>(pixels);
   statistics.Slices = in.Slices.Count;
   for (const Counts& count : counts)
   {
     statistics.Triangles += count.Triangles;
     statistics.Samples += count.Samples;
+    statistics.Rays += count.Rays;
   }
   statistics.TerminationError = in.Threshold;
   return statistics;

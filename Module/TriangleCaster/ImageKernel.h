@@ -132,6 +132,7 @@ struct ImageKernelCounts
 {
   std::int64_t Triangles = 0;
   std::int64_t Samples = 0;
+  std::int64_t Rays = 0; ///< through the volume, and tiles that are not empty
 };
 
 /// Casts the pixels of a tile, whose edges are multiples of TileSize or those of the picture.

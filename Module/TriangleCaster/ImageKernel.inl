@@ -220,6 +220,7 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
           if (!blocks.empty())
           {
             SetUpRays(in, rays[v]);
+            counts.Rays += __builtin_popcount(Bits(LoadInt8(rays[v].HasPart) == Int8(-1)));
           }
         }
         CastTriangle<Value, Model>(in, blocks, rays.data(), count, counts);
