@@ -33,7 +33,7 @@ struct DepthRange
   }
 };
 
-/// The S-triangle of its tile that a pixel is in, 0 or 1: below the diagonal and on it, or above it.
+/// The S-triangle of its tile that a pixel is in: 0 below the diagonal and on it, 1 above it.
 /// x, y: from the tile's lower left pixel. Of a tile of 8 x 8 pixels, 36 and 28 are in each.
 inline int GetTriangleOfPixel(int x, int y) { return x >= y ? 0 : 1; }
 
@@ -44,8 +44,8 @@ struct HullDepths
 };
 
 /// What the paper's two passes through a depth buffer yield: the nearest and the farthest point of
-/// the hulls on the rays of each S-triangle's pixels. A ray that starts within the box around a hull
-/// and meets that hull has its nearest point at its start.
+/// the hulls on the rays of each S-triangle's pixels. A ray that starts in the box around a hull and
+/// meets that hull has its nearest point at its start.
 ///
 /// grid: rays that share their origin or their direction; grid.MeshFromWorld leads to indices of
 /// points. planes: of that grid. threads: at least 1; the result does not depend on it. Throws
@@ -54,9 +54,8 @@ TETRALUXCORE_EXPORT HullDepths FindDepthsOfRays(Span<const VisibleHull> hulls, c
   const SlicePlanes& planes, int tileSize, int threads);
 
 /// The same without gaps between rays: bounds of all points of the hulls, and of what they enclose,
-/// that are seen anywhere in the squares of an S-triangle's pixels, in front of the camera. They may
-/// be wider than that by what is seen within a pixel of the squares, and by rounding, but never
-/// narrower.
+/// that are seen in the squares of an S-triangle's pixels in front of the camera. They may be wider
+/// than that, by what is seen within a pixel of the squares and by rounding, but never narrower.
 TETRALUXCORE_EXPORT HullDepths FindDepthsOfPixels(Span<const VisibleHull> hulls,
   const RayGrid& grid, const SlicePlanes& planes, int tileSize, int threads);
 

@@ -35,7 +35,7 @@ struct VisibleHull
   std::size_t GetNumberOfTriangles() const { return 2 * this->Faces.size(); }
 };
 
-/// The hull of the blocks of blockSize^3 cells that have a visible cell. Blocks begin at cell 0, and
+/// The hull of the blocks of blockSize^3 cells that have a visible cell. Blocks begin at cell 0 and
 /// end where the volume does. With a block size of 1 it is the tight hull.
 ///
 /// cells: along each axis, the volume's points less 1. visible: one byte a cell, x fastest, 0 for a
@@ -45,8 +45,8 @@ TETRALUXCORE_EXPORT VisibleHull MakeVisibleHull(
   const int (&cells)[3], Span<const std::uint8_t> visible, int blockSize);
 
 /// The hull of the smallest blocks of 2^k cells along each edge, k at least 0, that has at most
-/// mostTriangles triangles. Where no blocks have so few, that of one block of all cells. It contains
-/// the tight hull.
+/// mostTriangles triangles. Where no blocks have so few, it is that of one block of all cells. It
+/// contains the tight hull.
 TETRALUXCORE_EXPORT VisibleHull MakeCoarseHull(
   const int (&cells)[3], Span<const std::uint8_t> visible, std::size_t mostTriangles);
 
