@@ -44,8 +44,8 @@ struct HullDepths
 };
 
 /// What the paper's two passes through a depth buffer yield: the nearest and the farthest point of
-/// the hulls on the rays of each S-triangle's pixels. A ray that starts in the box around a hull and
-/// meets that hull has its nearest point at its start.
+/// the hulls on the rays of each S-triangle's pixels. On a ray that starts in the box around a hull
+/// and meets that hull, the nearest point is its start.
 ///
 /// grid: rays that share their origin or their direction; grid.MeshFromWorld leads to indices of
 /// points. planes: of that grid. threads: at least 1; the result does not depend on it. Throws
