@@ -246,7 +246,7 @@ std::string FormatNumber(const char* format, double number)
 /// Widths of the tables' columns.
 constexpr int LabelWidth = 34;
 constexpr int WhoWidth = 6;
-constexpr int NumberWidth = 13;
+constexpr int NumberWidth = 14;
 
 void PrintLine(
   const std::string& label, const std::string& who, const std::vector<std::string>& columns)
@@ -315,7 +315,7 @@ void PrintTable(const std::vector<MeasuredScene>& scenes, TrafficOrder order)
     names = { "P-triangles", "S-triangles" };
   }
   names.insert(names.end(),
-    { "raypoints", "hits", "misses", "texture B", "frame B read", "frame B writ.", "MB/s" });
+    { "raypoints", "hits", "misses", "texture bytes", "frame read", "frame written", "MB/s" });
   std::cout << (triangles
       ? "\nTable 2: all P-triangles of an S-triangle, then the next S-triangle\n"
       : "\nTable 3: one plane at a time, back to front\n");
@@ -346,7 +346,7 @@ void PrintProcessors(const std::vector<MeasuredScene>& scenes)
 {
   std::cout << "\nCaches of processors, lines of 64 bytes, voxels of 1 byte, rows along x; picture "
                "of 256 x 256\n";
-  PrintLine("", "", { "voxels", "misses", "texture B", "MB/s" });
+  PrintLine("", "", { "voxels", "misses", "texture bytes", "MB/s" });
   for (const MeasuredScene& scene : scenes)
   {
     for (const ProcessorCache& processor : scene.Processors)
@@ -382,7 +382,7 @@ double Divide(std::int64_t a, std::int64_t b)
 void PrintSavings(const std::vector<MeasuredScene>& scenes)
 {
   std::cout << "\nHow many times less than in table 3\n";
-  PrintLine("", "", { "texture B", "all B" });
+  PrintLine("", "", { "texture bytes", "all bytes" });
   for (const MeasuredScene& scene : scenes)
   {
     for (const Measured& row : scene.Rows)

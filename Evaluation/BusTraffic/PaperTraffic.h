@@ -22,7 +22,9 @@ enum class TrafficOpacity
 };
 
 /// A volume as the paper shows it. The paper gives neither the camera nor the threshold of the hull
-/// nor the opacities: all of them are fitted to its tables.
+/// nor the opacities. All of them are fitted: view and threshold to the numbers of planes,
+/// S-triangles, P-triangles, raypoints, pixels read and written, and misses of both orders without
+/// early ends; the opacities to the P-triangles that are left with early ends.
 struct PaperScene
 {
   std::string Name;

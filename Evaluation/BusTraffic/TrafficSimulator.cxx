@@ -7,6 +7,7 @@
 #include "TriangleCaster/HullDepths.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace tetralux
@@ -163,7 +164,7 @@ private:
       }
       sum += weight * values[index];
     }
-    return static_cast<int>(sum + 0.5);
+    return static_cast<int>(std::lround(sum));
   }
 
   TrafficCounts Finish()

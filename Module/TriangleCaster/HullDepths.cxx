@@ -168,6 +168,23 @@ public:
       : Dot(this->GetWorldVector(p).data(), direction.data());
   }
 
+  /// Towards the middle of a tile, of length 1. Planes have no use for it.
+  std::array<double, 3> GetBoundDirection(const Tile& tile) const
+  {
+    if (this->Planes.Shape == SliceShape::Planes)
+    {
+      return {};
+    }
+    std::array<double, 3> direction =
+      this->GetWorldDirection(0.5 * (tile.X0 + tile.X1 - 1), 0.5 * (tile.Y0 + tile.Y1 - 1));
+    const double length = std::hypot(direction[0], direction[1], direction[2]);
+    for (double& d : direction)
+    {
+      d /= length;
+    }
+    return direction;
+  }
+
   /// The half-space that is seen where x px + y py + c >= 0 for the pixel (px, py).
   HalfSpace MakeHalfSpace(double x, double y, double c) const
   {
@@ -435,6 +452,18 @@ Polygon CutToTriangle(const Frame& frame, const PlacedFace& placed, const Triang
   return polygon;
 }
 
+/// Adds bounds of the depths of a convex polygon. direction: as of GetDepthBound.
+void AddDepths(const Frame& frame, const FramePoint* points, int count,
+  const std::array<double, 3>& direction, DepthRange& range)
+{
+  for (int p = 0; p < count; ++p)
+  {
+    const double depth = frame.GetDepth(points[p]);
+    const double slack = DepthSlack * depth;
+    range.Add(std::max(frame.GetDepthBound(points[p], direction) - slack, 0.), depth + slack);
+  }
+}
+
 /// Bounds of the depths of the face in the squares of pixels.
 void AddPixels(const Frame& frame, const PlacedFace& placed, HullDepths& depths)
 {
@@ -455,28 +484,24 @@ void AddPixels(const Frame& frame, const PlacedFace& placed, HullDepths& depths)
     {
       const int index = row * tiles.GetColumns() + column;
       const Tile tile = tiles.GetTile(index);
-      const std::array<double, 3> toMiddle =
-        frame.GetWorldDirection(0.5 * (tile.X0 + tile.X1 - 1), 0.5 * (tile.Y0 + tile.Y1 - 1));
-      const double length = std::hypot(toMiddle[0], toMiddle[1], toMiddle[2]);
-      const std::array<double, 3> middle = { toMiddle[0] / length, toMiddle[1] / length,
-        toMiddle[2] / length };
+      const std::array<double, 3> direction = frame.GetBoundDirection(tile);
       for (int half = 0; half < 2; ++half)
       {
         const TriangleEdges edges(tile, half);
+        DepthRange& range = depths.Triangles[2 * index + half];
         if (placed.InFront && !edges.Overlaps(box))
         {
           continue;
         }
-        const bool whole = placed.InFront && (small || edges.Contains(box));
-        const Polygon cut = whole ? Polygon() : CutToTriangle(frame, placed, edges);
-        const FramePoint* points = whole ? placed.Corners.data() : cut.Corners.data();
-        const int count = whole ? static_cast<int>(placed.Corners.size()) : cut.Count;
-        DepthRange& range = depths.Triangles[2 * index + half];
-        for (int p = 0; p < count; ++p)
+        if (placed.InFront && (small || edges.Contains(box)))
         {
-          const double depth = frame.GetDepth(points[p]);
-          const double slack = DepthSlack * depth;
-          range.Add(std::max(frame.GetDepthBound(points[p], middle) - slack, 0.), depth + slack);
+          AddDepths(frame, placed.Corners.data(), static_cast<int>(placed.Corners.size()),
+            direction, range);
+        }
+        else
+        {
+          const Polygon cut = CutToTriangle(frame, placed, edges);
+          AddDepths(frame, cut.Corners.data(), cut.Count, direction, range);
         }
       }
     }

@@ -22,7 +22,6 @@ using tetralux::HullFace;
 using tetralux::RayGrid;
 using tetralux::SlicePlanes;
 using tetralux::SliceShape;
-using tetralux::Span;
 using tetralux::VisibleHull;
 
 using Point = std::array<double, 3>;
