@@ -31,7 +31,7 @@ struct SlicePlanes
 
   /// What the depth grows by along a ray's Direction of RayGrid, that is the depth of Direction.
   /// direction: of the ray.
-  double GetDepthOfDirection(const double direction[3]) const;
+  TETRALUXCORE_EXPORT double GetDepthOfDirection(const double direction[3]) const;
 
   double Normal[3] = { 0, 0, -1 }; ///< of the planes, away from the camera, of length 1
 };
