@@ -41,8 +41,8 @@ struct TileGrid
 /// Between two reports of progress: short for a user who wants to abort, long for the work.
 constexpr std::chrono::milliseconds ReportInterval(5);
 
-/// Between two looks of the calling thread at whether others have finished their last tiles: a small
-/// part of a frame of some milliseconds.
+/// Between two looks of the calling thread at whether others have finished their last tiles: a
+/// small part of a frame of some milliseconds.
 constexpr std::chrono::microseconds WaitInterval(100);
 
 /// Calls cast(tile, thread) once for each tile. threads is at least 1; thread is in 0..threads - 1.
