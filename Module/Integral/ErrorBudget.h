@@ -46,9 +46,8 @@ struct ErrorBudget
 };
 
 /// Rounding takes an eighth, geometry a quarter and functions an eighth, which geometry takes where
-/// they are exact. Of the other half a table, or light, and a buffer take a quarter of all each, and
-/// slices three eighths.
-/// Ending rays early takes what they leave.
+/// they are exact. Of the other half a table, or light, and a buffer take a quarter of all each,
+/// and slices three eighths. Ending rays early takes what they leave.
 inline ErrorBudget MakeErrorBudget(double maximumError, const ErrorSpending& spending)
 {
   ErrorBudget budget;

@@ -4,8 +4,8 @@
 
 // The front and the back of hulls in each S-triangle of a picture (Knittel 1999, section 2.1).
 
-#include "Base/ParallelTiles.h"
 #include "Base/Span.h"
+#include "Base/Tile.h"
 #include "TetraluxCoreModule.h"
 #include "TriangleCaster/SlicePlanes.h"
 #include "TriangleCaster/VisibleHull.h"

@@ -355,6 +355,7 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.EndTriangles = options.EndTriangles;
   in.SkipPixels = options.SkipPixels;
   in.Space = options.SkipEmptySpace ? &this->Space : nullptr;
+  in.Hulls = options.Hulls;
   in.TileSize = std::clamp(options.TileSize, SmallestTile, LargestTile);
   in.Triangles = options.Triangles;
   return in;

@@ -22,7 +22,7 @@ struct ImageCastStatistics
   bool Aborted = false;
   std::string InstructionSet;
   int NumberOfThreads = 0;
-  std::int64_t Rays = 0; ///< through the volume, but those of tiles that show nothing
+  std::int64_t Rays = 0;       ///< through the volume, but those of tiles that show nothing
   std::int64_t Slices = 0;     ///< planes or shells of the picture
   std::int64_t Triangles = 0;  ///< P-triangles that were cast
   std::int64_t Samples = 0;    ///< interpolated, over all rays

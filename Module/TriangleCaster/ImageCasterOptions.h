@@ -11,6 +11,8 @@
 namespace tetralux
 {
 
+struct HullDepths;
+
 struct ImageCasterOptions
 {
   double SampleDistance = 1; ///< from slice to slice, world units, above 0
@@ -36,7 +38,14 @@ struct ImageCasterOptions
   bool EndTriangles = true; ///< TT: an S-triangle ends when all its pixels are opaque
   bool SkipPixels = true;   ///< OP: opaque pixels of others are not sampled any more
 
-  bool SkipEmptySpace = true; ///< slices of an S-triangle that meet nothing visible are left out
+  /// Whether slices of an S-triangle are left out that meet nothing visible, by ranges of scalars
+  /// in blocks of cells.
+  bool SkipEmptySpace = true;
+
+  /// The same by the hulls of what is visible (section 2.1), of tiles of TileSize: what is in front
+  /// of them and behind them is left out. nullptr: nothing is. It costs more than it brings beside
+  /// SkipEmptySpace, which knows what is empty inside, too.
+  const HullDepths* Hulls = nullptr;
 
   /// Tiles are squares of this many pixels, 4 to 64.
   int TileSize = 8;

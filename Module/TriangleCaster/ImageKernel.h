@@ -9,6 +9,7 @@
 #include "Lighting/KernelLighting.h"
 #include "Optics/IntervalTable.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/HullDepths.h"
 #include "TriangleCaster/ImageOptics.h"
 #include "TriangleCaster/ImageVolume.h"
 #include "TriangleCaster/SlicePlanes.h"
@@ -121,6 +122,7 @@ struct ImageKernelInput
   bool EndTriangles;
   bool SkipPixels;
   const EmptySpace* Space; ///< nullptr: nothing is skipped
+  const HullDepths* Hulls; ///< the same
   int TileSize;
   bool Triangles;
 

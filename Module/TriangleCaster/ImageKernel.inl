@@ -210,7 +210,10 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
       const Tile box{ x, y, std::min(x + in.TileSize, tile.X1),
         std::min(y + in.TileSize, tile.Y1) };
       blocks.clear();
-      FindVisibleBlocks(in, TileBeam(in, box), 0, blockCount, blocks);
+      std::int32_t begin = 0;
+      std::int32_t end = blockCount;
+      LimitBlocks(in, box, begin, end);
+      FindVisibleBlocks(in, TileBeam(in, box), begin, end, blocks);
       for (int triangle = in.Triangles ? 0 : -1; triangle < (in.Triangles ? 2 : 0); ++triangle)
       {
         const int count = TakePixels(box, triangle, rays.data());

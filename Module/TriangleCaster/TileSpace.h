@@ -100,6 +100,31 @@ inline void FindVisibleBlocks(const ImageKernelInput& in, const TileBeam& beam, 
   FindVisibleBlocks(in, beam, middle, end, blocks);
 }
 
+/// The blocks of slabs between the front and the back of the hulls in a tile: [begin, end).
+inline void LimitBlocks(
+  const ImageKernelInput& in, const Tile& box, std::int32_t& begin, std::int32_t& end)
+{
+  if (!in.Hulls)
+  {
+    return;
+  }
+  // Far above the rounding of depths, and far below a slab that matters.
+  constexpr double Margin = 1e-6;
+  const int tile = box.Y0 / in.TileSize * in.Hulls->Tiles.GetColumns() + box.X0 / in.TileSize;
+  DepthRange range = in.Hulls->Triangles[2 * tile];
+  range.Add(in.Hulls->Triangles[2 * tile + 1].Front, in.Hulls->Triangles[2 * tile + 1].Back);
+  const double blockDepth = in.Slices.Distance * SlabsOfBlock;
+  const double first = (range.Front - in.Slices.Origin) / blockDepth - Margin;
+  const double last = (range.Back - in.Slices.Origin) / blockDepth + Margin;
+  if (range.IsEmpty() || !(last >= 0) || !(first < end))
+  {
+    end = begin;
+    return;
+  }
+  begin = std::max(begin, static_cast<std::int32_t>(std::max(first, 0.)));
+  end = last < end ? static_cast<std::int32_t>(last) + 1 : end;
+}
+
 } // namespace
 } // namespace TETRALUX_ISA
 } // namespace tetralux
