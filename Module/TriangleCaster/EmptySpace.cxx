@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace tetralux
 {
@@ -29,6 +30,8 @@ void FindRanges(const ImageVolume& volume, const std::int32_t (&size)[3], int th
         const int x1 = std::min((bx + 1) * BlockRanges::BlockSize, volume.Dimensions[0] - 1);
         float low = std::numeric_limits<float>::infinity();
         float high = -low;
+        int finite = 0;
+        int count = 0;
         for (int z = bz * BlockRanges::BlockSize; z <= z1; ++z)
         {
           for (int y = by * BlockRanges::BlockSize; y <= y1; ++y)
@@ -39,10 +42,16 @@ void FindRanges(const ImageVolume& volume, const std::int32_t (&size)[3], int th
               const auto value = static_cast<float>(at[x]);
               low = value < low ? value : low;
               high = value > high ? value : high;
+              if constexpr (std::is_same_v<Value, float>)
+              {
+                finite += std::isfinite(value) ? 1 : 0;
+                ++count;
+              }
             }
           }
         }
-        ranges[(static_cast<std::int64_t>(bz) * size[1] + by) * size[0] + bx] = { low, high };
+        ranges[(static_cast<std::int64_t>(bz) * size[1] + by) * size[0] + bx] = { low, high,
+          finite > 0 && finite < count };
       }
     }
   }
@@ -89,43 +98,9 @@ BlockRanges::Range BlockRanges::GetRange() const
 }
 
 void EmptySpace::Build(
-  const BlockRanges& blocks, const IntervalTable& table, float scale, float offset)
+  const BlockRanges& blocks, const std::function<bool(const BlockRanges::Range&)>& contributes)
 {
   std::copy(blocks.GetSize(), blocks.GetSize() + 3, this->Size);
-  // Interpolated values are rounded, and so is where they lie among the intervals.
-  constexpr float Rounding = 1e-6f;
-  const std::vector<IntervalTable::Interval>& intervals = table.Intervals;
-  // How many intervals before each one contribute.
-  std::vector<int> before(intervals.size() + 1, 0);
-  for (std::size_t k = 0; k < intervals.size(); ++k)
-  {
-    const IntervalTable::Interval& interval = intervals[k];
-    const bool contributes = interval.Attenuation > 0 || interval.AttenuationSlope != 0;
-    before[k + 1] = before[k] + (contributes ? 1 : 0);
-  }
-  const auto isVisible = [&](const BlockRanges::Range& range)
-  {
-    if (!(range.Low <= range.High))
-    {
-      return false;
-    }
-    const float a = offset + scale * range.Low;
-    const float b = offset + scale * range.High;
-    const float margin = Rounding * std::max({ 1.f, std::abs(a), std::abs(b), std::abs(offset) });
-    if (!std::isfinite(margin))
-    {
-      return true;
-    }
-    const float low = std::min(a, b) - margin;
-    const float high = std::max(a, b) + margin;
-    // The first interval that ends at low or above, and the first one that begins above high.
-    const auto first = std::lower_bound(intervals.begin(), intervals.end(), low,
-      [](const IntervalTable::Interval& interval, float x) { return interval.Hi < x; });
-    const auto last = std::upper_bound(intervals.begin(), intervals.end(), high,
-      [](float x, const IntervalTable::Interval& interval) { return x < interval.Lo; });
-    return before[last - intervals.begin()] > before[first - intervals.begin()];
-  };
-
   const std::int64_t nx = this->Size[0] + 1, ny = this->Size[1] + 1, nz = this->Size[2] + 1;
   this->Sums.assign(static_cast<std::size_t>(nx * ny * nz), 0);
   const std::vector<BlockRanges::Range>& ranges = blocks.GetRanges();
@@ -136,7 +111,7 @@ void EmptySpace::Build(
       std::int32_t row = 0;
       for (std::int64_t x = 1; x < nx; ++x)
       {
-        row += isVisible(ranges[((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1]) ? 1 : 0;
+        row += contributes(ranges[((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1]) ? 1 : 0;
         const auto at = [&](std::int64_t j, std::int64_t k)
         { return this->Sums[(k * ny + j) * nx + x]; };
         this->Sums[(z * ny + y) * nx + x] = row + at(y - 1, z) + at(y, z - 1) - at(y - 1, z - 1);

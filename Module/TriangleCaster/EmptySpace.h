@@ -2,14 +2,14 @@
 #ifndef tetralux_EmptySpace_h
 #define tetralux_EmptySpace_h
 
-// Where a volume has anything that is not transparent, outside and inside of its hull: past the
-// hull of Knittel 1999, section 2.1.
+// Where a volume has anything that contributes to a picture, outside and inside of its hull: past
+// the hull of Knittel 1999, section 2.1.
 
-#include "Optics/IntervalTable.h"
 #include "TetraluxCoreModule.h"
 #include "TriangleCaster/ImageVolume.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tetralux
@@ -19,13 +19,13 @@ namespace tetralux
 class TETRALUXCORE_EXPORT BlockRanges
 {
 public:
-  /// Cells along the edge of a block: fine enough for skin and bone, and 1/64 of the volume's
-  /// memory in ranges of 8 bytes.
+  /// Cells along the edge of a block: fine enough for skin and bone, and a range for 64 values.
   static constexpr int BlockSize = 4;
 
   struct Range
   {
-    float Low, High; ///< of the volume's values; Low above High where none is a number
+    float Low, High;    ///< of the volume's values; Low above High where none is a number
+    bool Mixed = false; ///< some values are finite, and some are not
   };
 
   /// threads: at least 1.
@@ -46,8 +46,9 @@ private:
 class TETRALUXCORE_EXPORT EmptySpace
 {
 public:
-  /// table: of the transfer function; a value v lies at x = offset + scale v in it.
-  void Build(const BlockRanges& blocks, const IntervalTable& table, float scale, float offset);
+  /// contributes: whether a block with that range may contribute.
+  void Build(
+    const BlockRanges& blocks, const std::function<bool(const BlockRanges::Range&)>& contributes);
 
   /// Whether no cell that a box meets contributes. low, high: corners in coordinates of the volume.
   bool IsEmpty(const double low[3], const double high[3]) const

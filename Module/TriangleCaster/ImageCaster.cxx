@@ -4,12 +4,15 @@
 #include "Base/ParallelTiles.h"
 #include "Optics/IntervalTable.h"
 #include "Simd/InstructionSet.h"
+#include "TriangleCaster/ContributingValues.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/ImageBlending.h"
 #include "TriangleCaster/ImageKernel.h"
 #include "TriangleCaster/SlabTable.h"
 #include "View/MeshToWorld.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -179,6 +182,15 @@ double FindRadius(const ImageVolume& volume, const RayGrid& grid)
 
 PixelLinear MakeLinear(double value, double stepX, double stepY) { return { value, stepX, stepY }; }
 
+PlaneAlongRays MakePlane(const RayGrid& grid, const std::array<double, 4>& plane)
+{
+  const auto apply = [&plane](const double v[3])
+  { return plane[0] * v[0] + plane[1] * v[1] + plane[2] * v[2]; };
+  return { MakeLinear(
+             apply(grid.Origin) + plane[3], apply(grid.OriginStepX), apply(grid.OriginStepY)),
+    MakeLinear(apply(grid.Direction), apply(grid.DirectionStepX), apply(grid.DirectionStepY)) };
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -199,7 +211,8 @@ public:
   }
   ///@}
   void PrepareBlocks(int threads);
-  void PrepareSpace();
+  /// Finds out what in may skip. Blocks must be prepared.
+  void PrepareSpace(ImageKernelInput& in);
   void PrepareSlabs(const ImageCasterOptions& options);
   void FillGradients(const RayGrid& grid, ImageKernelInput& in) const;
   void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
@@ -212,13 +225,14 @@ public:
   bool HasOptics = false;
   FunctionLookup Function;
   FunctionLookup GradientFunction;
+  SurfaceTable Surfaces;
 
   SlabTable Slabs; ///< of Optics, and the scalars of Volume
 
   BlockRanges Blocks;
   bool BlocksValid = false; ///< of Volume
   EmptySpace Space;
-  bool SpaceValid = false; ///< of Blocks and Table
+  bool SpaceValid = false; ///< of Blocks and Optics
 };
 
 //------------------------------------------------------------------------------------------------
@@ -244,14 +258,17 @@ void ImageCaster::Internals::PrepareBlocks(int threads)
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareSpace()
+void ImageCaster::Internals::PrepareSpace(ImageKernelInput& in)
 {
   if (!this->SpaceValid)
   {
+    const ContributingValues values(in);
     this->Space.Build(
-      this->Blocks, this->Function.Table, this->GetValueScale(), this->GetValueOffset());
+      this->Blocks, [&](const BlockRanges::Range& range) { return values.Include(range); });
     this->SpaceValid = true;
   }
+  in.Space = &this->Space;
+  in.SpaceReach = in.Blend == ImageBlend::Isosurfaces ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -287,12 +304,9 @@ void ImageCaster::Internals::FillRays(
   }
   for (const std::array<double, 4>& plane : limits.Planes)
   {
-    const auto apply = [&plane](const double v[3])
-    { return plane[0] * v[0] + plane[1] * v[1] + plane[2] * v[2]; };
-    in.Planes.push_back({ MakeLinear(apply(grid.Origin) + plane[3], apply(grid.OriginStepX),
-                            apply(grid.OriginStepY)),
-      MakeLinear(apply(grid.Direction), apply(grid.DirectionStepX), apply(grid.DirectionStepY)) });
+    in.Planes.push_back(MakePlane(grid, plane));
   }
+  in.SlicePlane = MakePlane(grid, this->Optics.SlicePlane);
   in.Limits = &limits;
   in.Grid = &grid;
   in.Width = grid.Width;
@@ -335,8 +349,9 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   }
   in.ValueScale = this->GetValueScale();
   in.ValueOffset = this->GetValueOffset();
+  FillBlending(this->Volume, this->Optics, this->Surfaces, in);
   in.Transfer = this->Function.Lookup;
-  if (options.PreIntegrated)
+  if (options.PreIntegrated && in.Blend == ImageBlend::Composite)
   {
     in.Slab.Texels = this->Slabs.GetTexels();
     in.Slab.Size = SlabTable::Size;
@@ -354,8 +369,9 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   this->FillGradients(grid, in);
   in.EndTriangles = options.EndTriangles;
   in.SkipPixels = options.SkipPixels;
-  in.Space = options.SkipEmptySpace ? &this->Space : nullptr;
-  in.Hulls = options.Hulls;
+  // Others change by what is transparent, too.
+  const bool hulls = in.Blend == ImageBlend::Composite || in.Blend == ImageBlend::Additive;
+  in.Hulls = hulls ? options.Hulls : nullptr;
   in.TileSize = std::clamp(options.TileSize, SmallestTile, LargestTile);
   in.Triangles = options.Triangles;
   return in;
@@ -390,6 +406,7 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
   {
     throw std::invalid_argument("the length that gradients are measured over is not above 0");
   }
+  CheckBlending(optics);
   // A function that is not valid changes nothing.
   FunctionLookup function;
   FunctionLookup gradientFunction;
@@ -419,19 +436,20 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   Internals& self = *this->Private;
   self.CheckReady();
   const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
-  if (options.SkipEmptySpace || options.PreIntegrated)
+  const bool slabs = options.PreIntegrated && self.Optics.Blend == ImageBlend::Composite;
+  if (options.SkipEmptySpace || slabs)
   {
     self.PrepareBlocks(threads);
   }
-  if (options.SkipEmptySpace)
-  {
-    self.PrepareSpace();
-  }
-  if (options.PreIntegrated)
+  if (slabs)
   {
     self.PrepareSlabs(options);
   }
   ImageKernelInput in = self.MakeInput(grid, limits, options);
+  if (options.SkipEmptySpace)
+  {
+    self.PrepareSpace(in);
+  }
   in.Colors = colors.data();
   in.Depths = depths.data();
   KernelLighting lighting{};

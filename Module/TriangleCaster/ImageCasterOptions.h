@@ -23,8 +23,8 @@ struct ImageCasterOptions
   bool CorrectOpacity = true;
 
   /// Whether what is between two slices comes from a table over the scalars at both (SlabTable.h),
-  /// so that thin features of the transfer function are not missed. Not with Shaded, nor where
-  /// opacity depends on gradients.
+  /// so that thin features of the transfer function are not missed. ImageBlend::Composite only. Not
+  /// with Shaded, nor where opacity depends on gradients.
   bool PreIntegrated = false;
 
   /// Whether lights shine on samples, from the side of the viewer, by gradients as normals: ambient

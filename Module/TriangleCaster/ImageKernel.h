@@ -74,6 +74,16 @@ struct SlabLookup
   float PerLength = 1; ///< 1 over the length of the table's slabs, in unit distances
 };
 
+/// Surfaces of constant scalar, as a kernel reads them.
+struct SurfaceLookup
+{
+  int Count = 0;
+  float Sign = 1; ///< of the scalar that a value is worth
+  /// Sign times the surfaces' values, ascending with their scalars, between two infinite ones.
+  const float* Bounds = nullptr;
+  const float* Optics = nullptr; ///< red, green, blue and opacity of each, aligned to 16 bytes
+};
+
 struct ImageKernelInput
 {
   // The volume.
@@ -89,6 +99,11 @@ struct ImageKernelInput
   ///@}
 
   // Optics.
+  ImageBlend Blend;
+  float AverageLow, AverageHigh; ///< values that ImageBlend::AverageIntensity counts
+  float GreyScale, GreyOffset;   ///< the grey of a value v is GreyOffset + GreyScale v, within 0..1
+  SurfaceLookup Surfaces;
+  PlaneAlongRays SlicePlane;
   TransferLookup Transfer;
   SlabLookup Slab;
   bool Power; ///< StepOpacity::Power
@@ -123,6 +138,7 @@ struct ImageKernelInput
   bool SkipPixels;
   const EmptySpace* Space; ///< nullptr: nothing is skipped
   const HullDepths* Hulls; ///< the same
+  int SpaceReach;          ///< slabs in front of a sample and behind it that it depends on
   int TileSize;
   bool Triangles;
 

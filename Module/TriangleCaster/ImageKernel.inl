@@ -3,10 +3,15 @@
 // The triangle caster for one instruction set: S-triangles, blocks of slabs, vectors of rays
 // (Knittel 1999, sections 2 and 3).
 
+#include "TriangleCaster/AdditiveModel.h"
+#include "TriangleCaster/AverageModel.h"
 #include "TriangleCaster/CompositeModel.h"
+#include "TriangleCaster/ImageIsosurfaceModel.h"
 #include "TriangleCaster/ImageKernel.h"
 #include "TriangleCaster/ImageRays.h"
 #include "TriangleCaster/ImageSample.h"
+#include "TriangleCaster/ImageSlice.h"
+#include "TriangleCaster/MaximumModel.h"
 #include "TriangleCaster/SlabModel.h"
 #include "TriangleCaster/TileSpace.h"
 
@@ -65,6 +70,7 @@ TETRALUX_NOINLINE void CastBlock(
       }
       Float8 from = 0.f;
       Float8 to = 1.f;
+      sample.Begins = Int8(0) > Int8(0);
       if (!inner)
       {
         const Int8 n = slab;
@@ -75,11 +81,15 @@ TETRALUX_NOINLINE void CastBlock(
         {
           continue;
         }
-        from = Select(first == n, LoadFloat8(rays.Begin[p]), Float8(0.f));
+        sample.Begins = first == n;
+        from = Select(sample.Begins, LoadFloat8(rays.Begin[p]), Float8(0.f));
         to = Select(last == n, LoadFloat8(rays.End[p]), Float8(1.f));
       }
       const Float8 position = static_cast<float>(slab - start);
+      const Float8 middle = Float8(0.5f) * (from + to);
+      sample.Slab = slab;
       sample.Front = Float8(static_cast<float>(slab)) + from;
+      sample.Middle = Float8(static_cast<float>(slab)) + middle;
       sample.Share = to - from;
       sample.Length = stepLength * sample.Share;
       counts.Samples += __builtin_popcount(Bits(sample.Active));
@@ -96,7 +106,7 @@ TETRALUX_NOINLINE void CastBlock(
       }
       else
       {
-        PlaceSample(in, positions, position + Float8(0.5f) * (from + to), sample);
+        PlaceSample(in, positions, position + middle, sample);
         model.Add(in, sample);
       }
     }
@@ -143,9 +153,15 @@ void CastTriangle(const ImageKernelInput& in, const std::vector<std::int32_t>& b
 }
 
 /// Stores the pixels of a vector; of rays that were not set up, if there is nothing to see.
-template <class Model>
-void StorePixels(const ImageKernelInput& in, const ImageRays& rays)
+inline void StorePixels(const ImageKernelInput& in, const ImageRays& rays, const PixelLanes& pixels)
 {
+  float color[4][LaneCount], front[LaneCount];
+  for (int c = 0; c < 3; ++c)
+  {
+    Store(color[c], pixels.Color[c]);
+  }
+  Store(color[3], pixels.Opacity);
+  Store(front, pixels.Front);
   for (int l = 0; l < LaneCount; ++l)
   {
     if (rays.X[l] < 0)
@@ -153,11 +169,12 @@ void StorePixels(const ImageKernelInput& in, const ImageRays& rays)
       continue;
     }
     const std::int64_t pixel = static_cast<std::int64_t>(rays.Y[l]) * in.Width + rays.X[l];
-    float color[4];
-    Model::GetPixel(in, rays, l, color);
-    std::copy(color, color + 4, in.Colors + 4 * pixel);
-    const double depth = in.Slices.Origin + rays.Front[l] * in.Slices.Distance;
-    in.Depths[pixel] = rays.Front[l] < 0.f ? -1.f : static_cast<float>(depth * rays.WorldLength[l]);
+    for (int c = 0; c < 4; ++c)
+    {
+      in.Colors[4 * pixel + c] = color[c][l];
+    }
+    const double depth = in.Slices.Origin + front[l] * in.Slices.Distance;
+    in.Depths[pixel] = front[l] < 0.f ? -1.f : static_cast<float>(depth * rays.WorldLength[l]);
   }
 }
 
@@ -220,7 +237,7 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
         for (int v = 0; v < count; ++v)
         {
           rays[v].Clear();
-          if (!blocks.empty())
+          if (!blocks.empty() || Model::CountsEmptyRays)
           {
             SetUpRays(in, rays[v]);
             counts.Rays += __builtin_popcount(Bits(LoadInt8(rays[v].HasPart) == Int8(-1)));
@@ -229,9 +246,28 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
         CastTriangle<Value, Model>(in, blocks, rays.data(), count, counts);
         for (int v = 0; v < count; ++v)
         {
-          StorePixels<Model>(in, rays[v]);
+          StorePixels(in, rays[v], Model::GetPixels(in, rays[v]));
         }
       }
+    }
+  }
+}
+
+/// Casts the pixels of a tile for ImageBlend::Slice.
+template <class Value>
+void CastSlice(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& counts)
+{
+  constexpr int Rows = 2; // of a vector
+  std::vector<ImageRays> rays(Rows * (tile.X1 - tile.X0) / LaneCount + 1);
+  for (int y = tile.Y0; y < tile.Y1; y += Rows)
+  {
+    const Tile strip{ tile.X0, y, tile.X1, std::min(y + Rows, tile.Y1) };
+    const int count = TakePixels(strip, -1, rays.data());
+    for (int v = 0; v < count; ++v)
+    {
+      rays[v].Clear();
+      SetUpRays(in, rays[v]);
+      StorePixels(in, rays[v], GetSlicePixels<Value>(in, rays[v], counts.Samples));
     }
   }
 }
@@ -254,12 +290,29 @@ ImageKernel ChooseLookup(const ImageKernelInput& in)
 template <class Value>
 ImageKernel ChooseModel(const ImageKernelInput& in)
 {
-  if (in.Slab.Texels)
+  switch (in.Blend)
   {
-    return &CastTile<Value, SlabModel<Value>>;
+    case ImageBlend::MaximumIntensity:
+      return &CastTile<Value, MaximumModel<Value>>;
+    case ImageBlend::MinimumIntensity:
+      return &CastTile<Value, MinimumModel<Value>>;
+    case ImageBlend::AverageIntensity:
+      return ChooseLookup<Value, AverageModel>(in);
+    case ImageBlend::Additive:
+      return ChooseLookup<Value, AdditiveModel>(in);
+    case ImageBlend::Isosurfaces:
+      return &CastTile<Value, ImageIsosurfaceModel<Value>>;
+    case ImageBlend::Slice:
+      return &CastSlice<Value>;
+    default:
+      if (in.Slab.Texels)
+      {
+        return &CastTile<Value, SlabModel<Value>>;
+      }
+      return in.Lighting || in.GradientTransfer.Count > 0
+        ? ChooseLookup<Value, GradientComposite>(in)
+        : ChooseLookup<Value, PlainComposite>(in);
   }
-  return in.Lighting || in.GradientTransfer.Count > 0 ? ChooseLookup<Value, GradientComposite>(in)
-                                                      : ChooseLookup<Value, PlainComposite>(in);
 }
 
 ImageKernel ChooseImageKernel(const ImageKernelInput& in)

@@ -50,13 +50,15 @@ struct TileBeam
     }
   }
 
-  /// Whether it meets nothing visible between two slab positions. Positions are linear over pixels
-  /// and along rays, so the corners bound them.
+  /// Whether it meets nothing that contributes between two slab positions, and within reach of
+  /// them. Positions are linear over pixels and along rays, so the corners bound them.
   bool IsEmpty(const ImageKernelInput& in, double begin, double end) const
   {
     const SlicePlanes& slices = in.Slices;
-    const double ways[2] = { (slices.Origin + begin * slices.Distance) / this->Longest,
-      (slices.Origin + end * slices.Distance) / this->Shortest };
+    const double first = std::max(begin - in.SpaceReach, 0.);
+    const double last = end + in.SpaceReach;
+    const double ways[2] = { (slices.Origin + first * slices.Distance) / this->Longest,
+      (slices.Origin + last * slices.Distance) / this->Shortest };
     double low[3], high[3];
     for (int a = 0; a < 3; ++a)
     {
