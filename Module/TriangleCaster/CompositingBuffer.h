@@ -20,6 +20,8 @@ class CompositingBuffer
 public:
   /// Whether a ray has a pixel even if nothing of it contributes.
   static constexpr bool CountsEmptyRays = false;
+  /// Whether slabs may come in any order.
+  static constexpr bool InAnyOrder = false;
 
   CompositingBuffer(const ImageKernelInput& in, const ImageRays& rays)
     : Translucency(LoadFloat8(rays.Translucency))

@@ -86,6 +86,26 @@ void BlockRanges::Build(const ImageVolume& volume, int threads)
   }
 }
 
+BlockRanges::Range BlockRanges::FindRange(const double low[3], const double high[3]) const
+{
+  const BlockBox box(this->Size, BlockSize, low, high);
+  Range all{ std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity() };
+  for (std::int64_t z = box.From[2]; z < box.To[2]; ++z)
+  {
+    for (std::int64_t y = box.From[1]; y < box.To[1]; ++y)
+    {
+      const Range* row = this->Ranges.data() + (z * this->Size[1] + y) * this->Size[0];
+      for (std::int64_t x = box.From[0]; x < box.To[0]; ++x)
+      {
+        all.Low = std::min(all.Low, row[x].Low);
+        all.High = std::max(all.High, row[x].High);
+        all.Mixed = all.Mixed || row[x].Mixed;
+      }
+    }
+  }
+  return all;
+}
+
 BlockRanges::Range BlockRanges::GetRange() const
 {
   Range all{ std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity() };

@@ -268,6 +268,7 @@ void ImageCaster::Internals::PrepareSpace(ImageKernelInput& in)
     this->SpaceValid = true;
   }
   in.Space = &this->Space;
+  in.Ranges = &this->Blocks;
   in.SpaceReach = in.Blend == ImageBlend::Isosurfaces ? 1 : 0;
 }
 

@@ -136,9 +136,10 @@ struct ImageKernelInput
   // The order of work.
   bool EndTriangles;
   bool SkipPixels;
-  const EmptySpace* Space; ///< nullptr: nothing is skipped
-  const HullDepths* Hulls; ///< the same
-  int SpaceReach;          ///< slabs in front of a sample and behind it that it depends on
+  const EmptySpace* Space;   ///< nullptr: nothing is skipped
+  const HullDepths* Hulls;   ///< the same
+  const BlockRanges* Ranges; ///< nullptr with Space
+  int SpaceReach;            ///< slabs in front of a sample and behind it that it depends on
   int TileSize;
   bool Triangles;
 

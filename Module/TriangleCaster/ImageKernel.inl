@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace tetralux
@@ -115,10 +116,8 @@ TETRALUX_NOINLINE void CastBlock(
   rays.Ended = !Any(hasPart & model.GetOpen()) || start + SlabsOfBlock > rays.LastSlab;
 }
 
-/// Casts one S-triangle, or one tile: rays are set up.
-template <class Value, class Model>
-void CastTriangle(const ImageKernelInput& in, const std::vector<std::int32_t>& blocks,
-  ImageRays* rays, int count, ImageKernelCounts& counts)
+/// How many slabs of a block the rays of vectors go through.
+inline std::int32_t CountSlabs(const ImageRays* rays, int count, std::int32_t block)
 {
   std::int32_t first = NoSlab;
   std::int32_t last = -1;
@@ -127,15 +126,24 @@ void CastTriangle(const ImageKernelInput& in, const std::vector<std::int32_t>& b
     first = std::min(first, rays[v].FirstSlab);
     last = std::max(last, rays[v].LastSlab);
   }
+  const std::int32_t begin = std::max(block * SlabsOfBlock, first);
+  const std::int32_t end = std::min((block + 1) * SlabsOfBlock, last + 1);
+  return std::max(end - begin, 0);
+}
+
+/// Casts one S-triangle, or one tile: rays are set up.
+template <class Value, class Model>
+void CastTriangle(const ImageKernelInput& in, const std::vector<std::int32_t>& blocks,
+  ImageRays* rays, int count, ImageKernelCounts& counts)
+{
   for (const std::int32_t block : blocks)
   {
-    const std::int32_t begin = std::max(block * SlabsOfBlock, first);
-    const std::int32_t end = std::min((block + 1) * SlabsOfBlock, last + 1);
-    if (begin >= end)
+    const std::int32_t slabs = CountSlabs(rays, count, block);
+    if (slabs == 0)
     {
       continue;
     }
-    counts.Triangles += end - begin;
+    counts.Triangles += slabs;
     bool ended = true;
     for (int v = 0; v < count; ++v)
     {
@@ -149,6 +157,53 @@ void CastTriangle(const ImageKernelInput& in, const std::vector<std::int32_t>& b
     {
       return;
     }
+  }
+}
+
+/// A block of slabs, and what no sample in it exceeds.
+struct BoundedBlock
+{
+  float Bound;
+  std::int32_t Block;
+};
+
+/// The same for models that do not depend on the order of slabs: first those blocks that may have
+/// the best samples, so that others need not be cast.
+template <class Value, class Model>
+void CastBestFirst(const ImageKernelInput& in, const TileBeam& beam,
+  const std::vector<std::int32_t>& blocks, ImageRays* rays, int count, ImageKernelCounts& counts)
+{
+  std::vector<BoundedBlock> order;
+  for (const std::int32_t block : blocks)
+  {
+    float bound = std::numeric_limits<float>::infinity();
+    if (in.Ranges)
+    {
+      const double begin = static_cast<double>(block) * SlabsOfBlock;
+      double low[3], high[3];
+      beam.FindBox(in, begin, begin + SlabsOfBlock, low, high);
+      bound = Model::FindBound(in, in.Ranges->FindRange(low, high));
+    }
+    order.push_back({ bound, block });
+  }
+  std::stable_sort(order.begin(), order.end(),
+    [](const BoundedBlock& a, const BoundedBlock& b) { return a.Bound > b.Bound; });
+  for (const BoundedBlock& next : order)
+  {
+    bool settled = true;
+    for (int v = 0; v < count; ++v)
+    {
+      if (!Model::IsSettled(rays[v], next.Bound))
+      {
+        settled = false;
+        CastBlock<Value, Model>(in, rays[v], next.Block, counts);
+      }
+    }
+    if (settled)
+    {
+      return; // and so it is for what is bounded by less
+    }
+    counts.Triangles += CountSlabs(rays, count, next.Block);
   }
 }
 
@@ -227,10 +282,11 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
       const Tile box{ x, y, std::min(x + in.TileSize, tile.X1),
         std::min(y + in.TileSize, tile.Y1) };
       blocks.clear();
+      const TileBeam beam(in, box);
       std::int32_t begin = 0;
       std::int32_t end = blockCount;
       LimitBlocks(in, box, begin, end);
-      FindVisibleBlocks(in, TileBeam(in, box), begin, end, blocks);
+      FindVisibleBlocks(in, beam, begin, end, blocks);
       for (int triangle = in.Triangles ? 0 : -1; triangle < (in.Triangles ? 2 : 0); ++triangle)
       {
         const int count = TakePixels(box, triangle, rays.data());
@@ -243,7 +299,14 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
             counts.Rays += __builtin_popcount(Bits(LoadInt8(rays[v].HasPart) == Int8(-1)));
           }
         }
-        CastTriangle<Value, Model>(in, blocks, rays.data(), count, counts);
+        if constexpr (Model::InAnyOrder)
+        {
+          CastBestFirst<Value, Model>(in, beam, blocks, rays.data(), count, counts);
+        }
+        else
+        {
+          CastTriangle<Value, Model>(in, blocks, rays.data(), count, counts);
+        }
         for (int v = 0; v < count; ++v)
         {
           StorePixels(in, rays[v], Model::GetPixels(in, rays[v]));

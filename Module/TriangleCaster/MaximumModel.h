@@ -8,6 +8,8 @@
 #include "TriangleCaster/ImageSample.h"
 #include "TriangleCaster/ValuePixels.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tetralux
@@ -17,33 +19,20 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Which of two scalars counts.
-///@{
-struct LargerScalar
-{
-  static constexpr float Worst = -std::numeric_limits<float>::infinity();
-  static TETRALUX_INLINE Mask8 IsBetter(Float8 a, Float8 b) { return b < a; }
-};
-struct SmallerScalar
-{
-  static constexpr float Worst = std::numeric_limits<float>::infinity();
-  static TETRALUX_INLINE Mask8 IsBetter(Float8 a, Float8 b) { return a < b; }
-};
-///@}
-
-/// Front is the slab position of the best sample so far.
-template <class Value, class Order>
+/// The largest one for Sign 1, the smallest one for -1. Slabs may come in any order: of several
+/// samples with the same scalar the first one along the ray is kept. Front is its slab position.
+template <class Value, int Sign>
 class ExtremeModel
 {
 public:
   static constexpr bool AtEnds = false;
+  static constexpr bool InAnyOrder = true;
   static constexpr bool CountsEmptyRays = false;
 
   ExtremeModel(const ImageKernelInput&, const ImageRays& rays)
-    : Front(LoadFloat8(rays.Front))
+    : Best(LoadBest(rays))
+    , Front(LoadFloat8(rays.Front))
   {
-    this->Best =
-      Select(this->Front < Float8(0.f), Float8(Order::Worst), LoadFloat8(rays.Kept[BestRow]));
   }
 
   void StoreTo(ImageRays& rays) const
@@ -57,30 +46,55 @@ public:
 
   TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample)
   {
-    const Float8 x = sample.GetScalar<Value>(in);
-    const Mask8 better =
-      sample.Active & Order::IsBetter(x, this->Best) & (Abs(x) <= Float8(LargestScalar));
-    this->Best = Select(better, x, this->Best);
-    this->Front = Select(better, sample.Middle, this->Front);
+    const Float8 x = sample.GetScalar<Value>(in) * Float8(static_cast<float>(Sign));
+    const Mask8 better = (this->Best < x) | ((this->Best == x) & (sample.Middle < this->Front));
+    const Mask8 taken = sample.Active & better & (x <= Float8(LargestScalar));
+    this->Best = Select(taken, x, this->Best);
+    this->Front = Select(taken, sample.Middle, this->Front);
+  }
+
+  /// What no sample of these values exceeds, in units of Best.
+  static float FindBound(const ImageKernelInput& in, const BlockRanges::Range& range)
+  {
+    // Interpolated values are rounded, and so is where they lie among the intervals.
+    constexpr float Rounding = 1e-6f;
+    const float a = Sign * (in.ValueOffset + in.ValueScale * range.Low);
+    const float b = Sign * (in.ValueOffset + in.ValueScale * range.High);
+    const float margin =
+      Rounding * std::max({ 1.f, std::abs(a), std::abs(b), std::abs(in.ValueOffset) });
+    return std::isfinite(margin) ? std::max(a, b) + margin : std::numeric_limits<float>::infinity();
+  }
+
+  /// Whether samples of that bound change no ray.
+  static bool IsSettled(const ImageRays& rays, float bound)
+  {
+    return !Any(AndNot(LoadInt8(rays.HasPart) == Int8(-1), Float8(bound) < LoadBest(rays)));
   }
 
   static PixelLanes GetPixels(const ImageKernelInput& in, const ImageRays& rays)
   {
     const Float8 front = LoadFloat8(rays.Front);
-    return GetValuePixels(in, Float8(0.f) <= front, LoadFloat8(rays.Kept[BestRow]), front);
+    return GetValuePixels(in, Float8(0.f) <= front,
+      LoadFloat8(rays.Kept[BestRow]) * Float8(static_cast<float>(Sign)), front);
   }
 
 private:
-  static constexpr int BestRow = 0; ///< of Kept: the best scalar, where Front is not below 0
+  static constexpr int BestRow = 0; ///< of Kept
 
-  Float8 Best;
+  static TETRALUX_INLINE Float8 LoadBest(const ImageRays& rays)
+  {
+    return Select(LoadFloat8(rays.Front) < Float8(0.f),
+      Float8(-std::numeric_limits<float>::infinity()), LoadFloat8(rays.Kept[BestRow]));
+  }
+
+  Float8 Best; ///< Sign times the best scalar so far; minus infinity where there is none
   Float8 Front;
 };
 
 template <class Value>
-using MaximumModel = ExtremeModel<Value, LargerScalar>;
+using MaximumModel = ExtremeModel<Value, 1>;
 template <class Value>
-using MinimumModel = ExtremeModel<Value, SmallerScalar>;
+using MinimumModel = ExtremeModel<Value, -1>;
 
 } // namespace
 } // namespace TETRALUX_ISA

@@ -50,16 +50,14 @@ struct TileBeam
     }
   }
 
-  /// Whether it meets nothing that contributes between two slab positions, and within reach of
-  /// them. Positions are linear over pixels and along rays, so the corners bound them.
-  bool IsEmpty(const ImageKernelInput& in, double begin, double end) const
+  /// Bounds what is between two slab positions, in coordinates of the volume. Positions are linear
+  /// over pixels and along rays, so the corners bound them.
+  void FindBox(
+    const ImageKernelInput& in, double begin, double end, double (&low)[3], double (&high)[3]) const
   {
     const SlicePlanes& slices = in.Slices;
-    const double first = std::max(begin - in.SpaceReach, 0.);
-    const double last = end + in.SpaceReach;
-    const double ways[2] = { (slices.Origin + first * slices.Distance) / this->Longest,
-      (slices.Origin + last * slices.Distance) / this->Shortest };
-    double low[3], high[3];
+    const double ways[2] = { (slices.Origin + begin * slices.Distance) / this->Longest,
+      (slices.Origin + end * slices.Distance) / this->Shortest };
     for (int a = 0; a < 3; ++a)
     {
       double least = std::numeric_limits<double>::infinity();
@@ -76,6 +74,14 @@ struct TileBeam
       low[a] = least;
       high[a] = most;
     }
+  }
+
+  /// Whether it meets nothing that contributes between two slab positions, and within reach of
+  /// them.
+  bool IsEmpty(const ImageKernelInput& in, double begin, double end) const
+  {
+    double low[3], high[3];
+    this->FindBox(in, std::max(begin - in.SpaceReach, 0.), end + in.SpaceReach, low, high);
     return in.Space->IsEmpty(low, high);
   }
 };
