@@ -1125,6 +1125,37 @@ TEST(ImageBlends, WhatIsTransparentMayBeLargest)
   }
 }
 
+TEST(ImageBlends, TheFirstOfEqualScalarsHasTheDepth)
+{
+  // The same in front and behind, where a corner that no ray meets is looked at first.
+  for (const ImageBlend blend : { ImageBlend::MaximumIntensity, ImageBlend::MinimumIntensity })
+  {
+    const testing::ScopedTrace trace(__FILE__, __LINE__, GetName(blend));
+    std::vector<double> values(160, 10);
+    std::fill(values.begin() + 20, values.begin() + 40, 80);
+    std::fill(values.begin() + 120, values.begin() + 140, 80);
+    Scene scene = MakeLayers(values);
+    scene.At(0, 0, 130) = 100;
+    scene.Optics.Blend = blend;
+    if (blend == ImageBlend::MinimumIntensity)
+    {
+      Invert(scene);
+    }
+    scene.Options.SampleDistance = 0.71;
+    const Picture picture = Cast(scene);
+    ExpectPlain(scene, picture);
+    // Rays begin 3 in front of the volume; the first sample behind 20 is at 0.71 * 28.5.
+    for (const float depth : picture.Depths)
+    {
+      EXPECT_NEAR(depth, 3 + 0.71 * 28.5, 1e-5);
+    }
+    scene.Options.SkipEmptySpace = false;
+    const Picture whole = Cast(scene);
+    EXPECT_TRUE(whole == picture);
+    EXPECT_LT(picture.Statistics.Samples, whole.Statistics.Samples);
+  }
+}
+
 TEST(ImageBlends, SurfacesBesideEmptySpace)
 {
   // Some layers are thinner than the distance of samples, and some are not numbers.
