@@ -167,7 +167,15 @@ struct BoundedBlock
   std::int32_t Block;
 };
 
-/// The same for models that do not depend on the order of slabs: first those blocks that may have
+/// The largest bound first.
+TETRALUX_NOINLINE void SortByBound(std::vector<BoundedBlock>& blocks)
+{
+  std::sort(blocks.begin(), blocks.end(),
+    [](const BoundedBlock& a, const BoundedBlock& b)
+    { return a.Bound > b.Bound || (a.Bound == b.Bound && a.Block < b.Block); });
+}
+
+/// As CastTriangle, for models that do not depend on the order of slabs: first those blocks that may have
 /// the best samples, so that others need not be cast.
 template <class Value, class Model>
 void CastBestFirst(const ImageKernelInput& in, const TileBeam& beam,
@@ -186,8 +194,7 @@ void CastBestFirst(const ImageKernelInput& in, const TileBeam& beam,
     }
     order.push_back({ bound, block });
   }
-  std::stable_sort(order.begin(), order.end(),
-    [](const BoundedBlock& a, const BoundedBlock& b) { return a.Bound > b.Bound; });
+  SortByBound(order);
   for (const BoundedBlock& next : order)
   {
     bool settled = true;

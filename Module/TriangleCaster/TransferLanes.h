@@ -19,7 +19,7 @@ template <int Capacity>
 class FewIntervals
 {
 public:
-  FewIntervals(const TransferLookup& transfer, Float8 x)
+  TETRALUX_INLINE FewIntervals(const TransferLookup& transfer, Float8 x)
     : Transfer(transfer)
     , X(x)
   {
