@@ -175,8 +175,8 @@ TETRALUX_NOINLINE void SortByBound(std::vector<BoundedBlock>& blocks)
     { return a.Bound > b.Bound || (a.Bound == b.Bound && a.Block < b.Block); });
 }
 
-/// As CastTriangle, for models that do not depend on the order of slabs: first those blocks that may have
-/// the best samples, so that others need not be cast.
+/// As CastTriangle, for models that do not depend on the order of slabs: blocks that may have the
+/// best samples come first, so that others need not be cast.
 template <class Value, class Model>
 void CastBestFirst(const ImageKernelInput& in, const TileBeam& beam,
   const std::vector<std::int32_t>& blocks, ImageRays* rays, int count, ImageKernelCounts& counts)
@@ -337,6 +337,7 @@ void CastSlice(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& 
     {
       rays[v].Clear();
       SetUpRays(in, rays[v]);
+      counts.Rays += __builtin_popcount(Bits(LoadInt8(rays[v].HasPart) == Int8(-1)));
       StorePixels(in, rays[v], GetSlicePixels<Value>(in, rays[v], counts.Samples));
     }
   }
