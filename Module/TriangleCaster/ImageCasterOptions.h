@@ -44,8 +44,8 @@ struct ImageCasterOptions
 
   /// The same by the hulls of what is visible (section 2.1), of tiles of TileSize: what is in front
   /// of them and behind them is left out. nullptr: nothing is. It costs more than it brings beside
-  /// SkipEmptySpace, which knows what is empty inside, too. ImageBlend::Composite and Additive only:
-  /// others depend on what is transparent.
+  /// SkipEmptySpace, which knows what is empty inside, too. ImageBlend::Composite and Additive
+  /// only: others depend on what is transparent.
   const HullDepths* Hulls = nullptr;
 
   /// Tiles are squares of this many pixels, 4 to 64.
