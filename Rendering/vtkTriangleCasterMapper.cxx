@@ -6,6 +6,7 @@
 #include "Frame/FrameRecord.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
+#include "ImagePreparation/ImageBlends.h"
 #include "ImagePreparation/ImageObstacles.h"
 #include "ImagePreparation/ImagePreparation.h"
 #include "Integral/ErrorBudget.h"
@@ -145,6 +146,8 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVol
   input.Property = volume->GetProperty();
   input.Matrix = volume->GetMatrix();
   input.Scalars = this->SelectScalars();
+  input.Blend = tetralux::GetImageBlend(this->Self->BlendMode);
+  std::copy_n(this->Self->AverageIPScalarRange, 2, input.AverageRange);
   input.Opacity = this->Self->OpacityModel == POWER_OPACITY ? tetralux::StepOpacity::Power
                                                             : tetralux::StepOpacity::Attenuation;
   input.Norm = this->Self->GradientNorm == EUCLIDEAN_NORM ? tetralux::GradientNorm::Euclidean
@@ -173,7 +176,7 @@ void vtkTriangleCasterMapper::Internals::SetUp(MapperFrame& frame) const
   frame.Method = "triangle-caster";
   frame.MaximumError = this->Self->MaximumError;
   vtkVolumeProperty* property = frame.Volume->GetProperty();
-  if (property->GetShade(0) != 0)
+  if (property->GetShade(0) != 0 && this->Self->BlendMode == COMPOSITE_BLEND)
   {
     frame.Shaded = true;
     frame.Lights = tetralux::GetRendererLights(frame.Renderer);
@@ -235,7 +238,9 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
   tetralux::ErrorSpending spending;
   spending.Approximated = this->Preparation.GetFunctionError() > 0;
   spending.Sliced = this->Self->SampleDistanceByError != 0;
-  spending.EndsEarly = this->Self->EndTriangles != 0 || this->Self->SkipPixels != 0;
+  const bool composites =
+    this->Self->BlendMode == COMPOSITE_BLEND || this->Self->BlendMode == ISOSURFACE_BLEND;
+  spending.EndsEarly = composites && (this->Self->EndTriangles != 0 || this->Self->SkipPixels != 0);
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError, spending);
   frame.Brightness = this->FindBrightness(grid, frame);
 
@@ -346,8 +351,9 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
 
   Json slices;
   slices["shape"] = this->Self->GetSliceShapeAsString();
+  slices["blend_mode"] = this->Self->GetBlendModeAsString();
   slices["opacity_model"] = this->Self->GetOpacityModelAsString();
-  slices["pre_integration"] = options.PreIntegrated;
+  slices["pre_integration"] = options.PreIntegrated && this->Self->BlendMode == COMPOSITE_BLEND;
   slices["distance"] = options.SampleDistance;
   slices["slices"] = statistics.Slices;
   slices["tile_size"] = options.TileSize;
@@ -362,12 +368,15 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
   frame.Errors = { { "early_termination", frame.Brightness * statistics.TerminationError },
     { "summation", frame.Brightness * samples * HalfRounding },
     { "transfer_function", this->Preparation.GetFunctionError() } };
-  frame.ReportOmission(options.Threshold == 0, "early termination", "MaximumError allows none");
+  frame.ReportOmission(
+    options.Threshold == 0, "early termination", "MaximumError and BlendMode allow none");
   frame.ReportOmission(
     !options.SkipEmptySpace, "empty space", "SkipEmptySpace is off, so all of it is sampled");
-  frame.ReportOmission(!frame.Shaded, "shading", "Shade is off");
-  frame.ReportOmission(
-    !this->Preparation.HasGradientOpacity(), "gradient opacity", "the property has none");
+  const bool composite = this->Self->BlendMode == COMPOSITE_BLEND;
+  constexpr const char* CompositeOnly = "composite blending has it only";
+  frame.ReportOmission(!frame.Shaded, "shading", composite ? "Shade is off" : CompositeOnly);
+  frame.ReportOmission(!this->Preparation.HasGradientOpacity(), "gradient opacity",
+    composite ? "the property has none" : CompositeOnly);
   frame.ReportOmission(this->Preparation.GetFunctionError() == 0, "subdivided transfer function",
     "it is piecewise linear");
   frame.ReportOmission(this->Preparation.GetScalars().GetNumberOfCopiedBytes() == 0,
@@ -451,6 +460,23 @@ tetraluxEnumerationMacro(vtkTriangleCasterMapper, VectorMode);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, VectorComponent, int);
 
 //------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetAverageIPScalarRange(double least, double largest)
+{
+  if (std::isnan(least) || std::isnan(largest))
+  {
+    vtkErrorMacro("AverageIPScalarRange: nan is not a scalar");
+    return;
+  }
+  this->Superclass::SetAverageIPScalarRange(least, largest);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetAverageIPScalarRange(const double range[2])
+{
+  this->SetAverageIPScalarRange(range[0], range[1]);
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkTriangleCasterMapper::SetCroppingRegionPlanes(
   double xMin, double xMax, double yMin, double yMax, double zMin, double zMax)
 {
@@ -478,6 +504,8 @@ void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->vtkAbstractVolumeMapper::PrintSelf(os, indent);
   tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("BlendMode", this->BlendMode);
+  printer.Print(
+    "AverageIPScalarRange", this->AverageIPScalarRange[0], this->AverageIPScalarRange[1]);
   printer.Print("MaximumError", this->MaximumError);
   printer.Print("SampleDistance", this->SampleDistance);
   printer.Print("SampleDistanceByError", this->SampleDistanceByError);

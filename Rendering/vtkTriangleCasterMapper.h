@@ -33,9 +33,8 @@
  * volume is then not drawn.
  *
  * @warning There are errors for: rectilinear grids, scalars at cells, ghost, hidden and blanked
- * points and cells, two-dimensional transfer functions, more than 2^31 - 1 points. Any BlendMode
- * but COMPOSITE_BLEND is refused. Warnings say that functions of labels, and components but the
- * first one, are not used.
+ * points and cells, two-dimensional transfer functions, more than 2^31 - 1 points. Warnings say
+ * that functions of labels, and components but the first one, are not used.
  *
  * @sa vtkFixedPointVolumeRayCastMapper, vtkTetrahedraRayCastMapper
  */
@@ -59,10 +58,33 @@ public:
 
   ///@{
   /**
-   * Set what rays gather. Default COMPOSITE_BLEND, the only one.
+   * Set what rays gather, as vtkGPUVolumeRayCastMapper shows it. Default COMPOSITE_BLEND.
+   *
+   * - COMPOSITE_BLEND (0): what emits and absorbs.
+   * - MAXIMUM_INTENSITY_BLEND (1), MINIMUM_INTENSITY_BLEND (2): colour and scalar opacity of the
+   *   largest or smallest scalar.
+   * - AVERAGE_INTENSITY_BLEND (3): mean of scalar opacity times grey of what has its scalar in
+   *   AverageIPScalarRange. Grey is 0 at the least scalar of the volume and 1 at the largest one.
+   * - ADDITIVE_BLEND (4): sum of scalar opacity times grey times length over
+   *   ScalarOpacityUnitDistance, at most 1.
+   * - ISOSURFACE_BLEND (5): the surfaces of the property's IsoSurfaceValues. In VTK they are lit.
+   * - SLICE_BLEND (6): colour and scalar opacity on the plane of the property's SliceFunction, in
+   *   world coordinates. A frame fails with an error if that is no vtkPlane.
+   *
+   * @warning Light, gradient opacity and PreIntegration are of COMPOSITE_BLEND only. A warning says
+   * that others do not use Shade and gradient opacity.
    */
   void SetBlendMode(int mode) override;
   const char* GetBlendModeAsString();
+  ///@}
+
+  ///@{
+  /**
+   * As in the superclass: the scalars that AVERAGE_INTENSITY_BLEND averages, both ends included.
+   * Default -1e38 and 1e38. NaN is refused with an error.
+   */
+  void SetAverageIPScalarRange(double least, double largest) override;
+  void SetAverageIPScalarRange(const double range[2]);
   ///@}
 
   ///@{
@@ -182,7 +204,8 @@ public:
    * that thin features of the transfer function are not missed (Knittel 1999, section 7). Default
    * off.
    *
-   * @warning A frame fails with an error if it is on with Shade or gradient opacity.
+   * @warning A frame of COMPOSITE_BLEND fails with an error if it is on with Shade or gradient
+   * opacity.
    */
   vtkSetMacro(PreIntegration, vtkTypeBool);
   vtkGetMacro(PreIntegration, vtkTypeBool);

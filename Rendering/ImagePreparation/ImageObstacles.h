@@ -4,6 +4,7 @@
 
 #include "Intake/ScalarExtraction.h"
 #include "TetraluxRenderingModule.h"
+#include "TriangleCaster/ImageOptics.h"
 
 #include <string>
 
@@ -27,7 +28,7 @@ bool HasGradientOpacity(vtkVolumeProperty* property);
 /// What of a property it does not use, in one line; empty if nothing. numberOfComponents: of the
 /// array.
 TETRALUXRENDERING_EXPORT std::string DescribeUnused(
-  vtkVolumeProperty* property, int numberOfComponents, int vectorMode);
+  vtkVolumeProperty* property, ImageBlend blend, int numberOfComponents, int vectorMode);
 
 } // namespace tetralux
 

@@ -2,9 +2,11 @@
 #include "ImagePreparation/ImagePreparation.h"
 
 #include "Base/Stopwatch.h"
+#include "ImagePreparation/ImageBlends.h"
 #include "ImagePreparation/ImageObstacles.h"
 #include "Integral/ErrorBudget.h"
 #include "Preparation/InputSignature.h"
+#include "Preparation/IsosurfacesFromProperty.h"
 #include "Preparation/TransferFunctionFromProperty.h"
 
 #include "vtkImageData.h"
@@ -53,6 +55,27 @@ void ClampOpacities(TransferFunction& function)
   }
 }
 
+/// Whether opacities are those of points, not of lengths.
+bool IsOpacityOfPoints(ImageBlend blend)
+{
+  return blend != ImageBlend::Composite && blend != ImageBlend::Additive;
+}
+
+/// What SetBlend fills, and the range of averages.
+void AddBlend(const ImageOptics& optics, CacheKey& key)
+{
+  key.Add(optics.Blend);
+  for (int side = 0; side < 2; ++side)
+  {
+    key.Add(optics.AverageRange[side]);
+    key.Add(optics.GreyRange[side]);
+  }
+  for (const double coefficient : optics.SlicePlane)
+  {
+    key.Add(coefficient);
+  }
+}
+
 /// The gradient opacity of a property, in the place of attenuation; error: receives what
 /// approximating it adds.
 TransferFunction MakeGradientOpacity(
@@ -92,14 +115,17 @@ void ImagePreparation::Update(const ImageInput& input)
     this->Rebuilt.emplace_back("scalars");
   }
   this->Placement = PlaceImage(image);
-  this->PrepareFunction(input);
+  this->PrepareFunction(input, FindSelectedArray(image, input.Scalars));
   this->UnusedWarning.Update(this->Source,
-    DescribeUnused(
-      input.Property, this->Scalars.GetNumberOfComponents(), input.Scalars.VectorMode));
+    DescribeUnused(input.Property, input.Blend, this->Scalars.GetNumberOfComponents(),
+      input.Scalars.VectorMode));
 }
 
-void ImagePreparation::PrepareFunction(const ImageInput& input)
+void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedArray& selected)
 {
+  ImageOptics optics;
+  SetBlend(input.Blend, input.Property, selected, optics);
+  std::copy_n(input.AverageRange, 2, optics.AverageRange);
   double steps[3];
   MeasureSteps(this->Placement, input.Matrix, steps);
   const double longestPath = FindLongestPath(this->Scalars.GetVolume(), steps);
@@ -110,7 +136,9 @@ void ImagePreparation::PrepareFunction(const ImageInput& input)
     std::max(MakeErrorBudget(input.MaximumError, spending).Functions, SmallestFunctionError);
   CacheKey exactKey = GetPropertyKey(input.Property);
   exactKey.Add(input.Opacity);
-  const bool hasGradients = tetralux::HasGradientOpacity(input.Property);
+  AddBlend(optics, exactKey);
+  const bool hasGradients =
+    input.Blend == ImageBlend::Composite && tetralux::HasGradientOpacity(input.Property);
   exactKey.Add(hasGradients);
   if (hasGradients)
   {
@@ -131,26 +159,29 @@ void ImagePreparation::PrepareFunction(const ImageInput& input)
   this->Function.Reset();
   PropertyTransferFunction function =
     TransferFunctionFromProperty(input.Property, maximumError, longestPath);
-  this->Optics.UnitDistance = input.Property->GetScalarOpacityUnitDistance(0);
-  RemoveUnitDistance(function.Function, this->Optics.UnitDistance);
-  if (input.Opacity == StepOpacity::Power)
+  optics.UnitDistance = input.Property->GetScalarOpacityUnitDistance(0);
+  RemoveUnitDistance(function.Function, optics.UnitDistance);
+  if (input.Opacity == StepOpacity::Power || IsOpacityOfPoints(input.Blend))
   {
     ClampOpacities(function.Function);
   }
-  this->Optics.Function = std::move(function.Function);
-  this->Optics.Opacity = input.Opacity;
+  if (input.Blend == ImageBlend::Isosurfaces)
+  {
+    optics.Surfaces = IsosurfacesFromProperty(input.Property, function.Function);
+  }
+  optics.Function = std::move(function.Function);
+  optics.Opacity = input.Opacity;
   this->FunctionError = function.Error;
-  this->Optics.GradientOpacity = TransferFunction();
   if (hasGradients)
   {
     double error;
-    this->Optics.GradientOpacity =
-      MakeGradientOpacity(input.Property, maximumError, longestPath, error);
-    this->Optics.GradientLength = gradientLength;
-    this->Optics.Norm = input.Norm;
+    optics.GradientOpacity = MakeGradientOpacity(input.Property, maximumError, longestPath, error);
+    optics.GradientLength = gradientLength;
+    optics.Norm = input.Norm;
     this->FunctionError += error;
   }
-  this->Caster.SetOptics(this->Optics);
+  this->Caster.SetOptics(optics);
+  this->Optics = std::move(optics);
   this->Function.Set(this->FunctionError == 0 ? exactKey : key);
   this->FunctionSeconds = stopwatch.GetSeconds();
   this->Rebuilt.emplace_back("transfer function");

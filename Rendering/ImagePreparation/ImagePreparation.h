@@ -30,6 +30,8 @@ struct ImageInput
   vtkVolumeProperty* Property = nullptr;
   vtkMatrix4x4* Matrix = nullptr; ///< of the volume: world from data
   ScalarSelection Scalars;
+  ImageBlend Blend = ImageBlend::Composite;
+  double AverageRange[2] = { 0, 0 }; ///< of ImageBlend::AverageIntensity
   StepOpacity Opacity = StepOpacity::Power;
   GradientNorm Norm = GradientNorm::Euclidean;
   double MaximumError = 1e-4; ///< of a channel, 0..1
@@ -67,7 +69,7 @@ public:
   Json DescribeInput() const;
 
 private:
-  void PrepareFunction(const ImageInput& input);
+  void PrepareFunction(const ImageInput& input, const SelectedArray& selected);
 
   vtkObject* Source;
   ImagePlacement Placement;
