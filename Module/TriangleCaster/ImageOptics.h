@@ -3,6 +3,7 @@
 #define tetralux_ImageOptics_h
 
 #include "Optics/TransferFunction.h"
+#include "TriangleCaster/TransferTable.h"
 
 namespace tetralux
 {
@@ -36,6 +37,9 @@ struct ImageOptics
   TransferFunction GradientOpacity;
   double GradientLength = 1; ///< world units, above 0; VTK has the mean spacing of points
   GradientNorm Norm = GradientNorm::Euclidean;
+
+  /// In place of Function and GradientOpacity. Without entries there is none.
+  TransferTable Table;
 };
 
 } // namespace tetralux
