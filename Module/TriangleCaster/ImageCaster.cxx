@@ -6,9 +6,12 @@
 #include "Simd/InstructionSet.h"
 #include "TriangleCaster/ContributingValues.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/GradientVoxels.h"
 #include "TriangleCaster/ImageBlending.h"
 #include "TriangleCaster/ImageKernel.h"
+#include "TriangleCaster/IntensityMap.h"
 #include "TriangleCaster/SlabTable.h"
+#include "TriangleCaster/TransferTableEvaluation.h"
 #include "View/MeshToWorld.h"
 
 #include <algorithm>
@@ -180,6 +183,19 @@ double FindRadius(const ImageVolume& volume, const RayGrid& grid)
   return std::sqrt(squared) * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
 }
 
+/// The factors of depth cueing, once in.Slices is filled.
+void FillCue(const ImageCasterOptions& options, ImageKernelInput& in)
+{
+  const SlicePlanes& slices = in.Slices;
+  for (int c = 0; c < 3; ++c)
+  {
+    const double change = static_cast<double>(options.FarColor[c]) - options.NearColor[c];
+    in.Cue[c] = options.NearColor[c];
+    in.CueStep[c] = static_cast<float>(change * slices.Distance / (slices.Back - slices.Origin));
+    in.Cued = in.Cued || options.NearColor[c] != 1 || options.FarColor[c] != 1;
+  }
+}
+
 PixelLinear MakeLinear(double value, double stepX, double stepY) { return { value, stepX, stepY }; }
 
 PlaneAlongRays MakePlane(const RayGrid& grid, const std::array<double, 4>& plane)
@@ -214,7 +230,9 @@ public:
   /// Finds out what in may skip. Blocks must be prepared.
   void PrepareSpace(ImageKernelInput& in);
   void PrepareSlabs(const ImageCasterOptions& options);
+  void FillTable(ImageKernelInput& in) const;
   void FillGradients(const RayGrid& grid, ImageKernelInput& in) const;
+  void PrepareGradients(const ImageCasterOptions& options, int threads, ImageKernelInput& in);
   void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
   ImageKernelInput MakeInput(
     const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options);
@@ -233,6 +251,10 @@ public:
   bool BlocksValid = false; ///< of Volume
   EmptySpace Space;
   bool SpaceValid = false; ///< of Blocks and Optics
+
+  GradientVoxels Gradients;
+  bool GradientsValid = false; ///< of Volume
+  IntensityMap Intensities;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -314,13 +336,36 @@ void ImageCaster::Internals::FillRays(
 }
 
 //------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillTable(ImageKernelInput& in) const
+{
+  const TransferTable& table = this->Optics.Table;
+  TransferTableLookup& lookup = in.Table;
+  lookup.Entries = table.Entries.data();
+  lookup.Columns = table.Columns;
+  lookup.LastColumn = static_cast<float>(table.Columns - 1);
+  lookup.LastRow = static_cast<float>(table.Rows - 1);
+  const IntervalTable& intervals = this->Function.Table;
+  const double perScalar = (table.Columns - 1) / (table.LastScalar - table.FirstScalar);
+  lookup.ColumnScale = static_cast<float>(perScalar * intervals.Scale);
+  lookup.ColumnOffset = static_cast<float>(perScalar * (intervals.Offset - table.FirstScalar));
+  const double perLength = (table.Rows - 1) / (table.LastLength - table.FirstLength);
+  lookup.RowScale = static_cast<float>(perLength);
+  lookup.RowOffset = static_cast<float>(-perLength * table.FirstLength);
+}
+
+//------------------------------------------------------------------------------------------------
 void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput& in) const
 {
-  if (this->Optics.GradientOpacity.Nodes.empty())
+  if (!this->Optics.Table.Entries.empty())
   {
-    return;
+    this->FillTable(in);
   }
-  in.GradientTransfer = this->GradientFunction.Lookup;
+  else if (!this->Optics.GradientOpacity.Nodes.empty())
+  {
+    in.GradientTransfer = this->GradientFunction.Lookup;
+    in.GradientScale = static_cast<float>(this->GradientFunction.GetScale());
+    in.GradientOffset = static_cast<float>(this->GradientFunction.GetOffset());
+  }
   in.Norm = this->Optics.Norm;
   const double factor = this->Volume.Scale * this->Optics.GradientLength;
   for (int row = 0; row < 3; ++row)
@@ -331,8 +376,29 @@ void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput
       in.WorldGradient[row][column] = static_cast<float>(factor * grid.MeshFromWorld[column][row]);
     }
   }
-  in.GradientScale = static_cast<float>(this->GradientFunction.GetScale());
-  in.GradientOffset = static_cast<float>(this->GradientFunction.GetOffset());
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareGradients(
+  const ImageCasterOptions& options, int threads, ImageKernelInput& in)
+{
+  if (in.Lighting && options.SumOfLights != LightSum::Direct)
+  {
+    this->Intensities.Update(*in.Lighting, *in.Grid, threads);
+    in.Intensities = this->Intensities.GetEntries().data();
+    in.InterpolateIntensities = options.SumOfLights == LightSum::Interpolated;
+  }
+  const bool needed = in.Lighting || in.Table.Entries || in.GradientTransfer.Count > 0;
+  if (needed && options.Gradients == GradientSource::Bytes)
+  {
+    if (!this->GradientsValid)
+    {
+      this->Gradients.Build(this->Volume, threads);
+      this->GradientsValid = true;
+    }
+    in.GradientWords = this->Gradients.GetWords().data();
+    in.GradientWordScale = this->Gradients.GetScale();
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -368,6 +434,7 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.Slices = MakeSlicePlanes(this->Volume, grid, options.Shape, options.SampleDistance);
   this->FillRays(grid, limits, in);
   this->FillGradients(grid, in);
+  FillCue(options, in);
   in.EndTriangles = options.EndTriangles;
   in.SkipPixels = options.SkipPixels;
   // Others change by what is transparent, too.
@@ -394,6 +461,7 @@ void ImageCaster::SetVolume(const ImageVolume& volume)
   this->Private->Volume = volume;
   this->Private->HasVolume = true;
   this->Private->BlocksValid = false;
+  this->Private->GradientsValid = false;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -411,7 +479,15 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
   // A function that is not valid changes nothing.
   FunctionLookup function;
   FunctionLookup gradientFunction;
-  function.Set(optics.Function);
+  if (optics.Table.Entries.empty())
+  {
+    function.Set(optics.Function);
+  }
+  else
+  {
+    CheckTable(optics.Table);
+    function.Set(FindVisibleScalars(optics.Table));
+  }
   if (!optics.GradientOpacity.Nodes.empty())
   {
     gradientFunction.Set(optics.GradientOpacity);
@@ -461,6 +537,7 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
       options.Lights, options.Surface, grid, FindRadius(self.Volume, grid), lighting, lights);
     in.Lighting = &lighting;
   }
+  self.PrepareGradients(options, threads, in);
 
   const InstructionSet set =
     options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();

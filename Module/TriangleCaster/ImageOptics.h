@@ -4,6 +4,7 @@
 
 #include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
+#include "TriangleCaster/TransferTable.h"
 
 #include <array>
 #include <limits>
@@ -91,6 +92,9 @@ struct ImageOptics
 
   /// ImageBlend::Slice: world points with a x + b y + c z + d = 0.
   std::array<double, 4> SlicePlane{ 0, 0, 1, 0 };
+
+  /// In place of Function and GradientOpacity. Without entries there is none.
+  TransferTable Table;
 };
 
 } // namespace tetralux
