@@ -183,16 +183,29 @@ double FindRadius(const ImageVolume& volume, const RayGrid& grid)
   return std::sqrt(squared) * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
 }
 
+/// Whether a table takes the place of the function.
+bool HasTable(const ImageOptics& optics)
+{
+  return optics.Blend == ImageBlend::Composite && !optics.Table.Entries.empty();
+}
+
+bool HasCue(const ImageCasterOptions& options)
+{
+  const auto isOne = [](float factor) { return factor == 1; };
+  return !std::all_of(options.NearColor, options.NearColor + 3, isOne) ||
+    !std::all_of(options.FarColor, options.FarColor + 3, isOne);
+}
+
 /// The factors of depth cueing, once in.Slices is filled.
 void FillCue(const ImageCasterOptions& options, ImageKernelInput& in)
 {
   const SlicePlanes& slices = in.Slices;
+  in.Cued = HasCue(options);
   for (int c = 0; c < 3; ++c)
   {
     const double change = static_cast<double>(options.FarColor[c]) - options.NearColor[c];
     in.Cue[c] = options.NearColor[c];
     in.CueStep[c] = static_cast<float>(change * slices.Distance / (slices.Back - slices.Origin));
-    in.Cued = in.Cued || options.NearColor[c] != 1 || options.FarColor[c] != 1;
   }
 }
 
@@ -297,10 +310,14 @@ void ImageCaster::Internals::PrepareSpace(ImageKernelInput& in)
 //------------------------------------------------------------------------------------------------
 void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options)
 {
-  if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty())
+  if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty() || HasTable(this->Optics))
   {
     throw std::invalid_argument(
       "pre-integrated slabs have no gradients: shading and gradient opacity need them off");
+  }
+  if (HasCue(options))
+  {
+    throw std::invalid_argument("pre-integrated slabs have no depth cueing");
   }
   const BlockRanges::Range range = this->Blocks.GetRange();
   const double a = this->Volume.Offset + this->Volume.Scale * range.Low;
@@ -356,7 +373,7 @@ void ImageCaster::Internals::FillTable(ImageKernelInput& in) const
 //------------------------------------------------------------------------------------------------
 void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput& in) const
 {
-  if (!this->Optics.Table.Entries.empty())
+  if (HasTable(this->Optics))
   {
     this->FillTable(in);
   }
@@ -389,7 +406,7 @@ void ImageCaster::Internals::PrepareGradients(
     in.InterpolateIntensities = options.SumOfLights == LightSum::Interpolated;
   }
   const bool needed = in.Lighting || in.Table.Entries || in.GradientTransfer.Count > 0;
-  if (needed && options.Gradients == GradientSource::Bytes)
+  if (needed && in.Blend == ImageBlend::Composite && options.Gradients == GradientSource::Bytes)
   {
     if (!this->GradientsValid)
     {
@@ -479,14 +496,14 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
   // A function that is not valid changes nothing.
   FunctionLookup function;
   FunctionLookup gradientFunction;
-  if (optics.Table.Entries.empty())
-  {
-    function.Set(optics.Function);
-  }
-  else
+  if (HasTable(optics))
   {
     CheckTable(optics.Table);
     function.Set(FindVisibleScalars(optics.Table));
+  }
+  else
+  {
+    function.Set(optics.Function);
   }
   if (!optics.GradientOpacity.Nodes.empty())
   {

@@ -53,7 +53,7 @@ struct ImageCasterOptions
 
   /// Depth cueing (section 2.2): factors of the colours, red, green and blue, at the front and at
   /// the back of the volume, or at the camera where that is inside. Linear in the depth of
-  /// SlicePlanes; finite.
+  /// SlicePlanes; finite. ImageBlend::Composite only.
   ///@{
   float NearColor[3] = { 1, 1, 1 };
   float FarColor[3] = { 1, 1, 1 };

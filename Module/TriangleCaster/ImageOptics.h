@@ -78,6 +78,10 @@ struct ImageOptics
   double GradientLength = 1; ///< world units, above 0; VTK has the mean spacing of points
   GradientNorm Norm = GradientNorm::Euclidean;
 
+  /// In place of Function and GradientOpacity; ImageBlend::Composite only. Without entries there is
+  /// none.
+  TransferTable Table;
+
   /// ImageBlend::AverageIntensity: scalars that count, both ends included.
   double AverageRange[2] = { -std::numeric_limits<double>::max(),
     std::numeric_limits<double>::max() };
@@ -92,9 +96,6 @@ struct ImageOptics
 
   /// ImageBlend::Slice: world points with a x + b y + c z + d = 0.
   std::array<double, 4> SlicePlane{ 0, 0, 1, 0 };
-
-  /// In place of Function and GradientOpacity. Without entries there is none.
-  TransferTable Table;
 };
 
 } // namespace tetralux

@@ -834,6 +834,19 @@ TEST(ImageDepthCueing, LeavesOpacityAsItIs)
   EXPECT_GT(FindDifference(cued, plain), 0.1);
 }
 
+TEST(ImageDepthCueing, IsNotForSlabs)
+{
+  // Nor are tables.
+  ImageScene scene = MakeScene(ImageScalar::Int16);
+  scene.Options.PreIntegrated = true;
+  EXPECT_NO_THROW(Cast(scene));
+  scene.Options.NearColor[2] = 0.2f;
+  EXPECT_THROW(Cast(scene), std::invalid_argument);
+  scene.Options.NearColor[2] = 1;
+  scene.Optics.Table = MakeRandomTable(4, 4);
+  EXPECT_THROW(Cast(scene), std::invalid_argument);
+}
+
 //------------------------------------------------------------------------------------------------
 // Threads
 
