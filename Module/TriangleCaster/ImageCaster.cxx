@@ -6,9 +6,12 @@
 #include "Simd/InstructionSet.h"
 #include "TriangleCaster/ContributingValues.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/GradientVoxels.h"
 #include "TriangleCaster/ImageBlending.h"
 #include "TriangleCaster/ImageKernel.h"
+#include "TriangleCaster/IntensityMap.h"
 #include "TriangleCaster/SlabTable.h"
+#include "TriangleCaster/TransferTableEvaluation.h"
 #include "View/MeshToWorld.h"
 
 #include <algorithm>
@@ -180,6 +183,32 @@ double FindRadius(const ImageVolume& volume, const RayGrid& grid)
   return std::sqrt(squared) * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
 }
 
+/// Whether a table takes the place of the function.
+bool HasTable(const ImageOptics& optics)
+{
+  return optics.Blend == ImageBlend::Composite && !optics.Table.Entries.empty();
+}
+
+bool HasCue(const ImageCasterOptions& options)
+{
+  const auto isOne = [](float factor) { return factor == 1; };
+  return !std::all_of(options.NearColor, options.NearColor + 3, isOne) ||
+    !std::all_of(options.FarColor, options.FarColor + 3, isOne);
+}
+
+/// The factors of depth cueing, once in.Slices is filled.
+void FillCue(const ImageCasterOptions& options, ImageKernelInput& in)
+{
+  const SlicePlanes& slices = in.Slices;
+  in.Cued = HasCue(options);
+  for (int c = 0; c < 3; ++c)
+  {
+    const double change = static_cast<double>(options.FarColor[c]) - options.NearColor[c];
+    in.Cue[c] = options.NearColor[c];
+    in.CueStep[c] = static_cast<float>(change * slices.Distance / (slices.Back - slices.Origin));
+  }
+}
+
 PixelLinear MakeLinear(double value, double stepX, double stepY) { return { value, stepX, stepY }; }
 
 PlaneAlongRays MakePlane(const RayGrid& grid, const std::array<double, 4>& plane)
@@ -214,7 +243,9 @@ public:
   /// Finds out what in may skip. Blocks must be prepared.
   void PrepareSpace(ImageKernelInput& in);
   void PrepareSlabs(const ImageCasterOptions& options);
+  void FillTable(ImageKernelInput& in) const;
   void FillGradients(const RayGrid& grid, ImageKernelInput& in) const;
+  void PrepareGradients(const ImageCasterOptions& options, int threads, ImageKernelInput& in);
   void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
   ImageKernelInput MakeInput(
     const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options);
@@ -233,6 +264,10 @@ public:
   bool BlocksValid = false; ///< of Volume
   EmptySpace Space;
   bool SpaceValid = false; ///< of Blocks and Optics
+
+  GradientVoxels Gradients;
+  bool GradientsValid = false; ///< of Volume
+  IntensityMap Intensities;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -275,10 +310,14 @@ void ImageCaster::Internals::PrepareSpace(ImageKernelInput& in)
 //------------------------------------------------------------------------------------------------
 void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options)
 {
-  if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty())
+  if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty() || HasTable(this->Optics))
   {
     throw std::invalid_argument(
       "pre-integrated slabs have no gradients: shading and gradient opacity need them off");
+  }
+  if (HasCue(options))
+  {
+    throw std::invalid_argument("pre-integrated slabs have no depth cueing");
   }
   const BlockRanges::Range range = this->Blocks.GetRange();
   const double a = this->Volume.Offset + this->Volume.Scale * range.Low;
@@ -314,13 +353,36 @@ void ImageCaster::Internals::FillRays(
 }
 
 //------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillTable(ImageKernelInput& in) const
+{
+  const TransferTable& table = this->Optics.Table;
+  TransferTableLookup& lookup = in.Table;
+  lookup.Entries = table.Entries.data();
+  lookup.Columns = table.Columns;
+  lookup.LastColumn = static_cast<float>(table.Columns - 1);
+  lookup.LastRow = static_cast<float>(table.Rows - 1);
+  const IntervalTable& intervals = this->Function.Table;
+  const double perScalar = (table.Columns - 1) / (table.LastScalar - table.FirstScalar);
+  lookup.ColumnScale = static_cast<float>(perScalar * intervals.Scale);
+  lookup.ColumnOffset = static_cast<float>(perScalar * (intervals.Offset - table.FirstScalar));
+  const double perLength = (table.Rows - 1) / (table.LastLength - table.FirstLength);
+  lookup.RowScale = static_cast<float>(perLength);
+  lookup.RowOffset = static_cast<float>(-perLength * table.FirstLength);
+}
+
+//------------------------------------------------------------------------------------------------
 void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput& in) const
 {
-  if (this->Optics.GradientOpacity.Nodes.empty())
+  if (HasTable(this->Optics))
   {
-    return;
+    this->FillTable(in);
   }
-  in.GradientTransfer = this->GradientFunction.Lookup;
+  else if (!this->Optics.GradientOpacity.Nodes.empty())
+  {
+    in.GradientTransfer = this->GradientFunction.Lookup;
+    in.GradientScale = static_cast<float>(this->GradientFunction.GetScale());
+    in.GradientOffset = static_cast<float>(this->GradientFunction.GetOffset());
+  }
   in.Norm = this->Optics.Norm;
   const double factor = this->Volume.Scale * this->Optics.GradientLength;
   for (int row = 0; row < 3; ++row)
@@ -331,8 +393,29 @@ void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput
       in.WorldGradient[row][column] = static_cast<float>(factor * grid.MeshFromWorld[column][row]);
     }
   }
-  in.GradientScale = static_cast<float>(this->GradientFunction.GetScale());
-  in.GradientOffset = static_cast<float>(this->GradientFunction.GetOffset());
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareGradients(
+  const ImageCasterOptions& options, int threads, ImageKernelInput& in)
+{
+  if (in.Lighting && options.SumOfLights != LightSum::Direct)
+  {
+    this->Intensities.Update(*in.Lighting, *in.Grid, threads);
+    in.Intensities = this->Intensities.GetEntries().data();
+    in.InterpolateIntensities = options.SumOfLights == LightSum::Interpolated;
+  }
+  const bool needed = in.Lighting || in.Table.Entries || in.GradientTransfer.Count > 0;
+  if (needed && in.Blend == ImageBlend::Composite && options.Gradients == GradientSource::Bytes)
+  {
+    if (!this->GradientsValid)
+    {
+      this->Gradients.Build(this->Volume, threads);
+      this->GradientsValid = true;
+    }
+    in.GradientWords = this->Gradients.GetWords().data();
+    in.GradientWordScale = this->Gradients.GetScale();
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -368,6 +451,7 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.Slices = MakeSlicePlanes(this->Volume, grid, options.Shape, options.SampleDistance);
   this->FillRays(grid, limits, in);
   this->FillGradients(grid, in);
+  FillCue(options, in);
   in.EndTriangles = options.EndTriangles;
   in.SkipPixels = options.SkipPixels;
   // Others change by what is transparent, too.
@@ -394,6 +478,7 @@ void ImageCaster::SetVolume(const ImageVolume& volume)
   this->Private->Volume = volume;
   this->Private->HasVolume = true;
   this->Private->BlocksValid = false;
+  this->Private->GradientsValid = false;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -411,7 +496,15 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
   // A function that is not valid changes nothing.
   FunctionLookup function;
   FunctionLookup gradientFunction;
-  function.Set(optics.Function);
+  if (HasTable(optics))
+  {
+    CheckTable(optics.Table);
+    function.Set(FindVisibleScalars(optics.Table));
+  }
+  else
+  {
+    function.Set(optics.Function);
+  }
   if (!optics.GradientOpacity.Nodes.empty())
   {
     gradientFunction.Set(optics.GradientOpacity);
@@ -461,6 +554,7 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
       options.Lights, options.Surface, grid, FindRadius(self.Volume, grid), lighting, lights);
     in.Lighting = &lighting;
   }
+  self.PrepareGradients(options, threads, in);
 
   const InstructionSet set =
     options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();

@@ -34,7 +34,8 @@ struct ImageCastStatistics
 /// part of the volume stay in the first-level cache. Tiles go over the threads of OpenMP; the
 /// picture does not depend on the number of threads.
 ///
-/// Keeps what it finds out about a volume: smallest and largest scalar of its blocks.
+/// Keeps what it finds out about a volume: smallest and largest scalar of its blocks, and gradients
+/// where options ask for stored ones.
 class TETRALUXCORE_EXPORT ImageCaster
 {
 public:

@@ -13,6 +13,21 @@ namespace tetralux
 
 struct HullDepths;
 
+/// Where gradients come from (Knittel 1999, section 7).
+enum class GradientSource
+{
+  OnTheFly, ///< differences of values, for each sample
+  Bytes     ///< stored at the points of the volume, 8 bits a component, 4 bytes a point
+};
+
+/// How lights are summed up (section 7).
+enum class LightSum
+{
+  Direct,       ///< for each sample
+  NearestEntry, ///< once for each direction of a map of 5 bits; distant lights only
+  Interpolated  ///< between four directions of that map
+};
+
 struct ImageCasterOptions
 {
   double SampleDistance = 1; ///< from slice to slice, world units, above 0
@@ -24,7 +39,7 @@ struct ImageCasterOptions
 
   /// Whether what is between two slices comes from a table over the scalars at both (SlabTable.h),
   /// so that thin features of the transfer function are not missed. ImageBlend::Composite only. Not
-  /// with Shaded, nor where opacity depends on gradients.
+  /// with Shaded or depth cueing, nor where opacity depends on gradients.
   bool PreIntegrated = false;
 
   /// Whether lights shine on samples, from the side of the viewer, by gradients as normals: ambient
@@ -32,6 +47,17 @@ struct ImageCasterOptions
   bool Shaded = false;
   std::vector<Light> Lights;
   Material Surface;
+  LightSum SumOfLights = LightSum::Direct;
+
+  GradientSource Gradients = GradientSource::OnTheFly;
+
+  /// Depth cueing (section 2.2): factors of the colours, red, green and blue, at the front and at
+  /// the back of the volume, or at the camera where that is inside. Linear in the depth of
+  /// SlicePlanes; finite. ImageBlend::Composite only.
+  ///@{
+  float NearColor[3] = { 1, 1, 1 };
+  float FarColor[3] = { 1, 1, 1 };
+  ///@}
 
   /// A pixel is opaque when its translucency is below this, 0..1 (section 3.2).
   double Threshold = 1. / 255;

@@ -12,6 +12,7 @@
 #include "TriangleCaster/HullDepths.h"
 #include "TriangleCaster/ImageOptics.h"
 #include "TriangleCaster/ImageVolume.h"
+#include "TriangleCaster/IntensityMap.h"
 #include "TriangleCaster/SlicePlanes.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
@@ -84,6 +85,23 @@ struct SurfaceLookup
   const float* Optics = nullptr; ///< red, green, blue and opacity of each, aligned to 16 bytes
 };
 
+/// A table over scalars and gradients as a kernel looks it up.
+struct TransferTableLookup
+{
+  const TransferTable::Entry* Entries = nullptr; ///< nullptr: there is none
+  std::int32_t Columns = 0;
+  float LastColumn = 0;
+  float LastRow = 0;
+  /// The column of a scalar at x among the intervals of the transfer function is ColumnOffset +
+  /// ColumnScale x, and the row of a gradient length is RowOffset + RowScale length.
+  ///@{
+  float ColumnScale = 0;
+  float ColumnOffset = 0;
+  float RowScale = 0;
+  float RowOffset = 0;
+  ///@}
+};
+
 struct ImageKernelInput
 {
   // The volume.
@@ -121,6 +139,20 @@ struct ImageKernelInput
   float WorldGradient[3][3];
   float GradientScale;
   float GradientOffset;
+  ///@}
+  /// Colours and opacities in place of those of Transfer, which then tells where there are any.
+  TransferTableLookup Table;
+  const float* GradientWords; ///< of GradientVoxels; nullptr: gradients are found on the fly
+  float GradientWordScale;
+  const IntensityMap::Entry* Intensities; ///< nullptr: lights are summed up directly
+  bool InterpolateIntensities;
+
+  /// Factors of colours that are linear in the slab position: those at 0, and what they grow by in
+  /// a slab.
+  ///@{
+  bool Cued;
+  float Cue[3];
+  float CueStep[3];
   ///@}
 
   // Rays: their starts and directions in coordinates of the volume, and directions in the world.

@@ -380,6 +380,10 @@ ImageKernel ChooseModel(const ImageKernelInput& in)
       {
         return &CastTile<Value, SlabModel<Value>>;
       }
+      if (in.GradientWords || in.Intensities || in.Table.Entries)
+      {
+        return ChooseLookup<Value, PreparedComposite>(in);
+      }
       return in.Lighting || in.GradientTransfer.Count > 0
         ? ChooseLookup<Value, GradientComposite>(in)
         : ChooseLookup<Value, PlainComposite>(in);

@@ -4,6 +4,7 @@
 
 #include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
+#include "TriangleCaster/TransferTable.h"
 
 #include <array>
 #include <limits>
@@ -76,6 +77,10 @@ struct ImageOptics
   TransferFunction GradientOpacity;
   double GradientLength = 1; ///< world units, above 0; VTK has the mean spacing of points
   GradientNorm Norm = GradientNorm::Euclidean;
+
+  /// In place of Function and GradientOpacity; ImageBlend::Composite only. Without entries there is
+  /// none.
+  TransferTable Table;
 
   /// ImageBlend::AverageIntensity: scalars that count, both ends included.
   double AverageRange[2] = { -std::numeric_limits<double>::max(),
