@@ -99,6 +99,10 @@ AccessorMap MakeCasterAccessors()
     { "AverageIPScalarRange",
       MakeArrayAccessors<Caster>(
         2, &Caster::GetAverageIPScalarRange, &Caster::SetAverageIPScalarRange) },
+    { "NearColor", MakeArrayAccessors<Caster>(3, &Caster::GetNearColor, &Caster::SetNearColor) },
+    { "FarColor", MakeArrayAccessors<Caster>(3, &Caster::GetFarColor, &Caster::SetFarColor) },
+    ACCESSORS(Caster, GradientSource),
+    ACCESSORS(Caster, LightSum),
     ACCESSORS(Caster, SampleDistance),
     ACCESSORS(Caster, SampleDistanceByError),
     ACCESSORS(Caster, InteractiveSampleDistance),

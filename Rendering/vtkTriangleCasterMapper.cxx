@@ -79,6 +79,35 @@ PixelRectangle FindCovered(const tetralux::CPUPicture& picture)
                    : PixelRectangle{ left, lower, right + 1 - left, upper + 1 - lower };
 }
 
+tetralux::LightSum ToLightSum(int sum)
+{
+  switch (sum)
+  {
+    case vtkTriangleCasterMapper::NEAREST_ENTRY_SUM:
+      return tetralux::LightSum::NearestEntry;
+    case vtkTriangleCasterMapper::INTERPOLATED_SUM:
+      return tetralux::LightSum::Interpolated;
+    default: // SetLightSum refuses all others
+      return tetralux::LightSum::Direct;
+  }
+}
+
+/// Sets a colour; refuses numbers that are not finite.
+void SetFactors(
+  vtkTriangleCasterMapper* self, const char* name, double color[3], const double factors[3])
+{
+  if (!std::all_of(factors, factors + 3, [](double factor) { return std::isfinite(factor); }))
+  {
+    vtkErrorWithObjectMacro(self, << name << ": factors of colours are finite");
+    return;
+  }
+  if (!std::equal(factors, factors + 3, color))
+  {
+    std::copy_n(factors, 3, color);
+    self->Modified();
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -252,6 +281,15 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
   options.Shaded = frame.Shaded;
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
+  options.Gradients = this->Self->GradientSource == ON_THE_FLY_GRADIENTS
+    ? tetralux::GradientSource::OnTheFly
+    : tetralux::GradientSource::Bytes;
+  options.SumOfLights = ToLightSum(this->Self->LightSum);
+  for (int c = 0; c < 3; ++c)
+  {
+    options.NearColor[c] = static_cast<float>(this->Self->NearColor[c]);
+    options.FarColor[c] = static_cast<float>(this->Self->FarColor[c]);
+  }
   options.Threshold = frame.Budget.Termination / frame.Brightness;
   options.EndTriangles = this->Self->EndTriangles != 0;
   options.SkipPixels = this->Self->SkipPixels != 0;
@@ -267,7 +305,12 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
 double vtkTriangleCasterMapper::Internals::FindBrightness(
   const tetralux::RayGrid& grid, const MapperFrame& frame) const
 {
-  const double colors = std::max(1., tetralux::GetLargestColor(this->Preparation.GetFunction()));
+  double cue = 1;
+  for (int c = 0; c < 3; ++c)
+  {
+    cue = std::max({ cue, std::abs(this->Self->NearColor[c]), std::abs(this->Self->FarColor[c]) });
+  }
+  const double colors = cue * std::max(1., this->Preparation.GetLargestColor());
   if (!frame.Shaded)
   {
     return colors;
@@ -352,6 +395,8 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
   Json slices;
   slices["shape"] = this->Self->GetSliceShapeAsString();
   slices["blend_mode"] = this->Self->GetBlendModeAsString();
+  slices["gradient_source"] = this->Self->GetGradientSourceAsString();
+  slices["light_sum"] = this->Self->GetLightSumAsString();
   slices["opacity_model"] = this->Self->GetOpacityModelAsString();
   slices["pre_integration"] = options.PreIntegrated && this->Self->BlendMode == COMPOSITE_BLEND;
   slices["distance"] = options.SampleDistance;
@@ -451,6 +496,8 @@ tetraluxSetNumberMacro(vtkTriangleCasterMapper, InteractiveSampleDistance, doubl
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, SliceShape);
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, OpacityModel);
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, GradientNorm);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, GradientSource);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, LightSum);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, TileSize, int);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, NumberOfThreads, int);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, ImageSampleDistance, float);
@@ -474,6 +521,32 @@ void vtkTriangleCasterMapper::SetAverageIPScalarRange(double least, double large
 void vtkTriangleCasterMapper::SetAverageIPScalarRange(const double range[2])
 {
   this->SetAverageIPScalarRange(range[0], range[1]);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetNearColor(double red, double green, double blue)
+{
+  const double color[3] = { red, green, blue };
+  this->SetNearColor(color);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetNearColor(const double color[3])
+{
+  SetFactors(this, "NearColor", this->NearColor, color);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetFarColor(double red, double green, double blue)
+{
+  const double color[3] = { red, green, blue };
+  this->SetFarColor(color);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetFarColor(const double color[3])
+{
+  SetFactors(this, "FarColor", this->FarColor, color);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -513,6 +586,10 @@ void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
   printer.Print("SliceShape", this->SliceShape);
   printer.Print("OpacityModel", this->OpacityModel);
   printer.Print("GradientNorm", this->GradientNorm);
+  printer.Print("GradientSource", this->GradientSource);
+  printer.Print("LightSum", this->LightSum);
+  printer.Print("NearColor", this->NearColor[0], this->NearColor[1], this->NearColor[2]);
+  printer.Print("FarColor", this->FarColor[0], this->FarColor[1], this->FarColor[2]);
   printer.Print("PreIntegration", this->PreIntegration);
   printer.Print("CorrectOpacity", this->CorrectOpacity);
   printer.Print("EndTriangles", this->EndTriangles);

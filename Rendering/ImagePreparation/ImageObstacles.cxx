@@ -64,12 +64,12 @@ std::string FindObstacle(vtkDataObject* data, const ScalarSelection& selection)
   return "";
 }
 
-std::string FindObstacle(vtkVolumeProperty* property)
+std::string FindObstacle(vtkVolumeProperty* property, ImageBlend blend)
 {
-  if (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D)
+  if (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D &&
+    blend != ImageBlend::Composite)
   {
-    return "the triangle caster has no two-dimensional transfer functions; the property's "
-           "TransferFunctionMode is one";
+    return "the property's TransferFunctionMode is TF_2D, which composite blending has only";
   }
   return "";
 }

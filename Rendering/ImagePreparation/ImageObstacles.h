@@ -19,7 +19,7 @@ TETRALUXRENDERING_EXPORT std::string FindObstacle(
   vtkDataObject* data, const ScalarSelection& selection);
 
 /// Why it can't use a property; empty if it can.
-TETRALUXRENDERING_EXPORT std::string FindObstacle(vtkVolumeProperty* property);
+TETRALUXRENDERING_EXPORT std::string FindObstacle(vtkVolumeProperty* property, ImageBlend blend);
 
 /// Whether a property has a function of gradients that changes opacities: VTK's mappers make one
 /// that does not.

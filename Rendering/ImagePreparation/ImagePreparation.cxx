@@ -4,6 +4,8 @@
 #include "Base/Stopwatch.h"
 #include "ImagePreparation/ImageBlends.h"
 #include "ImagePreparation/ImageObstacles.h"
+#include "ImagePreparation/ScalarRange.h"
+#include "ImagePreparation/TransferTableFromProperty.h"
 #include "Integral/ErrorBudget.h"
 #include "Preparation/InputSignature.h"
 #include "Preparation/IsosurfacesFromProperty.h"
@@ -16,6 +18,7 @@
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -61,7 +64,7 @@ bool IsOpacityOfPoints(ImageBlend blend)
   return blend != ImageBlend::Composite && blend != ImageBlend::Additive;
 }
 
-/// What SetBlend fills, and the range of averages.
+/// What blend modes take from elsewhere than functions.
 void AddBlend(const ImageOptics& optics, CacheKey& key)
 {
   key.Add(optics.Blend);
@@ -106,7 +109,7 @@ void ImagePreparation::Update(const ImageInput& input)
   {
     throw std::invalid_argument(FindObstacle(input.Data, input.Scalars));
   }
-  Check(FindObstacle(input.Property));
+  Check(FindObstacle(input.Property, input.Blend));
   const Stopwatch stopwatch;
   if (this->Scalars.Update(image, input.Scalars))
   {
@@ -124,8 +127,19 @@ void ImagePreparation::Update(const ImageInput& input)
 void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedArray& selected)
 {
   ImageOptics optics;
-  SetBlend(input.Blend, input.Property, selected, optics);
+  optics.Blend = input.Blend;
   std::copy_n(input.AverageRange, 2, optics.AverageRange);
+  if (input.Blend == ImageBlend::Slice)
+  {
+    optics.SlicePlane = GetSlicePlane(input.Property);
+  }
+  const bool hasTable = input.Property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
+  if (hasTable || input.Blend == ImageBlend::AverageIntensity ||
+    input.Blend == ImageBlend::Additive)
+  {
+    const std::array<double, 2> range = FindScalarRange(selected);
+    std::copy_n(range.begin(), 2, optics.GreyRange);
+  }
   double steps[3];
   MeasureSteps(this->Placement, input.Matrix, steps);
   const double longestPath = FindLongestPath(this->Scalars.GetVolume(), steps);
@@ -137,13 +151,25 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
   CacheKey exactKey = GetPropertyKey(input.Property);
   exactKey.Add(input.Opacity);
   AddBlend(optics, exactKey);
-  const bool hasGradients =
-    input.Blend == ImageBlend::Composite && tetralux::HasGradientOpacity(input.Property);
+  const bool hasGradients = input.Blend == ImageBlend::Composite && !hasTable &&
+    tetralux::HasGradientOpacity(input.Property);
   exactKey.Add(hasGradients);
-  if (hasGradients)
+  exactKey.Add(hasTable);
+  if (hasGradients || hasTable)
   {
     exactKey.Add(input.Norm);
     exactKey.Add(gradientLength);
+    optics.GradientLength = gradientLength;
+    optics.Norm = input.Norm;
+  }
+  if (hasTable)
+  {
+    vtkImageData* table = input.Property->GetTransferFunction2D();
+    exactKey.Add(table);
+    exactKey.Add(table ? table->GetMTime() : 0);
+  }
+  if (hasGradients)
+  {
     exactKey.Add(input.Property->GetGradientOpacity(0));
     exactKey.Add(input.Property->GetGradientOpacity(0)->GetMTime());
   }
@@ -176,15 +202,28 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
   {
     double error;
     optics.GradientOpacity = MakeGradientOpacity(input.Property, maximumError, longestPath, error);
-    optics.GradientLength = gradientLength;
-    optics.Norm = input.Norm;
     this->FunctionError += error;
   }
+  optics.Table =
+    TransferTableFromProperty(input.Property, { optics.GreyRange[0], optics.GreyRange[1] });
   this->Caster.SetOptics(optics);
   this->Optics = std::move(optics);
   this->Function.Set(this->FunctionError == 0 ? exactKey : key);
   this->FunctionSeconds = stopwatch.GetSeconds();
   this->Rebuilt.emplace_back("transfer function");
+}
+
+double ImagePreparation::GetLargestColor() const
+{
+  double largest = tetralux::GetLargestColor(this->Optics.Function);
+  for (const TransferTable::Entry& entry : this->Optics.Table.Entries)
+  {
+    for (const float channel : entry.Color)
+    {
+      largest = std::max(largest, std::abs(static_cast<double>(channel)));
+    }
+  }
+  return largest;
 }
 
 Json ImagePreparation::DescribeSeconds() const

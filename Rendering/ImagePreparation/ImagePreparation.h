@@ -52,10 +52,15 @@ public:
 
   const ImagePlacement& GetPlacement() const { return this->Placement; }
   const ImageScalars& GetScalars() const { return this->Scalars; }
-  const TransferFunction& GetFunction() const { return this->Optics.Function; }
+
+  /// The largest channel of a colour of the function or the table, absolute.
+  double GetLargestColor() const;
 
   /// Whether opacities depend on gradients.
-  bool HasGradientOpacity() const { return !this->Optics.GradientOpacity.Nodes.empty(); }
+  bool HasGradientOpacity() const
+  {
+    return !this->Optics.GradientOpacity.Nodes.empty() || !this->Optics.Table.Entries.empty();
+  }
 
   /// Error of a channel by functions that are not piecewise linear.
   double GetFunctionError() const { return this->FunctionError; }

@@ -74,6 +74,12 @@ MapperProperty MakeSampleDistance(const char* name, double value, const char* me
     "pixels", meaning };
 }
 
+MapperProperty MakeColorFactors(const char* name, const char* meaning)
+{
+  return { name, PropertyType::Real, TriangleCasterKind, Model, true, {}, -Unbounded, Unbounded,
+    { 1, 1, 1 }, "RED,GREEN,BLUE", "", meaning };
+}
+
 std::vector<MapperProperty> MakeProperties()
 {
   return {
@@ -237,6 +243,18 @@ std::vector<MapperProperty> MakeProperties()
       { { "euclidean", 0, "the Euclidean norm" },
         { "sum", 1, "the sum of its components (Knittel 1999, section 7)" } },
       "Length of a gradient, for gradient opacity."),
+    MakeEnumeration("GradientSource", TriangleCasterKind, Quality, true,
+      { { "on-the-fly", 0, "differences of values, for each sample" },
+        { "bytes", 1, "stored at the points, 8 bits a component (Knittel 1999, section 7)" } },
+      "Where gradients come from."),
+    MakeEnumeration("LightSum", TriangleCasterKind, Quality, true,
+      { { "direct", 0, "for each sample" },
+        { "nearest-entry", 1, "for each direction of a map (Knittel 1999, section 7)" },
+        { "interpolated", 2, "between four directions of that map" } },
+      "How lights are summed up."),
+    MakeColorFactors(
+      "NearColor", "Factors of the colours at the front (Knittel 1999, section 2.2)."),
+    MakeColorFactors("FarColor", "Factors of the colours at the back (Knittel 1999, section 2.2)."),
     { "AverageIPScalarRange", PropertyType::Real, TriangleCasterKind, Model, false, {}, -Unbounded,
       Unbounded, { -LargestAveraged, LargestAveraged }, "LEAST,LARGEST", "units of the scalars",
       "The scalars that BlendMode average-intensity averages." },

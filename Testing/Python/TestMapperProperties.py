@@ -27,7 +27,8 @@ CLASSES = {
     ],
     tetralux.vtkTetrahedraIsosurfaceMapper: ["MergePoints", "VectorMode"],
     tetralux.vtkTriangleCasterMapper: [
-        "BlendMode", "GradientNorm", "OpacityModel", "SliceShape", "VectorMode",
+        "BlendMode", "GradientNorm", "GradientSource", "LightSum", "OpacityModel", "SliceShape",
+        "VectorMode",
     ],
     tetralux.vtkPreIntegrationTableSource: ["BlendMode", "Format", "LengthScale", "ScalarAxis"],
     tetralux.vtkMeshedPolyhedraVisibilitySort: ["Order"],

@@ -64,10 +64,19 @@ mapper.CroppingOff()
 
 # The largest scalar of a constant cube has its opacity, however long the ray is.
 mapper.SetBlendModeToMaximumIntensity()
-check(0.25)
+rgba, _, _ = scene.render()
+assert abs(rgba[40, 60] - 0.25 * numpy.array([0.5, 1, 0.25, 1])).max() < 1e-6
 mapper.SetBlendModeToComposite()
 mapper.SetAverageIPScalarRange((1, 2))
 assert mapper.GetAverageIPScalarRange() == (1, 2)
+
+# Colours at the front are half as bright, and at the back all black.
+mapper.SetNearColor(0.5, 0.5, 0.5)
+mapper.SetFarColor((0, 0, 0))
+rgba, _, _ = scene.render()
+assert 0 < rgba[40, 60, 0] < 0.5 * 0.5 * rgba[40, 60, 3]
+mapper.SetNearColor(1, 1, 1)
+mapper.SetFarColor(1, 1, 1)
 
 for name, value in (
     ("MaximumError", 1e-3),

@@ -346,6 +346,11 @@ TEST_F(MapperProperties, NamesAreThoseOfTheEnumerators)
   using Caster = vtkTriangleCasterMapper;
   expect("SliceShape", { { Caster::PLANE_SLICES, "planes" }, { Caster::SHELL_SLICES, "shells" } });
   expect("GradientNorm", { { Caster::EUCLIDEAN_NORM, "euclidean" }, { Caster::SUM_NORM, "sum" } });
+  expect("GradientSource",
+    { { Caster::ON_THE_FLY_GRADIENTS, "on-the-fly" }, { Caster::BYTE_GRADIENTS, "bytes" } });
+  expect("LightSum",
+    { { Caster::DIRECT_SUM, "direct" }, { Caster::NEAREST_ENTRY_SUM, "nearest-entry" },
+      { Caster::INTERPOLATED_SUM, "interpolated" } });
   expect("OpacityModel",
     { { Caster::POWER_OPACITY, "power" }, { Caster::ATTENUATION_OPACITY, "attenuation" } });
   EXPECT_EQ(static_cast<int>(Caster::MAGNITUDE_MODE), static_cast<int>(Mapper::MAGNITUDE_MODE));
@@ -458,6 +463,17 @@ TEST_F(MapperProperties, BlendModesOfOtherMappersAreRefused)
   ASSERT_EQ(others.Texts.size(), 1u);
   EXPECT_NE(others.Texts[0].find("BlendMode: 6 is not composite (0)"), std::string::npos)
     << others.Texts[0];
+}
+
+TEST_F(MapperProperties, DepthCuesRefuseWhatIsNotFinite)
+{
+  Errors errors(this->Caster);
+  this->Caster->SetNearColor(1, NaN, 1);
+  this->Caster->SetFarColor(1, 1, std::numeric_limits<double>::infinity());
+  ASSERT_EQ(errors.Texts.size(), 2u);
+  EXPECT_NE(errors.Texts[0].find("NearColor"), std::string::npos) << errors.Texts[0];
+  EXPECT_NE(errors.Texts[1].find("FarColor"), std::string::npos) << errors.Texts[1];
+  EXPECT_EQ(FindPrinted(this->Caster, "FarColor"), "1, 1, 1");
 }
 
 TEST_F(MapperProperties, AverageIPScalarRangeRefusesNaN)

@@ -461,9 +461,6 @@ TEST(TriangleCasterMapperBehavior, RefusesWhatItLacks)
         scene.Mapper->SetVectorModeToComponent();
         scene.Mapper->SetVectorComponent(3);
       } },
-    { "TransferFunctionMode",
-      [](ImageScene& scene)
-      { scene.Volume->GetProperty()->SetTransferFunctionMode(vtkVolumeProperty::TF_2D); } },
     { "ScalarOpacityUnitDistance is 0",
       [](ImageScene& scene) { scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(0); } },
     { "matrix has no inverse", [](ImageScene& scene) { scene.Volume->SetScale(1, 0, 1); } },
