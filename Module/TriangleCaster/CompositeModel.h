@@ -20,12 +20,6 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// For models that use no gradients.
-struct NoGradients
-{
-  NoGradients(const ImageKernelInput&, const ImageRays&) {}
-};
-
 /// Samples at the middle of stretches. Gradients: NoGradients, or GradientModel where lights shine
 /// or opacity depends on gradients.
 template <class Value, class Intervals, class Gradients>
@@ -73,7 +67,7 @@ public:
     {
       if (in.Lighting)
       {
-        this->Gradient.Light(in, sample, gradient, color);
+        this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
       }
     }
     for (Float8& channel : color)

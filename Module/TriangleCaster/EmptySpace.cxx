@@ -11,11 +11,12 @@ namespace
 {
 
 template <class Value>
-void FindRanges(const ImageVolume& volume, const std::int32_t (&size)[3], int threads,
-  std::vector<BlockRanges::Range>& ranges)
+void FindRanges(const ImageVolume& volume, int component, const std::int32_t (&size)[3],
+  int threads, std::vector<BlockRanges::Range>& ranges)
 {
-  const auto* values = static_cast<const Value*>(volume.Values);
-  const std::int64_t row = volume.Dimensions[0];
+  const auto* values = static_cast<const Value*>(volume.Values) + component;
+  const std::int64_t step = volume.Components;
+  const std::int64_t row = step * volume.Dimensions[0];
   const std::int64_t slice = row * volume.Dimensions[1];
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
   for (std::int32_t bz = 0; bz < size[2]; ++bz)
@@ -36,7 +37,7 @@ void FindRanges(const ImageVolume& volume, const std::int32_t (&size)[3], int th
             const Value* at = values + z * slice + y * row;
             for (int x = bx * BlockRanges::BlockSize; x <= x1; ++x)
             {
-              const auto value = static_cast<float>(at[x]);
+              const auto value = static_cast<float>(at[x * step]);
               low = value < low ? value : low;
               high = value > high ? value : high;
             }
@@ -48,31 +49,118 @@ void FindRanges(const ImageVolume& volume, const std::int32_t (&size)[3], int th
   }
 }
 
+std::int32_t CountBlocks(int points)
+{
+  return (points - 1 + BlockRanges::BlockSize - 1) / BlockRanges::BlockSize;
+}
+
+BlockLabels::Set FindLabels(const ImageVolume& volume, const std::vector<unsigned char>& hidden,
+  const std::int64_t (&block)[3])
+{
+  std::int64_t begin[3], end[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    begin[a] = block[a] * BlockRanges::BlockSize;
+    end[a] = std::min<std::int64_t>(begin[a] + BlockRanges::BlockSize, volume.Dimensions[a] - 1);
+  }
+  BlockLabels::Set labels = 0;
+  bool shown = hidden.empty();
+  for (std::int64_t z = begin[2]; z <= end[2]; ++z)
+  {
+    for (std::int64_t y = begin[1]; y <= end[1]; ++y)
+    {
+      for (std::int64_t x = begin[0]; x <= end[0]; ++x)
+      {
+        const std::int64_t point = (z * volume.Dimensions[1] + y) * volume.Dimensions[0] + x;
+        const bool isCell = x < end[0] && y < end[1] && z < end[2];
+        shown = shown || (isCell && hidden[point] == 0);
+        if (!volume.Mask || volume.Mask[point] != 0)
+        {
+          labels |= BlockLabels::GetSet(volume.Labels ? volume.Labels[point] : 0);
+        }
+      }
+    }
+  }
+  return shown ? labels : 0;
+}
+
+/// Where a function is not transparent.
+class VisibleRanges
+{
+public:
+  explicit VisibleRanges(const SpaceFunction& function)
+    : Function(function)
+  {
+    const std::vector<IntervalTable::Interval>& intervals = function.Table->Intervals;
+    this->Before.assign(intervals.size() + 1, 0);
+    for (std::size_t k = 0; k < intervals.size(); ++k)
+    {
+      const IntervalTable::Interval& interval = intervals[k];
+      const bool contributes = interval.Attenuation > 0 || interval.AttenuationSlope != 0;
+      this->Before[k + 1] = this->Before[k] + (contributes ? 1 : 0);
+    }
+  }
+
+  /// Whether a block with these labels may contribute.
+  bool IsVisible(std::int64_t block, BlockLabels::Set labels) const
+  {
+    // Interpolated values are rounded, and so is where they lie among the intervals.
+    constexpr float Rounding = 1e-6f;
+    const BlockRanges::Range& range = this->Function.Blocks->GetRanges()[block];
+    if (!(range.Low <= range.High) || (labels & this->Function.Labels) == 0)
+    {
+      return false;
+    }
+    const float scale = this->Function.Scale;
+    const float offset = this->Function.Offset;
+    const float a = offset + scale * range.Low;
+    const float b = offset + scale * range.High;
+    const float margin = Rounding * std::max({ 1.f, std::abs(a), std::abs(b), std::abs(offset) });
+    if (!std::isfinite(margin))
+    {
+      return true;
+    }
+    const float low = std::min(a, b) - margin;
+    const float high = std::max(a, b) + margin;
+    const std::vector<IntervalTable::Interval>& intervals = this->Function.Table->Intervals;
+    // The first interval that ends at low or above, and the first one that begins above high.
+    const auto first = std::lower_bound(intervals.begin(), intervals.end(), low,
+      [](const IntervalTable::Interval& interval, float x) { return interval.Hi < x; });
+    const auto last = std::upper_bound(intervals.begin(), intervals.end(), high,
+      [](float x, const IntervalTable::Interval& interval) { return x < interval.Lo; });
+    return this->Before[last - intervals.begin()] > this->Before[first - intervals.begin()];
+  }
+
+private:
+  const SpaceFunction& Function;
+  std::vector<int> Before; ///< how many intervals before each one contribute
+};
+
 } // namespace
 
-void BlockRanges::Build(const ImageVolume& volume, int threads)
+void BlockRanges::Build(const ImageVolume& volume, int component, int threads)
 {
   for (int a = 0; a < 3; ++a)
   {
-    this->Size[a] = (volume.Dimensions[a] - 1 + BlockSize - 1) / BlockSize;
+    this->Size[a] = CountBlocks(volume.Dimensions[a]);
   }
   this->Ranges.resize(static_cast<std::size_t>(this->Size[0]) * this->Size[1] * this->Size[2]);
   switch (volume.Type)
   {
     case ImageScalar::Int8:
-      FindRanges<std::int8_t>(volume, this->Size, threads, this->Ranges);
+      FindRanges<std::int8_t>(volume, component, this->Size, threads, this->Ranges);
       break;
     case ImageScalar::UInt8:
-      FindRanges<std::uint8_t>(volume, this->Size, threads, this->Ranges);
+      FindRanges<std::uint8_t>(volume, component, this->Size, threads, this->Ranges);
       break;
     case ImageScalar::Int16:
-      FindRanges<std::int16_t>(volume, this->Size, threads, this->Ranges);
+      FindRanges<std::int16_t>(volume, component, this->Size, threads, this->Ranges);
       break;
     case ImageScalar::UInt16:
-      FindRanges<std::uint16_t>(volume, this->Size, threads, this->Ranges);
+      FindRanges<std::uint16_t>(volume, component, this->Size, threads, this->Ranges);
       break;
     case ImageScalar::Float:
-      FindRanges<float>(volume, this->Size, threads, this->Ranges);
+      FindRanges<float>(volume, component, this->Size, threads, this->Ranges);
       break;
   }
 }
@@ -88,47 +176,49 @@ BlockRanges::Range BlockRanges::GetRange() const
   return std::isfinite(all.Low) && std::isfinite(all.High) ? all : Range{ 0, 0 };
 }
 
-void EmptySpace::Build(
-  const BlockRanges& blocks, const IntervalTable& table, float scale, float offset)
+void BlockLabels::Build(
+  const ImageVolume& volume, const std::vector<unsigned char>& hiddenCells, int threads)
 {
-  std::copy(blocks.GetSize(), blocks.GetSize() + 3, this->Size);
-  // Interpolated values are rounded, and so is where they lie among the intervals.
-  constexpr float Rounding = 1e-6f;
-  const std::vector<IntervalTable::Interval>& intervals = table.Intervals;
-  // How many intervals before each one contribute.
-  std::vector<int> before(intervals.size() + 1, 0);
-  for (std::size_t k = 0; k < intervals.size(); ++k)
+  this->Sets.clear();
+  if (!volume.Labels && !volume.Mask && hiddenCells.empty())
   {
-    const IntervalTable::Interval& interval = intervals[k];
-    const bool contributes = interval.Attenuation > 0 || interval.AttenuationSlope != 0;
-    before[k + 1] = before[k] + (contributes ? 1 : 0);
+    return;
   }
-  const auto isVisible = [&](const BlockRanges::Range& range)
+  std::int64_t size[3];
+  for (int a = 0; a < 3; ++a)
   {
-    if (!(range.Low <= range.High))
+    size[a] = CountBlocks(volume.Dimensions[a]);
+  }
+  this->Sets.resize(size[0] * size[1] * size[2]);
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+  for (std::int64_t bz = 0; bz < size[2]; ++bz)
+  {
+    for (std::int64_t by = 0; by < size[1]; ++by)
     {
-      return false;
+      for (std::int64_t bx = 0; bx < size[0]; ++bx)
+      {
+        const std::int64_t block[3] = { bx, by, bz };
+        this->Sets[(bz * size[1] + by) * size[0] + bx] = FindLabels(volume, hiddenCells, block);
+      }
     }
-    const float a = offset + scale * range.Low;
-    const float b = offset + scale * range.High;
-    const float margin = Rounding * std::max({ 1.f, std::abs(a), std::abs(b), std::abs(offset) });
-    if (!std::isfinite(margin))
-    {
-      return true;
-    }
-    const float low = std::min(a, b) - margin;
-    const float high = std::max(a, b) + margin;
-    // The first interval that ends at low or above, and the first one that begins above high.
-    const auto first = std::lower_bound(intervals.begin(), intervals.end(), low,
-      [](const IntervalTable::Interval& interval, float x) { return interval.Hi < x; });
-    const auto last = std::upper_bound(intervals.begin(), intervals.end(), high,
-      [](float x, const IntervalTable::Interval& interval) { return x < interval.Lo; });
-    return before[last - intervals.begin()] > before[first - intervals.begin()];
+  }
+}
+
+void EmptySpace::Build(const std::vector<SpaceFunction>& functions, const BlockLabels& labels)
+{
+  const std::int32_t* size = functions.front().Blocks->GetSize();
+  std::copy(size, size + 3, this->Size);
+  const std::vector<VisibleRanges> visible(functions.begin(), functions.end());
+  const std::vector<BlockLabels::Set>& sets = labels.GetSets();
+  const auto isVisible = [&](std::int64_t block)
+  {
+    const BlockLabels::Set set = sets.empty() ? BlockLabels::GetSet(0) : sets[block];
+    return std::any_of(visible.begin(), visible.end(),
+      [&](const VisibleRanges& ranges) { return ranges.IsVisible(block, set); });
   };
 
   const std::int64_t nx = this->Size[0] + 1, ny = this->Size[1] + 1, nz = this->Size[2] + 1;
   this->Sums.assign(static_cast<std::size_t>(nx * ny * nz), 0);
-  const std::vector<BlockRanges::Range>& ranges = blocks.GetRanges();
   for (std::int64_t z = 1; z < nz; ++z)
   {
     for (std::int64_t y = 1; y < ny; ++y)
@@ -136,7 +226,7 @@ void EmptySpace::Build(
       std::int32_t row = 0;
       for (std::int64_t x = 1; x < nx; ++x)
       {
-        row += isVisible(ranges[((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1]) ? 1 : 0;
+        row += isVisible(((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1) ? 1 : 0;
         const auto at = [&](std::int64_t j, std::int64_t k)
         { return this->Sums[(k * ny + j) * nx + x]; };
         this->Sums[(z * ny + y) * nx + x] = row + at(y - 1, z) + at(y, z - 1) - at(y - 1, z - 1);

@@ -16,6 +16,12 @@ namespace TETRALUX_ISA
 namespace
 {
 
+/// For models that use no gradients.
+struct NoGradients
+{
+  NoGradients(const ImageKernelInput&, const ImageRays&) {}
+};
+
 /// What the gradients of a vector's samples do.
 class GradientModel
 {
@@ -26,18 +32,23 @@ public:
   {
   }
 
-  /// The factor that the gradient opacity has for a gradient.
-  TETRALUX_INLINE Float8 GetOpacityFactor(
-    const ImageKernelInput& in, const LaneVector& gradient) const
+  /// The length of a gradient that gradient opacities depend on.
+  static TETRALUX_INLINE Float8 GetLength(const ImageKernelInput& in, const LaneVector& gradient)
   {
     LaneVector world;
     for (int a = 0; a < 3; ++a)
     {
       world.C[a] = Dot(Broadcast(in.WorldGradient[a]), gradient);
     }
-    const Float8 length = in.Norm == GradientNorm::Euclidean
-      ? Sqrt(Dot(world, world))
-      : Abs(world.C[0]) + Abs(world.C[1]) + Abs(world.C[2]);
+    return in.Norm == GradientNorm::Euclidean ? Sqrt(Dot(world, world))
+                                              : Abs(world.C[0]) + Abs(world.C[1]) + Abs(world.C[2]);
+  }
+
+  /// The factor that the gradient opacity has for a gradient.
+  TETRALUX_INLINE Float8 GetOpacityFactor(
+    const ImageKernelInput& in, const LaneVector& gradient) const
+  {
+    const Float8 length = GetLength(in, gradient);
     const Float8 x = Fma(length, Float8(in.GradientScale), Float8(in.GradientOffset));
     return in.GradientTransfer.Count <= TransferLookup::MostFew
       ? FewIntervals<TransferLookup::MostFew>(in.GradientTransfer, x).GetOpacity()
@@ -45,10 +56,9 @@ public:
   }
 
   /// Lets the lights shine on colours.
-  TETRALUX_INLINE void Light(const ImageKernelInput& in, const ImageSample& sample,
-    const LaneVector& gradient, Float8 (&color)[3]) const
+  TETRALUX_INLINE void Light(const ImageKernelInput& in, const KernelLighting& lighting,
+    const ImageSample& sample, const LaneVector& gradient, Float8 (&color)[3]) const
   {
-    const KernelLighting& lighting = *in.Lighting;
     const LaneVector normal =
       LaneLights::ToWorld(lighting, gradient * LaneLights::GetScale(gradient));
     const Double8 depth = Fma(ToDouble(Fma(Float8(0.5f), sample.Share, sample.Front)),

@@ -5,14 +5,18 @@
 #include "Optics/IntervalTable.h"
 #include "Simd/InstructionSet.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/FunctionLookup.h"
+#include "TriangleCaster/HiddenCells.h"
 #include "TriangleCaster/ImageKernel.h"
 #include "TriangleCaster/SlabTable.h"
 #include "View/MeshToWorld.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -55,10 +59,16 @@ void CheckVolume(const ImageVolume& volume)
     }
     values *= volume.Dimensions[a];
   }
+  if (volume.Components < 1 || volume.Components > ImageVolume::MostComponents)
+  {
+    throw std::invalid_argument("the image has " + std::to_string(volume.Components) +
+      " components; a volume has 1 to " + std::to_string(ImageVolume::MostComponents));
+  }
+  values *= volume.Components;
   if (values > std::numeric_limits<std::int32_t>::max())
   {
     throw std::invalid_argument(
-      "the image has more than 2^31 - 1 points, the most that the triangle caster takes");
+      "the image has more than 2^31 - 1 values, the most that the triangle caster takes");
   }
   if (!volume.Values)
   {
@@ -70,99 +80,130 @@ void CheckVolume(const ImageVolume& volume)
   }
 }
 
-/// For each bucket of equal width over [-1, 1] the interval that its lower end lies in, or one
-/// below.
-struct IntervalBuckets
+void CheckUnitDistance(double distance)
 {
-  std::vector<std::int32_t> First;
-  int MostSteps = 0; ///< the most intervals that a scalar of a bucket lies above that
-};
-
-IntervalBuckets MakeBuckets(const std::vector<IntervalTable::Interval>& intervals, int count)
-{
-  // The bucket of a scalar is rounded; a scalar may lie this far outside of its own.
-  constexpr double Rounding = 1e-5; // of the whole range
-  IntervalBuckets buckets;
-  buckets.First.resize(count);
-  std::size_t first = 0;
-  std::size_t last = 0;
-  for (int b = 0; b < count; ++b)
+  if (!(distance > 0) || !std::isfinite(distance))
   {
-    const double low = 2. * b / count - 1 - Rounding;
-    const double high = 2. * (b + 1) / count - 1 + Rounding;
-    while (intervals[first].Hi <= low)
-    {
-      ++first;
-    }
-    while (last + 1 < intervals.size() && intervals[last].Hi <= high)
-    {
-      ++last;
-    }
-    // The first and last bucket take what is beyond.
-    const std::size_t begin = b == 0 ? 0 : first;
-    const std::size_t end = b + 1 == count ? intervals.size() - 1 : last;
-    buckets.First[b] = static_cast<std::int32_t>(begin);
-    buckets.MostSteps = std::max(buckets.MostSteps, static_cast<int>(end - begin));
+    throw std::invalid_argument("the unit distance of opacity is not above 0");
   }
-  return buckets;
 }
 
-/// A transfer function, and what its lookup points to.
-struct FunctionLookup
+void CheckComponents(const ImageOptics& optics)
 {
-  IntervalTable Table;
-  IntervalBuckets Buckets;
-  TransferLookup Lookup;
-
-  void Set(const TransferFunction& function);
-
-  /// Where a scalar lies in the intervals: x = scale s + offset.
-  ///@{
-  double GetScale() const { return 1 / this->Table.Scale; }
-  double GetOffset() const { return -this->Table.Offset / this->Table.Scale; }
-  ///@}
-};
-
-void FunctionLookup::Set(const TransferFunction& function)
-{
-  this->Table = MakeIntervalTable(function);
-  const std::vector<IntervalTable::Interval>& intervals = this->Table.Intervals;
-  TransferLookup& transfer = this->Lookup;
-  transfer = TransferLookup();
-  transfer.Count = static_cast<int>(intervals.size());
-  transfer.Intervals = intervals.data();
-  for (int k = 0; k < TransferLookup::MostFew; ++k)
+  CheckUnitDistance(optics.UnitDistance);
+  const auto checkWeight = [](double weight)
   {
-    const IntervalTable::Interval& interval =
-      intervals[std::min<std::size_t>(k, intervals.size() - 1)];
-    transfer.Lower[k] = interval.Lo;
-    transfer.Reference[k] = interval.Reference;
-    transfer.Opacity[k] = interval.Attenuation;
-    transfer.OpacitySlope[k] = interval.AttenuationSlope;
-    for (int c = 0; c < 3; ++c)
+    if (!(weight >= 0) || !std::isfinite(weight))
     {
-      transfer.Color[c][k] = interval.Color[c];
-      transfer.ColorSlope[c][k] = interval.ColorSlope[c];
+      throw std::invalid_argument("the weight of a component is negative, or not finite");
+    }
+  };
+  checkWeight(optics.Weight);
+  for (const ComponentOptics& other : optics.OtherComponents)
+  {
+    CheckUnitDistance(other.UnitDistance);
+    checkWeight(other.Weight);
+  }
+  for (int c = 0; c < 3; ++c)
+  {
+    if (!std::isfinite(optics.ColorScale[c]) || !std::isfinite(optics.ColorOffset[c]))
+    {
+      throw std::invalid_argument("the scale of the colours of components is not finite");
     }
   }
-  if (transfer.Count > TransferLookup::MostFew)
+  if (!(optics.LabelShare >= 0 && optics.LabelShare <= 1))
   {
-    // A step to the next interval costs as much as looking up a bucket; nodes that are closer
-    // together than the smallest buckets cost more steps.
-    constexpr int FewSteps = 2;
-    constexpr int FirstCount = 1024;
-    constexpr int LargestCount = 65536;
-    for (int count = FirstCount; count <= LargestCount; count *= 4)
+    throw std::invalid_argument("the share of labels is not within 0..1");
+  }
+}
+
+/// Gradient opacities without nodes are 1 instead; none at all if all are without.
+std::vector<TransferFunction> CompleteGradientOpacities(std::vector<TransferFunction> functions)
+{
+  const auto isNone = [](const TransferFunction& function) { return function.Nodes.empty(); };
+  const auto some = std::find_if_not(functions.begin(), functions.end(), isNone);
+  if (some == functions.end())
+  {
+    return {};
+  }
+  const TransferFunction::Value one = { { 0, 0, 0 }, 1 };
+  const TransferFunction constant = { { { some->Nodes.front().Scalar, one, one } } };
+  std::replace_if(functions.begin(), functions.end(), isNone, constant);
+  return functions;
+}
+
+/// The functions of one component.
+struct PartFunctions
+{
+  FunctionLookup Function;
+  FunctionLookup GradientFunction; ///< of no intervals if there is none
+};
+
+PartFunctions MakePartFunctions(
+  const TransferFunction& function, const TransferFunction& gradientOpacity)
+{
+  PartFunctions part;
+  part.Function.Set(function);
+  if (!gradientOpacity.Nodes.empty())
+  {
+    part.GradientFunction.Set(gradientOpacity);
+  }
+  return part;
+}
+
+/// All functions of ImageOptics. What lookups point to moves with them.
+struct FunctionSet
+{
+  std::vector<PartFunctions> Parts;       ///< of all components
+  FunctionsLookup LabelFunctions;         ///< of label 0, 1 and so on
+  FunctionsLookup LabelGradientFunctions; ///< as many, or none
+
+  const PartFunctions& GetFirst() const { return this->Parts.front(); }
+};
+
+FunctionSet MakeFunctions(const ImageOptics& optics)
+{
+  FunctionSet set;
+  set.Parts.push_back(MakePartFunctions(optics.Function, optics.GradientOpacity));
+  for (const ComponentOptics& other : optics.OtherComponents)
+  {
+    set.Parts.push_back(MakePartFunctions(other.Function, other.GradientOpacity));
+  }
+  if (!optics.Labels.empty())
+  {
+    std::vector<TransferFunction> functions{ optics.Function };
+    std::vector<TransferFunction> gradientOpacities{ optics.GradientOpacity };
+    for (const LabelOptics& label : optics.Labels)
     {
-      this->Buckets = MakeBuckets(intervals, count);
-      if (this->Buckets.MostSteps <= FewSteps)
-      {
-        break;
-      }
+      functions.push_back(label.Function);
+      gradientOpacities.push_back(label.GradientOpacity);
     }
-    transfer.Buckets = this->Buckets.First.data();
-    transfer.NumberOfBuckets = static_cast<float>(this->Buckets.First.size());
-    transfer.MostSteps = this->Buckets.MostSteps;
+    set.LabelFunctions.Set(std::move(functions));
+    set.LabelGradientFunctions.Set(CompleteGradientOpacities(std::move(gradientOpacities)));
+  }
+  return set;
+}
+
+/// Whether what there is of components has a meaning.
+void CheckMatch(const ImageVolume& volume, const ImageOptics& optics)
+{
+  if (volume.Components > 1 && volume.Labels && !optics.Labels.empty())
+  {
+    throw std::invalid_argument(
+      "labels are shown of one component; the image has " + std::to_string(volume.Components));
+  }
+  if (optics.Components == ImageComponents::Dependent && volume.Components != 2 &&
+    volume.Components != 4)
+  {
+    throw std::invalid_argument(
+      "dependent components are 2 or 4; the image has " + std::to_string(volume.Components));
+  }
+  if (optics.Components == ImageComponents::Independent &&
+    optics.OtherComponents.size() + 1 != static_cast<std::size_t>(volume.Components))
+  {
+    throw std::invalid_argument("the image has " + std::to_string(volume.Components) +
+      " independent components, and there are optics for " +
+      std::to_string(optics.OtherComponents.size() + 1));
   }
 }
 
@@ -177,6 +218,21 @@ double FindRadius(const ImageVolume& volume, const RayGrid& grid)
   return std::sqrt(squared) * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
 }
 
+/// Lights as a kernel reads them, of one material.
+struct KernelLights
+{
+  KernelLighting Lighting{};
+  std::vector<KernelLight> Lights;
+
+  const KernelLighting* Fill(const std::vector<Light>& lights, const Material& surface,
+    const RayGrid& grid, const ImageVolume& volume)
+  {
+    FillKernelLighting(
+      lights, surface, grid, FindRadius(volume, grid), this->Lighting, this->Lights);
+    return &this->Lighting;
+  }
+};
+
 PixelLinear MakeLinear(double value, double stepX, double stepY) { return { value, stepX, stepY }; }
 
 } // namespace
@@ -186,22 +242,32 @@ class ImageCaster::Internals
 {
 public:
   void CheckReady() const;
-  /// Where a value lies in the intervals of Function.
-  ///@{
-  float GetValueScale() const
+  bool ShowsLabels() const { return this->Volume.Labels && !this->Optics.Labels.empty(); }
+  bool ShowsParts() const
   {
-    return static_cast<float>(this->Volume.Scale * this->Function.GetScale());
+    return this->Volume.Components > 1 && this->Optics.Components == ImageComponents::Independent;
   }
-  float GetValueOffset() const
+  /// Where a value lies in the intervals of a function.
+  ///@{
+  float GetValueScale(const IntervalTable& table) const
   {
-    return static_cast<float>(
-      (this->Volume.Offset - this->Function.Table.Offset) / this->Function.Table.Scale);
+    return static_cast<float>(this->Volume.Scale * (1 / table.Scale));
+  }
+  float GetValueOffset(const IntervalTable& table) const
+  {
+    return static_cast<float>((this->Volume.Offset - table.Offset) / table.Scale);
   }
   ///@}
-  void PrepareBlocks(int threads);
-  void PrepareSpace();
-  void PrepareSlabs(const ImageCasterOptions& options);
+  const BlockRanges& GetBlocks(int component, int threads);
+  SpaceFunction MakeSpaceFunction(
+    int component, int threads, const IntervalTable& table, BlockLabels::Set labels);
+  std::vector<SpaceFunction> MakeSpaceFunctions(int threads);
+  void PrepareHiddenCells(int threads);
+  void PrepareSpace(int threads);
+  void PrepareSlabs(const ImageCasterOptions& options, int threads);
   void FillGradients(const RayGrid& grid, ImageKernelInput& in) const;
+  void FillParts(ImageKernelInput& in);
+  void FillLabels(ImageKernelInput& in);
   void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
   ImageKernelInput MakeInput(
     const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options);
@@ -210,15 +276,23 @@ public:
   bool HasVolume = false;
   ImageOptics Optics;
   bool HasOptics = false;
-  FunctionLookup Function;
-  FunctionLookup GradientFunction;
-
+  FunctionSet Functions;
   SlabTable Slabs; ///< of Optics, and the scalars of Volume
 
-  BlockRanges Blocks;
-  bool BlocksValid = false; ///< of Volume
+  // What a kernel reads besides its input.
+  std::vector<ComponentLookup> PartLookups; ///< of all components
+  LabelsLookup LabelLookup;
+
+  // Of Volume, if valid.
+  std::vector<unsigned char> HiddenCells;
+  bool HiddenCellsValid = false;
+  BlockRanges Blocks[ImageVolume::MostComponents];
+  bool BlocksValid[ImageVolume::MostComponents] = {};
+  BlockLabels Labels;
+  bool LabelsValid = false;
+
   EmptySpace Space;
-  bool SpaceValid = false; ///< of Blocks and Table
+  bool SpaceValid = false; ///< of Volume and Optics
 };
 
 //------------------------------------------------------------------------------------------------
@@ -229,40 +303,109 @@ void ImageCaster::Internals::CheckReady() const
     throw std::invalid_argument(
       this->HasVolume ? "the image caster has no optics" : "the image caster has no volume");
   }
+  CheckMatch(this->Volume, this->Optics);
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareBlocks(int threads)
+void ImageCaster::Internals::PrepareHiddenCells(int threads)
 {
-  if (!this->BlocksValid)
+  if (!this->HiddenCellsValid)
   {
-    this->Blocks.Build(this->Volume, threads);
-    this->BlocksValid = true;
-    this->SpaceValid = false;
-    this->Slabs.Invalidate();
+    this->HiddenCells = FindHiddenCells(this->Volume, threads);
+    this->HiddenCellsValid = true;
   }
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareSpace()
+const BlockRanges& ImageCaster::Internals::GetBlocks(int component, int threads)
 {
+  if (!this->BlocksValid[component])
+  {
+    this->Blocks[component].Build(this->Volume, component, threads);
+    this->BlocksValid[component] = true;
+  }
+  return this->Blocks[component];
+}
+
+//------------------------------------------------------------------------------------------------
+SpaceFunction ImageCaster::Internals::MakeSpaceFunction(
+  int component, int threads, const IntervalTable& table, BlockLabels::Set labels)
+{
+  return { &this->GetBlocks(component, threads), &table, this->GetValueScale(table),
+    this->GetValueOffset(table), labels };
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<SpaceFunction> ImageCaster::Internals::MakeSpaceFunctions(int threads)
+{
+  constexpr BlockLabels::Set AnyLabel = ~static_cast<BlockLabels::Set>(0);
+  std::vector<SpaceFunction> functions;
+  if (this->ShowsParts())
+  {
+    for (int component = 0; component < this->Volume.Components; ++component)
+    {
+      const double weight =
+        component == 0 ? this->Optics.Weight : this->Optics.OtherComponents[component - 1].Weight;
+      functions.push_back(this->MakeSpaceFunction(component, threads,
+        this->Functions.Parts[component].Function.Table, weight > 0 ? AnyLabel : 0));
+    }
+  }
+  else if (this->ShowsLabels())
+  {
+    const std::vector<IntervalTable>& tables = this->Functions.LabelFunctions.Tables;
+    const int labels = static_cast<int>(tables.size());
+    BlockLabels::Set plain = BlockLabels::GetSet(0);
+    for (int label = labels; label < 256; ++label)
+    {
+      plain |= BlockLabels::GetSet(label);
+    }
+    // Without labels of its own share, a function is seen everywhere.
+    functions.push_back(this->MakeSpaceFunction(
+      0, threads, tables.front(), this->Optics.LabelShare < 1 ? AnyLabel : plain));
+    for (int label = 1; label < std::min(labels, 256); ++label)
+    {
+      functions.push_back(
+        this->MakeSpaceFunction(0, threads, tables[label], BlockLabels::GetSet(label)));
+    }
+  }
+  else
+  {
+    // Of dependent components the last one has the opacity.
+    functions.push_back(this->MakeSpaceFunction(
+      this->Volume.Components - 1, threads, this->Functions.GetFirst().Function.Table, AnyLabel));
+  }
+  return functions;
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareSpace(int threads)
+{
+  if (!this->LabelsValid)
+  {
+    this->Labels.Build(this->Volume, this->HiddenCells, threads);
+    this->LabelsValid = true;
+  }
   if (!this->SpaceValid)
   {
-    this->Space.Build(
-      this->Blocks, this->Function.Table, this->GetValueScale(), this->GetValueOffset());
+    this->Space.Build(this->MakeSpaceFunctions(threads), this->Labels);
     this->SpaceValid = true;
   }
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options)
+void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options, int threads)
 {
   if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty())
   {
     throw std::invalid_argument(
       "pre-integrated slabs have no gradients: shading and gradient opacity need them off");
   }
-  const BlockRanges::Range range = this->Blocks.GetRange();
+  if (this->Volume.Components > 1 || this->ShowsLabels())
+  {
+    throw std::invalid_argument(
+      "pre-integrated slabs are of one function: they need one component, without labels");
+  }
+  const BlockRanges::Range range = this->GetBlocks(0, threads).GetRange();
   const double a = this->Volume.Offset + this->Volume.Scale * range.Low;
   const double b = this->Volume.Offset + this->Volume.Scale * range.High;
   const double scalars[2] = { std::min(a, b), std::max(a, b) };
@@ -301,11 +444,6 @@ void ImageCaster::Internals::FillRays(
 //------------------------------------------------------------------------------------------------
 void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput& in) const
 {
-  if (this->Optics.GradientOpacity.Nodes.empty())
-  {
-    return;
-  }
-  in.GradientTransfer = this->GradientFunction.Lookup;
   in.Norm = this->Optics.Norm;
   const double factor = this->Volume.Scale * this->Optics.GradientLength;
   for (int row = 0; row < 3; ++row)
@@ -316,8 +454,60 @@ void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput
       in.WorldGradient[row][column] = static_cast<float>(factor * grid.MeshFromWorld[column][row]);
     }
   }
-  in.GradientScale = static_cast<float>(this->GradientFunction.GetScale());
-  in.GradientOffset = static_cast<float>(this->GradientFunction.GetOffset());
+  const FunctionLookup& function = this->Functions.GetFirst().GradientFunction;
+  in.GradientTransfer = function.Lookup;
+  in.GradientScale = static_cast<float>(function.GetScale());
+  in.GradientOffset = static_cast<float>(function.GetOffset());
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillParts(ImageKernelInput& in)
+{
+  this->PartLookups.clear();
+  const ImageOptics& optics = this->Optics;
+  for (std::size_t k = 0; k < this->Functions.Parts.size(); ++k)
+  {
+    const FunctionLookup& function = this->Functions.Parts[k].Function;
+    const FunctionLookup& gradientFunction = this->Functions.Parts[k].GradientFunction;
+    ComponentLookup part{};
+    part.Transfer = function.Lookup;
+    part.ValueScale = this->GetValueScale(function.Table);
+    part.ValueOffset = this->GetValueOffset(function.Table);
+    part.LengthScale = k == 0
+      ? 1.f
+      : static_cast<float>(optics.UnitDistance / optics.OtherComponents[k - 1].UnitDistance);
+    part.Weight = static_cast<float>(k == 0 ? optics.Weight : optics.OtherComponents[k - 1].Weight);
+    part.GradientTransfer = gradientFunction.Lookup;
+    part.GradientScale = static_cast<float>(gradientFunction.GetScale());
+    part.GradientOffset = static_cast<float>(gradientFunction.GetOffset());
+    this->PartLookups.push_back(part);
+  }
+  in.Parts = this->PartLookups.data();
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillLabels(ImageKernelInput& in)
+{
+  LabelsLookup& lookup = this->LabelLookup;
+  lookup = LabelsLookup();
+  lookup.Labels = this->Volume.Labels;
+  const FunctionsLookup& functions = this->Functions.LabelFunctions;
+  for (std::size_t label = 0; label < std::size(lookup.Rows); ++label)
+  {
+    lookup.Rows[label] = label < functions.Tables.size() ? static_cast<std::int32_t>(label) : 0;
+  }
+  lookup.Transfer = functions.Lookup;
+  lookup.ValueScale = this->GetValueScale(functions.Tables.front());
+  lookup.ValueOffset = this->GetValueOffset(functions.Tables.front());
+  const FunctionsLookup& gradientFunctions = this->Functions.LabelGradientFunctions;
+  lookup.GradientTransfer = gradientFunctions.Lookup;
+  if (!gradientFunctions.Tables.empty())
+  {
+    lookup.GradientScale = static_cast<float>(gradientFunctions.GetScale());
+    lookup.GradientOffset = static_cast<float>(gradientFunctions.GetOffset());
+  }
+  lookup.Share = static_cast<float>(this->Optics.LabelShare);
+  in.Labels = &lookup;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -333,9 +523,12 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   {
     in.LastCell[a] = this->Volume.Dimensions[a] - 2;
   }
-  in.ValueScale = this->GetValueScale();
-  in.ValueOffset = this->GetValueOffset();
-  in.Transfer = this->Function.Lookup;
+  in.ValueScale = this->GetValueScale(this->Functions.GetFirst().Function.Table);
+  in.ValueOffset = this->GetValueOffset(this->Functions.GetFirst().Function.Table);
+  in.Mask = this->Volume.Mask;
+  in.HiddenCells = this->HiddenCells.empty() ? nullptr : this->HiddenCells.data();
+  in.Masked = in.Mask || in.HiddenCells;
+  in.Transfer = this->Functions.GetFirst().Function.Lookup;
   if (options.PreIntegrated)
   {
     in.Slab.Texels = this->Slabs.GetTexels();
@@ -352,6 +545,23 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.Slices = MakeSlicePlanes(this->Volume, grid, options.Shape, options.SampleDistance);
   this->FillRays(grid, limits, in);
   this->FillGradients(grid, in);
+  in.Components = this->Volume.Components;
+  in.Dependent = this->Optics.Components == ImageComponents::Dependent;
+  for (int c = 0; c < 3; ++c)
+  {
+    // From values instead of scalars.
+    in.ColorScale[c] = static_cast<float>(this->Optics.ColorScale[c] * this->Volume.Scale);
+    in.ColorOffset[c] = static_cast<float>(
+      this->Optics.ColorOffset[c] + this->Optics.ColorScale[c] * this->Volume.Offset);
+  }
+  if (this->ShowsParts())
+  {
+    this->FillParts(in);
+  }
+  if (this->ShowsLabels())
+  {
+    this->FillLabels(in);
+  }
   in.EndTriangles = options.EndTriangles;
   in.SkipPixels = options.SkipPixels;
   in.Space = options.SkipEmptySpace ? &this->Space : nullptr;
@@ -375,31 +585,24 @@ void ImageCaster::SetVolume(const ImageVolume& volume)
   CheckVolume(volume);
   this->Private->Volume = volume;
   this->Private->HasVolume = true;
-  this->Private->BlocksValid = false;
+  std::fill(
+    this->Private->BlocksValid, this->Private->BlocksValid + ImageVolume::MostComponents, false);
+  this->Private->LabelsValid = false;
+  this->Private->HiddenCellsValid = false;
+  this->Private->SpaceValid = false;
+  this->Private->Slabs.Invalidate();
 }
 
 //------------------------------------------------------------------------------------------------
 void ImageCaster::SetOptics(const ImageOptics& optics)
 {
-  if (!(optics.UnitDistance > 0) || !std::isfinite(optics.UnitDistance))
-  {
-    throw std::invalid_argument("the unit distance of opacity is not above 0");
-  }
+  CheckComponents(optics);
   if (!(optics.GradientLength > 0) || !std::isfinite(optics.GradientLength))
   {
     throw std::invalid_argument("the length that gradients are measured over is not above 0");
   }
   // A function that is not valid changes nothing.
-  FunctionLookup function;
-  FunctionLookup gradientFunction;
-  function.Set(optics.Function);
-  if (!optics.GradientOpacity.Nodes.empty())
-  {
-    gradientFunction.Set(optics.GradientOpacity);
-  }
-  // What lookups point to moves with them.
-  this->Private->Function = std::move(function);
-  this->Private->GradientFunction = std::move(gradientFunction);
+  this->Private->Functions = MakeFunctions(optics);
   this->Private->Optics = optics;
   this->Private->HasOptics = true;
   this->Private->SpaceValid = false;
@@ -418,28 +621,33 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   Internals& self = *this->Private;
   self.CheckReady();
   const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
-  if (options.SkipEmptySpace || options.PreIntegrated)
-  {
-    self.PrepareBlocks(threads);
-  }
+  self.PrepareHiddenCells(threads);
   if (options.SkipEmptySpace)
   {
-    self.PrepareSpace();
+    self.PrepareSpace(threads);
   }
   if (options.PreIntegrated)
   {
-    self.PrepareSlabs(options);
+    self.PrepareSlabs(options, threads);
   }
   ImageKernelInput in = self.MakeInput(grid, limits, options);
   in.Colors = colors.data();
   in.Depths = depths.data();
-  KernelLighting lighting{};
-  std::vector<KernelLight> lights;
+  KernelLights lights[ImageVolume::MostComponents];
   if (options.Shaded)
   {
-    FillKernelLighting(
-      options.Lights, options.Surface, grid, FindRadius(self.Volume, grid), lighting, lights);
-    in.Lighting = &lighting;
+    in.Lighting = lights[0].Fill(options.Lights, options.Surface, grid, self.Volume);
+  }
+  if (in.Parts)
+  {
+    self.PartLookups[0].Lighting = in.Lighting;
+    for (std::size_t k = 0; k < self.Optics.OtherComponents.size(); ++k)
+    {
+      const ComponentOptics& other = self.Optics.OtherComponents[k];
+      self.PartLookups[k + 1].Lighting = other.Shaded
+        ? lights[k + 1].Fill(options.Lights, other.Surface, grid, self.Volume)
+        : nullptr;
+    }
   }
 
   const InstructionSet set =

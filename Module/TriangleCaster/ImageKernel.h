@@ -73,19 +73,55 @@ struct SlabLookup
   float PerLength = 1; ///< 1 over the length of the table's slabs, in unit distances
 };
 
+/// One of several components, as a kernel reads it.
+struct ComponentLookup
+{
+  TransferLookup Transfer;
+  /// Where a value lies in the intervals of Transfer: x = ValueOffset + ValueScale v.
+  ///@{
+  float ValueScale;
+  float ValueOffset;
+  ///@}
+  float LengthScale; ///< the first component's unit distance over this one's
+  float Weight;
+  TransferLookup GradientTransfer; ///< of no intervals: opacity does not depend on gradients
+  float GradientScale;             ///< as those of ImageKernelInput
+  float GradientOffset;
+  const KernelLighting* Lighting; ///< nullptr: no lights
+};
+
+/// The functions of all labels, one behind the other in what both lookups point to. They lie over
+/// the same range of scalars.
+struct LabelsLookup
+{
+  const unsigned char* Labels; ///< of points
+  std::int32_t Rows[256];      ///< which function each label has
+  TransferLookup Transfer;
+  float ValueScale; ///< as those of ComponentLookup
+  float ValueOffset;
+  TransferLookup GradientTransfer;
+  float GradientScale;
+  float GradientOffset;
+  float Share; ///< ImageOptics::LabelShare
+};
+
 struct ImageKernelInput
 {
   // The volume.
   ImageScalar Type;
   const void* Values;
-  std::int32_t Row;   ///< values from one row to the next
-  std::int32_t Slice; ///< values from one slice of the grid to the next
+  std::int32_t Row;   ///< points from one row to the next
+  std::int32_t Slice; ///< points from one slice of the grid to the next
   std::int32_t LastCell[3];
   /// Where a value lies in the transfer function's intervals: x = ValueOffset + ValueScale v.
   ///@{
   float ValueScale;
   float ValueOffset;
   ///@}
+
+  bool Masked; ///< some points or cells are hidden, by one of these
+  const unsigned char* Mask;
+  const unsigned char* HiddenCells; ///< not 0: hidden; of the first point of each cell
 
   // Optics.
   TransferLookup Transfer;
@@ -106,6 +142,14 @@ struct ImageKernelInput
   float GradientScale;
   float GradientOffset;
   ///@}
+
+  // Several components, and labels.
+  int Components;
+  bool Dependent;
+  const ComponentLookup* Parts; ///< of independent components
+  float ColorScale[3];          ///< from values to colours, of four dependent components
+  float ColorOffset[3];
+  const LabelsLookup* Labels; ///< nullptr: there are none
 
   // Rays: their starts and directions in coordinates of the volume, and directions in the world.
   PixelLinear Start[3];

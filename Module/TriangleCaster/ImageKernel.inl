@@ -3,10 +3,14 @@
 // The triangle caster for one instruction set: S-triangles, blocks of slabs, vectors of rays
 // (Knittel 1999, sections 2 and 3).
 
+#include "TriangleCaster/ComponentsModel.h"
 #include "TriangleCaster/CompositeModel.h"
+#include "TriangleCaster/DependentModel.h"
 #include "TriangleCaster/ImageKernel.h"
 #include "TriangleCaster/ImageRays.h"
 #include "TriangleCaster/ImageSample.h"
+#include "TriangleCaster/LabelModel.h"
+#include "TriangleCaster/MaskLanes.h"
 #include "TriangleCaster/SlabModel.h"
 #include "TriangleCaster/TileSpace.h"
 
@@ -82,6 +86,16 @@ TETRALUX_NOINLINE void CastBlock(
       sample.Front = Float8(static_cast<float>(slab)) + from;
       sample.Share = to - from;
       sample.Length = stepLength * sample.Share;
+      const Float8 middle = position + Float8(0.5f) * (from + to);
+      if (in.Masked)
+      {
+        PlaceSample(in, positions, middle, sample);
+        sample.Active = sample.Active & FindShown(in, sample);
+        if (!Any(sample.Active))
+        {
+          continue;
+        }
+      }
       counts.Samples += __builtin_popcount(Bits(sample.Active));
       if constexpr (Model::AtEnds)
       {
@@ -96,7 +110,7 @@ TETRALUX_NOINLINE void CastBlock(
       }
       else
       {
-        PlaceSample(in, positions, position + Float8(0.5f) * (from + to), sample);
+        PlaceSample(in, positions, middle, sample);
         model.Add(in, sample);
       }
     }
@@ -247,12 +261,47 @@ ImageKernel ChooseLookup(const ImageKernelInput& in)
   return &CastTile<Value, Model<Value, ManyIntervals>>;
 }
 
+template <class Value, class Gradients>
+ImageKernel ChooseComponents(const ImageKernelInput& in)
+{
+  if (in.Labels)
+  {
+    return &CastTile<Value, LabelModel<Value, Gradients>>;
+  }
+  switch (in.Components)
+  {
+    case 2:
+      return in.Dependent ? &CastTile<Value, DependentModel<Value, 2, Gradients>>
+                          : &CastTile<Value, ComponentsModel<Value, 2, Gradients>>;
+    case 3:
+      return &CastTile<Value, ComponentsModel<Value, 3, Gradients>>;
+    default:
+      return in.Dependent ? &CastTile<Value, DependentModel<Value, 4, Gradients>>
+                          : &CastTile<Value, ComponentsModel<Value, 4, Gradients>>;
+  }
+}
+
+/// Whether anything depends on gradients.
+inline bool UsesGradients(const ImageKernelInput& in)
+{
+  const auto usesThem = [](const ComponentLookup& part)
+  { return part.Lighting || part.GradientTransfer.Count > 0; };
+  return in.Lighting || in.GradientTransfer.Count > 0 ||
+    (in.Labels && in.Labels->GradientTransfer.Count > 0) ||
+    (in.Parts && std::any_of(in.Parts, in.Parts + in.Components, usesThem));
+}
+
 template <class Value>
 ImageKernel ChooseModel(const ImageKernelInput& in)
 {
   if (in.Slab.Texels)
   {
     return &CastTile<Value, SlabModel<Value>>;
+  }
+  if (in.Labels || in.Components > 1)
+  {
+    return UsesGradients(in) ? ChooseComponents<Value, GradientModel>(in)
+                             : ChooseComponents<Value, NoGradients>(in);
   }
   return in.Lighting || in.GradientTransfer.Count > 0 ? ChooseLookup<Value, GradientComposite>(in)
                                                       : ChooseLookup<Value, PlainComposite>(in);

@@ -2,7 +2,10 @@
 #ifndef tetralux_ImageOptics_h
 #define tetralux_ImageOptics_h
 
+#include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
+
+#include <vector>
 
 namespace tetralux
 {
@@ -22,6 +25,42 @@ enum class GradientNorm
   Sum        ///< L1, the sum of its components: less to compute (Knittel 1999, section 7)
 };
 
+/// What the components of a point are to each other.
+enum class ImageComponents
+{
+  /// Each has functions of its own, and what they show is added up by their weights. With alpha the
+  /// opacity of a component's step and w its weight, a sample emits the sum of w alpha color, and
+  /// absorbs the sum of alpha^2 over that of w alpha, at most 1; components of no weight are not
+  /// there. As in vtkGPUVolumeRayCastMapper.
+  Independent,
+
+  /// Of two components, the first one has the colour and the last one the opacity of the one
+  /// function. Of four, the first three are red, green and blue, and the last one has the opacity.
+  /// Gradients are those of the last one. Of three there is no such meaning.
+  Dependent
+};
+
+/// How one of several independent components is shown.
+struct ComponentOptics
+{
+  /// As those of ImageOptics.
+  ///@{
+  TransferFunction Function;
+  double UnitDistance = 1;
+  TransferFunction GradientOpacity;
+  double Weight = 1;
+  ///@}
+  bool Shaded = false; ///< by the lights of ImageCasterOptions
+  Material Surface;
+};
+
+/// How samples of a label are shown.
+struct LabelOptics
+{
+  TransferFunction Function;        ///< as that of ImageOptics
+  TransferFunction GradientOpacity; ///< of the same kind as that of ImageOptics
+};
+
 /// What the rays gather in an image volume.
 struct ImageOptics
 {
@@ -36,6 +75,26 @@ struct ImageOptics
   TransferFunction GradientOpacity;
   double GradientLength = 1; ///< world units, above 0; VTK has the mean spacing of points
   GradientNorm Norm = GradientNorm::Euclidean;
+
+  // Several components.
+  ImageComponents Components = ImageComponents::Independent;
+  double Weight = 1; ///< of the first component, at least 0; in VTK at most 1
+  /// The components behind the first one, if they are independent. The first one has what stands
+  /// above, and is shaded by ImageCasterOptions.
+  std::vector<ComponentOptics> OtherComponents;
+  /// Of four dependent ones: a channel is ColorOffset + ColorScale s, with s the scalar of its
+  /// component. By default that is bytes over 255.
+  ///@{
+  double ColorScale[3] = { 1. / 255, 1. / 255, 1. / 255 };
+  double ColorOffset[3] = { 0, 0, 0 };
+  ///@}
+
+  /// Of a volume of one component with labels: how labels 1, 2 and so on are shown. Label 0, and
+  /// labels that are not here, have what stands above.
+  std::vector<LabelOptics> Labels;
+  /// How much of a labelled sample's colour and opacity is that of its label, 0..1; the rest is
+  /// what it would have without. Both are mixed before the colour is multiplied by opacity.
+  double LabelShare = 1;
 };
 
 } // namespace tetralux
