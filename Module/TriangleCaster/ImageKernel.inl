@@ -89,8 +89,10 @@ TETRALUX_NOINLINE void CastBlock(
       const Float8 middle = position + Float8(0.5f) * (from + to);
       if (in.Masked)
       {
-        PlaceSample(in, positions, middle, sample);
-        sample.Active = sample.Active & FindShown(in, sample);
+        // A sample of its own: what is not masked keeps its sample in registers.
+        ImageSample place;
+        PlaceSample(in, positions, middle, place);
+        sample.Active = sample.Active & FindShown(in, place);
         if (!Any(sample.Active))
         {
           continue;

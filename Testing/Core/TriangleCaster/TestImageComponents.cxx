@@ -415,6 +415,28 @@ TEST(ImageComponents, MasksAndBlankedCellsHide)
   ExpectLoops(dependent);
 }
 
+// The scalar of a slab with one function does not matter, but whether its middle is hidden does.
+TEST(ImageComponents, SlabsAreMaskedInTheirMiddle)
+{
+  ComponentScene scene = MakeLabelled(ImageScalar::UInt8, 1, false);
+  scene.Labels.clear();
+  scene.Optics.Labels.clear();
+  const TransferFunction::Value value = { { 0.9, 0.5, 0.2 }, 0.1 };
+  scene.Optics.Function = { { { 0, value, value }, { 1, value, value } } };
+  HideSome(scene);
+  ExpectLoops(scene);
+  const ComponentPicture samples = CastScene(scene);
+  scene.Options.PreIntegrated = true;
+  const ComponentPicture slabs = CastScene(scene);
+  for (std::size_t k = 0; k < samples.Colors.size(); ++k)
+  {
+    // The table's rounding, over some 60 samples.
+    EXPECT_NEAR(slabs.Colors[k], samples.Colors[k], 1e-5);
+  }
+  scene.Options.SkipEmptySpace = false;
+  EXPECT_TRUE(HasSameBits(slabs, CastScene(scene)));
+}
+
 // Empty space is known by the functions of labels and components, and what is hidden.
 TEST(ImageComponents, EmptySpaceIsSkipped)
 {
@@ -493,6 +515,12 @@ TEST(ImageComponents, WhatHasNoMeaningIsRefused)
   scene = MakeIndependent(ImageScalar::UInt8, 3, false);
   scene.Optics.Weight = -1;
   EXPECT_TRUE(refuses(scene, "weight"));
+  scene = MakeIndependent(ImageScalar::UInt8, 2, false);
+  scene.Options.PreIntegrated = true;
+  EXPECT_TRUE(refuses(scene, "slabs are of one function"));
+  scene = MakeLabelled(ImageScalar::UInt8, 1, false);
+  scene.Options.PreIntegrated = true;
+  EXPECT_TRUE(refuses(scene, "slabs are of one function"));
   scene = MakeLabelled(ImageScalar::UInt8, 1, false);
   scene.Optics.LabelShare = 1.5;
   EXPECT_TRUE(refuses(scene, "share"));
