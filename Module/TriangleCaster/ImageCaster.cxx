@@ -6,6 +6,7 @@
 #include "Simd/InstructionSet.h"
 #include "TriangleCaster/EmptySpace.h"
 #include "TriangleCaster/FunctionLookup.h"
+#include "TriangleCaster/FunctionSet.h"
 #include "TriangleCaster/HiddenCells.h"
 #include "TriangleCaster/ImageKernel.h"
 #include "TriangleCaster/SlabTable.h"
@@ -115,73 +116,6 @@ void CheckComponents(const ImageOptics& optics)
   {
     throw std::invalid_argument("the share of labels is not within 0..1");
   }
-}
-
-/// Gradient opacities without nodes are 1 instead; none at all if all are without.
-std::vector<TransferFunction> CompleteGradientOpacities(std::vector<TransferFunction> functions)
-{
-  const auto isNone = [](const TransferFunction& function) { return function.Nodes.empty(); };
-  const auto some = std::find_if_not(functions.begin(), functions.end(), isNone);
-  if (some == functions.end())
-  {
-    return {};
-  }
-  const TransferFunction::Value one = { { 0, 0, 0 }, 1 };
-  const TransferFunction constant = { { { some->Nodes.front().Scalar, one, one } } };
-  std::replace_if(functions.begin(), functions.end(), isNone, constant);
-  return functions;
-}
-
-/// The functions of one component.
-struct PartFunctions
-{
-  FunctionLookup Function;
-  FunctionLookup GradientFunction; ///< of no intervals if there is none
-};
-
-PartFunctions MakePartFunctions(
-  const TransferFunction& function, const TransferFunction& gradientOpacity)
-{
-  PartFunctions part;
-  part.Function.Set(function);
-  if (!gradientOpacity.Nodes.empty())
-  {
-    part.GradientFunction.Set(gradientOpacity);
-  }
-  return part;
-}
-
-/// All functions of ImageOptics. What lookups point to moves with them.
-struct FunctionSet
-{
-  std::vector<PartFunctions> Parts;       ///< of all components
-  FunctionsLookup LabelFunctions;         ///< of label 0, 1 and so on
-  FunctionsLookup LabelGradientFunctions; ///< as many, or none
-
-  const PartFunctions& GetFirst() const { return this->Parts.front(); }
-};
-
-FunctionSet MakeFunctions(const ImageOptics& optics)
-{
-  FunctionSet set;
-  set.Parts.push_back(MakePartFunctions(optics.Function, optics.GradientOpacity));
-  for (const ComponentOptics& other : optics.OtherComponents)
-  {
-    set.Parts.push_back(MakePartFunctions(other.Function, other.GradientOpacity));
-  }
-  if (!optics.Labels.empty())
-  {
-    std::vector<TransferFunction> functions{ optics.Function };
-    std::vector<TransferFunction> gradientOpacities{ optics.GradientOpacity };
-    for (const LabelOptics& label : optics.Labels)
-    {
-      functions.push_back(label.Function);
-      gradientOpacities.push_back(label.GradientOpacity);
-    }
-    set.LabelFunctions.Set(std::move(functions));
-    set.LabelGradientFunctions.Set(CompleteGradientOpacities(std::move(gradientOpacities)));
-  }
-  return set;
 }
 
 /// Whether what there is of components has a meaning.
@@ -602,7 +536,7 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
     throw std::invalid_argument("the length that gradients are measured over is not above 0");
   }
   // A function that is not valid changes nothing.
-  this->Private->Functions = MakeFunctions(optics);
+  this->Private->Functions = MakeFunctionSet(optics);
   this->Private->Optics = optics;
   this->Private->HasOptics = true;
   this->Private->SpaceValid = false;

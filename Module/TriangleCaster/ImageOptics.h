@@ -54,11 +54,12 @@ struct ComponentOptics
   Material Surface;
 };
 
-/// How samples of a label are shown.
+/// How samples of a label are shown. Unlike in VTK 9.1, the opacity of a step follows from its
+/// length as that of other samples does.
 struct LabelOptics
 {
   TransferFunction Function;        ///< as that of ImageOptics
-  TransferFunction GradientOpacity; ///< of the same kind as that of ImageOptics
+  TransferFunction GradientOpacity; ///< as that of ImageOptics; without nodes there is none
 };
 
 /// What the rays gather in an image volume.
@@ -83,7 +84,8 @@ struct ImageOptics
   /// above, and is shaded by ImageCasterOptions.
   std::vector<ComponentOptics> OtherComponents;
   /// Of four dependent ones: a channel is ColorOffset + ColorScale s, with s the scalar of its
-  /// component. By default that is bytes over 255.
+  /// component. By default that is bytes over 255. vtkGPUVolumeRayCastMapper has 1 / 65535 for 16
+  /// bits without a sign, 1 / 32767 with one, and 1 for floats.
   ///@{
   double ColorScale[3] = { 1. / 255, 1. / 255, 1. / 255 };
   double ColorOffset[3] = { 0, 0, 0 };

@@ -467,6 +467,14 @@ TEST(ImageComponents, EmptySpaceIsSkipped)
   makeTransparent(labelled.Optics.Labels[0].Function);
   EXPECT_EQ(countSamples(labelled)[0], 0);
 
+  // What unlabelled samples have shows in part where all samples are labelled.
+  ComponentScene shared = MakeLabelled(ImageScalar::UInt8, 0.5, false);
+  shared.Labels.assign(shared.Numbers.size(), 1);
+  makeTransparent(shared.Optics.Labels[0].Function);
+  EXPECT_GT(countSamples(shared)[0], 0);
+  shared.Optics.LabelShare = 1;
+  EXPECT_EQ(countSamples(shared)[0], 0);
+
   ComponentScene parts = MakeIndependent(ImageScalar::UInt8, 2, false);
   makeTransparent(parts.Optics.Function);
   EXPECT_GT(countSamples(parts)[0], 0);
