@@ -13,6 +13,7 @@
 #include "Properties/PropertySetters.h"
 #include "Report/Json.h"
 #include "TriangleCaster/ImageCaster.h"
+#include "TriangleCaster/ImageError.h"
 #include "View/MeshToWorld.h"
 
 #include "vtkImageData.h"
@@ -20,11 +21,15 @@
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
 
 using tetralux::Json;
 using tetralux::MapperFrame;
@@ -35,6 +40,9 @@ namespace
 
 /// Slices of an interaction are this much farther apart, where nothing else is set.
 constexpr double InteractiveFactor = 2;
+
+/// SampleDistanceByError begins with slices this much farther apart.
+constexpr double CoarsestFactor = 4;
 
 /// The smallest rectangle with all that contributes; empty if nothing does.
 PixelRectangle FindCovered(const tetralux::CPUPicture& picture)
@@ -88,6 +96,10 @@ public:
 
   tetralux::ScalarSelection SelectScalars() const;
 
+  /// What slices add to the error of the last frame; 0 where it is known, or can't be known any
+  /// more.
+  double MeasureSlices();
+
   vtkTriangleCasterMapper* Self;
   tetralux::ImagePreparation Preparation;
   tetralux::FrameRecord Record;
@@ -98,16 +110,34 @@ private:
   PixelRectangle MakePicture(MapperFrame& frame, const tetralux::CPUPicture& picture);
   tetralux::ImageCasterOptions MakeOptions(const tetralux::RayGrid& grid, MapperFrame& frame) const;
   double FindBrightness(const tetralux::RayGrid& grid, const MapperFrame& frame) const;
-  double ChooseSampleDistance(const MapperFrame& frame) const;
+  double FindSampleDistance(const MapperFrame& frame) const;
+  double ChooseSampleDistance(const tetralux::RayGrid& grid, const tetralux::RayLimits& limits,
+    const tetralux::ImageCasterOptions& options, const MapperFrame& frame);
   void Describe(const tetralux::ImageCastStatistics& statistics,
     const tetralux::ImageCasterOptions& options, const tetralux::CPUPicture& picture,
     MapperFrame& frame) const;
+
+  /// The last picture, as far as it takes to measure its error.
+  struct LastPicture
+  {
+    tetralux::RayGrid Grid;
+    tetralux::RayLimits Limits;
+    std::shared_ptr<const std::vector<float>> OpaqueDistances; ///< what Limits point to
+    tetralux::ImageCasterOptions Options;
+    tetralux::Span<const float> Colors;
+    vtkWeakPointer<vtkDataObject> Input;
+    vtkMTimeType InputTime = 0;
+  };
+  std::optional<LastPicture> Last; ///< until it was measured
+  double SliceError = 0;           ///< beside what the record has
 };
 
 //------------------------------------------------------------------------------------------------
 void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVolume* volume)
 {
   const tetralux::Stopwatch stopwatch;
+  this->Last.reset();
+  this->SliceError = 0;
   MapperFrame frame = this->Record.Begin(renderer, volume);
   this->SetUp(frame);
   tetralux::ImageInput input;
@@ -176,11 +206,25 @@ PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
 {
   const tetralux::ImagePlacement& placement = this->Preparation.GetPlacement();
   const tetralux::RayGrid grid = ToIndices(placement, picture.Grid);
-  const tetralux::ImageCasterOptions options = this->MakeOptions(grid, frame);
-  const tetralux::ImageCastStatistics statistics = this->Preparation.Caster.Cast(
-    grid, ToIndices(placement, picture.Limits), options, picture.Colors, picture.Depths);
+  const tetralux::RayLimits limits = ToIndices(placement, picture.Limits);
+  tetralux::ImageCasterOptions options = this->MakeOptions(grid, frame);
+  options.SampleDistance = this->ChooseSampleDistance(grid, limits, options, frame);
+  const tetralux::ImageCastStatistics statistics =
+    this->Preparation.Caster.Cast(grid, limits, options, picture.Colors, picture.Depths);
   frame.Aborted = statistics.Aborted;
   this->Describe(statistics, options, picture, frame);
+  if (!frame.Aborted)
+  {
+    options.Progress = nullptr; // of the frame
+    vtkDataObject* input = this->Self->GetDataObjectInput();
+    this->Last = { grid, limits, picture.OpaqueDistances, options,
+      tetralux::Span<const float>(picture.Colors), input, input->GetMTime() };
+    if (this->Self->SampleDistanceByError != 0 && !frame.IsInteractive())
+    {
+      frame.Errors.emplace_back("slices", this->MeasureSlices());
+      this->SliceError = 0; // in the record now
+    }
+  }
   return frame.Aborted ? PixelRectangle() : FindCovered(picture);
 }
 
@@ -190,12 +234,12 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
 {
   tetralux::ErrorSpending spending;
   spending.Approximated = this->Preparation.GetFunctionError() > 0;
+  spending.Sliced = this->Self->SampleDistanceByError != 0;
   spending.EndsEarly = this->Self->EndTriangles != 0 || this->Self->SkipPixels != 0;
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError, spending);
   frame.Brightness = this->FindBrightness(grid, frame);
 
   tetralux::ImageCasterOptions options;
-  options.SampleDistance = this->ChooseSampleDistance(frame);
   options.Shape = this->Self->SliceShape == PLANE_SLICES ? tetralux::SliceShape::Planes
                                                          : tetralux::SliceShape::Shells;
   options.CorrectOpacity = this->Self->CorrectOpacity != 0;
@@ -232,7 +276,41 @@ double vtkTriangleCasterMapper::Internals::FindBrightness(
 }
 
 //------------------------------------------------------------------------------------------------
-double vtkTriangleCasterMapper::Internals::ChooseSampleDistance(const MapperFrame& frame) const
+double vtkTriangleCasterMapper::Internals::MeasureSlices()
+{
+  if (this->Last)
+  {
+    const LastPicture& last = *this->Last;
+    if (last.Input && last.Input == this->Self->GetDataObjectInput() &&
+      last.Input->GetMTime() == last.InputTime)
+    {
+      this->SliceError = tetralux::EstimateImageError(
+        this->Preparation.Caster, last.Grid, last.Limits, last.Options, last.Colors)
+                           .Largest;
+    }
+    this->Last.reset();
+  }
+  return this->SliceError;
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTriangleCasterMapper::Internals::ChooseSampleDistance(const tetralux::RayGrid& grid,
+  const tetralux::RayLimits& limits, const tetralux::ImageCasterOptions& options,
+  const MapperFrame& frame)
+{
+  const double distance = this->FindSampleDistance(frame);
+  if (this->Self->SampleDistanceByError == 0 || frame.IsInteractive())
+  {
+    return distance;
+  }
+  tetralux::ImageCasterOptions coarsest = options;
+  coarsest.SampleDistance = CoarsestFactor * distance;
+  return tetralux::ChooseSampleDistance(
+    this->Preparation.Caster, grid, limits, coarsest, frame.Budget.Slices);
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTriangleCasterMapper::Internals::FindSampleDistance(const MapperFrame& frame) const
 {
   double distance = this->Self->SampleDistance;
   if (distance == 0)
@@ -347,13 +425,13 @@ std::string vtkTriangleCasterMapper::GetStatistics()
 //------------------------------------------------------------------------------------------------
 double vtkTriangleCasterMapper::GetErrorEstimate()
 {
-  return this->Private->Record.GetErrorEstimate();
+  return this->Private->Record.GetErrorEstimate() + this->Private->MeasureSlices();
 }
 
 //------------------------------------------------------------------------------------------------
 bool vtkTriangleCasterMapper::IsMaximumErrorKept()
 {
-  return this->Private->Record.IsErrorKept(this->MaximumError);
+  return this->Private->Record.IsErrorKept(this->MaximumError, this->Private->MeasureSlices());
 }
 
 //------------------------------------------------------------------------------------------------
@@ -402,6 +480,7 @@ void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
   printer.Print("BlendMode", this->BlendMode);
   printer.Print("MaximumError", this->MaximumError);
   printer.Print("SampleDistance", this->SampleDistance);
+  printer.Print("SampleDistanceByError", this->SampleDistanceByError);
   printer.Print("InteractiveSampleDistance", this->InteractiveSampleDistance);
   printer.Print("SliceShape", this->SliceShape);
   printer.Print("OpacityModel", this->OpacityModel);

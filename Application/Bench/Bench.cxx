@@ -19,7 +19,6 @@
 #include "vtkHeadlessRenderWindow.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -60,11 +59,7 @@ void CheckOptions(const BenchOptions& options)
 /// Fills in what the options leave open.
 BenchOptions Complete(BenchOptions options)
 {
-  const char* folder = std::getenv("TETRALUX_DATA");
-  if (options.Scene.Input.Name.empty() && options.DataFolder.empty() && folder)
-  {
-    options.DataFolder = folder;
-  }
+  options.DataFolder = GetDataFolder(options);
   if (options.Scene.Width == 0)
   {
     options.Scene.Width = options.Scene.Height = options.Quick ? QuickSize : FullSize;

@@ -4,6 +4,7 @@
 
 #include "Setup/SceneOptions.h"
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,13 @@ struct BenchOptions
   bool Features = false;
   std::string Output;
 };
+
+/// The folder of the real data, or nothing.
+inline std::string GetDataFolder(const BenchOptions& options)
+{
+  const char* folder = std::getenv("TETRALUX_DATA");
+  const bool given = !options.Scene.Input.Name.empty() || !options.DataFolder.empty();
+  return given || folder == nullptr ? options.DataFolder : folder;
+}
 
 #endif

@@ -7,6 +7,7 @@
 #include "CommandLine/CommandOption.h"
 #include "CommandLine/OptionValues.h"
 #include "Commands/StabilityCommand.h"
+#include "Commands/TrafficCommand.h"
 #include "Files/MeshFormats.h"
 #include "Setup/SceneOptionGroups.h"
 
@@ -75,10 +76,11 @@ void AddBenchCommand(CLI::App& app)
   AddSceneOptions(command, *options);
   AddRunOptions(command, *options);
   const std::function<bool()> runStability = AddStabilityOptions(command);
+  const std::function<bool()> runTraffic = AddTrafficOptions(command, *options);
   command->final_callback(
-    [options, runStability]
+    [options, runStability, runTraffic]
     {
-      if (runStability())
+      if (runStability() || runTraffic())
       {
         return;
       }

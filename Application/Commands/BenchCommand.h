@@ -8,7 +8,7 @@ class App;
 }
 
 /// Adds `tetralux bench`, which measures error against run time. With --stability it runs
-/// StabilityCommand.h instead.
+/// StabilityCommand.h instead, with --traffic TrafficCommand.h.
 void AddBenchCommand(CLI::App& app);
 
 #endif

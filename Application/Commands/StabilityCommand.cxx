@@ -6,7 +6,6 @@
 #include "CommandLine/OptionValues.h"
 #include "Stability/StabilitySuite.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iomanip>
@@ -95,19 +94,6 @@ void RunStability(const StabilityOptions& options)
   {
     throw WorkError("a form of the ray integral breaks its promise: " + broken +
       ", with the seed " + std::to_string(options.Seed));
-  }
-}
-
-/// Throws UsageError if the command has an option that is not one of these.
-void RefuseOtherOptions(const CLI::App* command, const std::vector<std::string>& names)
-{
-  for (const CLI::Option* option : command->get_options())
-  {
-    const std::string name = option->get_name();
-    if (option->count() > 0 && std::find(names.begin(), names.end(), name) == names.end())
-    {
-      throw UsageError(names.front() + ": does not go with " + name);
-    }
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include "Base/Tile.h"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -18,31 +17,11 @@
 namespace tetralux
 {
 
-/// A picture cut into square tiles, row by row. Those at its right and upper end may be smaller.
-struct TileGrid
-{
-  int Width = 0;  ///< of the picture, pixels
-  int Height = 0; ///< of the picture, pixels
-  int Size = 1;   ///< of a tile, pixels along its edge
-
-  int GetColumns() const { return (this->Width + this->Size - 1) / this->Size; }
-  int GetCount() const
-  {
-    return this->GetColumns() * ((this->Height + this->Size - 1) / this->Size);
-  }
-  Tile GetTile(int index) const
-  {
-    const int x = index % this->GetColumns() * this->Size;
-    const int y = index / this->GetColumns() * this->Size;
-    return { x, y, std::min(x + this->Size, this->Width), std::min(y + this->Size, this->Height) };
-  }
-};
-
 /// Between two reports of progress: short for a user who wants to abort, long for the work.
 constexpr std::chrono::milliseconds ReportInterval(5);
 
-/// Between two looks of the calling thread at whether others have finished their last tiles: a small
-/// part of a frame of some milliseconds.
+/// Between two looks of the calling thread at whether others have finished their last tiles: a
+/// small part of a frame of some milliseconds.
 constexpr std::chrono::microseconds WaitInterval(100);
 
 /// Calls cast(tile, thread) once for each tile. threads is at least 1; thread is in 0..threads - 1.

@@ -322,23 +322,26 @@ TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& fir
   second.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(3, 1, 3, 1)));
 }
 
+// Functions, since large files of kernels no longer inline lambdas of this size.
+TETRALUX_INLINE std::int32_t LoadWord(const void* base, std::uint32_t offset)
+{
+  std::int32_t word;
+  std::memcpy(&word, static_cast<const char*>(base) + offset, sizeof(word));
+  return word;
+}
+TETRALUX_INLINE __m128i LoadFourWords(const void* base, const std::uint32_t* offsets)
+{
+  const __m128i a =
+    _mm_insert_epi32(_mm_cvtsi32_si128(LoadWord(base, offsets[0])), LoadWord(base, offsets[1]), 1);
+  return _mm_insert_epi32(
+    _mm_insert_epi32(a, LoadWord(base, offsets[2]), 2), LoadWord(base, offsets[3]), 3);
+}
 TETRALUX_INLINE Int8 GatherWords(const void* base, Int8 index)
 {
   alignas(32) std::uint32_t i[LaneCount];
   Store(reinterpret_cast<std::int32_t*>(i), index);
   KeepInMemory(i);
-  const auto at = [&](int lane)
-  {
-    std::int32_t word;
-    std::memcpy(&word, static_cast<const char*>(base) + i[lane], sizeof(word));
-    return word;
-  };
-  const auto four = [&](int first)
-  {
-    const __m128i a = _mm_insert_epi32(_mm_cvtsi32_si128(at(first)), at(first + 1), 1);
-    return _mm_insert_epi32(_mm_insert_epi32(a, at(first + 2), 2), at(first + 3), 3);
-  };
-  return Int8(_mm256_set_m128i(four(4), four(0)));
+  return Int8(_mm256_set_m128i(LoadFourWords(base, i + 4), LoadFourWords(base, i)));
 }
 TETRALUX_INLINE void GatherNeighbors(const float* base, Int8 index, Float8& first, Float8& second)
 {

@@ -5,10 +5,10 @@
 // Several independent components, each with functions of its own, composited front to back.
 
 #include "Simd/LaneFunctions.h"
+#include "TriangleCaster/ClassifiedLanes.h"
 #include "TriangleCaster/ComponentLanes.h"
 #include "TriangleCaster/CompositingBuffer.h"
 #include "TriangleCaster/GradientModel.h"
-#include "TriangleCaster/TransferLanes.h"
 
 #include <type_traits>
 #include <utility>

@@ -9,7 +9,9 @@
 #include "TriangleCaster/GradientModel.h"
 #include "TriangleCaster/ImageSample.h"
 #include "TriangleCaster/TransferLanes.h"
+#include "TriangleCaster/TransferTableLanes.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 
@@ -20,7 +22,7 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Samples at the middle of stretches. Gradients: NoGradients, or GradientModel where lights shine
+/// Samples at the middle of stretches. Gradients: NoGradients, or GradientModel where lights shine,
 /// or opacity depends on gradients.
 template <class Value, class Intervals, class Gradients>
 class CompositeModel : public CompositingBuffer
@@ -36,7 +38,9 @@ public:
 
   TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample)
   {
-    const Intervals intervals(in.Transfer, sample.GetScalar<Value>(in));
+    typename Gradients::template Field<Value> field;
+    const Float8 scalar = field.LoadScalar(in, sample);
+    const Intervals intervals(in.Transfer, scalar);
     const Float8 zero = 0.f;
     Float8 scalarOpacity = intervals.GetOpacity();
     // False where the scalar is not a number.
@@ -46,17 +50,24 @@ public:
       return;
     }
     LaneVector gradient;
+    LaneEntry entry;
     if constexpr (UsesGradients)
     {
-      gradient = FindGradient<Value>(in, sample);
-      if (in.GradientTransfer.Count > 0)
+      gradient = field.GetGradient(in, sample);
+      if (Gradients::HasTables && in.Table.Entries)
       {
-        scalarOpacity = scalarOpacity * this->Gradient.GetOpacityFactor(in, gradient);
-        visible = visible & (zero < scalarOpacity);
-        if (!Any(visible))
-        {
-          return;
-        }
+        const Float8 length = Gradients::GetLength(in, gradient);
+        entry = LookUpTable(in.Table, scalar, length);
+        scalarOpacity = entry.C[3];
+      }
+      else if (in.GradientTransfer.Count > 0)
+      {
+        scalarOpacity = scalarOpacity * Gradients::GetOpacityFactor(in, gradient);
+      }
+      visible = visible & (zero < scalarOpacity);
+      if (!Any(visible))
+      {
+        return;
       }
     }
     const Float8 depth = (in.Power ? MinusLogOfRest(scalarOpacity) : scalarOpacity) * sample.Length;
@@ -65,10 +76,18 @@ public:
     intervals.GetColor(color);
     if constexpr (UsesGradients)
     {
+      if (Gradients::HasTables && in.Table.Entries)
+      {
+        std::copy(entry.C, entry.C + 3, color);
+      }
       if (in.Lighting)
       {
         this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
       }
+    }
+    if (in.Cued)
+    {
+      Cue(in, sample, color);
     }
     for (Float8& channel : color)
     {
@@ -78,6 +97,17 @@ public:
   }
 
 private:
+  /// Depth cueing (section 2.2).
+  static TETRALUX_INLINE void Cue(
+    const ImageKernelInput& in, const ImageSample& sample, Float8 (&color)[3])
+  {
+    const Float8 depth = Fma(Float8(0.5f), sample.Share, sample.Front);
+    for (int c = 0; c < 3; ++c)
+    {
+      color[c] = color[c] * Fma(Float8(in.CueStep[c]), depth, Float8(in.Cue[c]));
+    }
+  }
+
   static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
 
   Gradients Gradient;
@@ -86,7 +116,9 @@ private:
 template <class Value, class Intervals>
 using PlainComposite = CompositeModel<Value, Intervals, NoGradients>;
 template <class Value, class Intervals>
-using GradientComposite = CompositeModel<Value, Intervals, GradientModel>;
+using GradientComposite = CompositeModel<Value, Intervals, GradientModel<false>>;
+template <class Value, class Intervals>
+using PreparedComposite = CompositeModel<Value, Intervals, GradientModel<true>>;
 
 } // namespace
 } // namespace TETRALUX_ISA

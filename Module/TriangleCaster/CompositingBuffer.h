@@ -18,6 +18,14 @@ namespace
 class CompositingBuffer
 {
 public:
+  /// Whether a ray has a pixel even if nothing of it contributes.
+  static constexpr bool CountsEmptyRays = false;
+  /// Whether a sample depends on the one before it.
+  static constexpr bool JoinsSamples = false;
+
+  /// Whether slabs may come in any order.
+  static constexpr bool InAnyOrder = false;
+
   CompositingBuffer(const ImageKernelInput& in, const ImageRays& rays)
     : Translucency(LoadFloat8(rays.Translucency))
     , Front(LoadFloat8(rays.Front))
@@ -42,14 +50,17 @@ public:
   /// Rays that what is behind can still change.
   TETRALUX_INLINE Mask8 GetOpen() const { return this->Threshold <= this->Translucency; }
 
-  /// The picture's pixel of a lane.
-  static void GetPixel(const ImageKernelInput&, const ImageRays& rays, int lane, float (&pixel)[4])
+  /// What the picture has of rays that have ended.
+  static PixelLanes GetPixels(const ImageKernelInput&, const ImageRays& rays)
   {
+    PixelLanes pixels;
     for (int c = 0; c < 3; ++c)
     {
-      pixel[c] = rays.Color[c][lane];
+      pixels.Color[c] = LoadFloat8(rays.Color[c]);
     }
-    pixel[3] = 1.f - rays.Translucency[lane];
+    pixels.Opacity = Float8(1.f) - LoadFloat8(rays.Translucency);
+    pixels.Front = LoadFloat8(rays.Front);
+    return pixels;
   }
 
 protected:

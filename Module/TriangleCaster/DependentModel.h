@@ -5,10 +5,10 @@
 // Components that together are colour and opacity, composited front to back.
 
 #include "Simd/LaneFunctions.h"
+#include "TriangleCaster/ClassifiedLanes.h"
 #include "TriangleCaster/ComponentLanes.h"
 #include "TriangleCaster/CompositingBuffer.h"
 #include "TriangleCaster/GradientModel.h"
-#include "TriangleCaster/TransferLanes.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace tetralux
 {
@@ -30,6 +31,8 @@ void FindRanges(const ImageVolume& volume, int component, const std::int32_t (&s
         const int x1 = std::min((bx + 1) * BlockRanges::BlockSize, volume.Dimensions[0] - 1);
         float low = std::numeric_limits<float>::infinity();
         float high = -low;
+        int finite = 0;
+        int count = 0;
         for (int z = bz * BlockRanges::BlockSize; z <= z1; ++z)
         {
           for (int y = by * BlockRanges::BlockSize; y <= y1; ++y)
@@ -40,10 +43,16 @@ void FindRanges(const ImageVolume& volume, int component, const std::int32_t (&s
               const auto value = static_cast<float>(at[x * step]);
               low = value < low ? value : low;
               high = value > high ? value : high;
+              if constexpr (std::is_same_v<Value, float>)
+              {
+                finite += std::isfinite(value) ? 1 : 0;
+                ++count;
+              }
             }
           }
         }
-        ranges[(static_cast<std::int64_t>(bz) * size[1] + by) * size[0] + bx] = { low, high };
+        ranges[(static_cast<std::int64_t>(bz) * size[1] + by) * size[0] + bx] = { low, high,
+          finite > 0 && finite < count };
       }
     }
   }
@@ -84,58 +93,6 @@ BlockLabels::Set FindLabels(const ImageVolume& volume, const std::vector<unsigne
   return shown ? labels : 0;
 }
 
-/// Where a function is not transparent.
-class VisibleRanges
-{
-public:
-  explicit VisibleRanges(const SpaceFunction& function)
-    : Function(function)
-  {
-    const std::vector<IntervalTable::Interval>& intervals = function.Table->Intervals;
-    this->Before.assign(intervals.size() + 1, 0);
-    for (std::size_t k = 0; k < intervals.size(); ++k)
-    {
-      const IntervalTable::Interval& interval = intervals[k];
-      const bool contributes = interval.Attenuation > 0 || interval.AttenuationSlope != 0;
-      this->Before[k + 1] = this->Before[k] + (contributes ? 1 : 0);
-    }
-  }
-
-  /// Whether a block with these labels may contribute.
-  bool IsVisible(std::int64_t block, BlockLabels::Set labels) const
-  {
-    // Interpolated values are rounded, and so is where they lie among the intervals.
-    constexpr float Rounding = 1e-6f;
-    const BlockRanges::Range& range = this->Function.Blocks->GetRanges()[block];
-    if (!(range.Low <= range.High) || (labels & this->Function.Labels) == 0)
-    {
-      return false;
-    }
-    const float scale = this->Function.Scale;
-    const float offset = this->Function.Offset;
-    const float a = offset + scale * range.Low;
-    const float b = offset + scale * range.High;
-    const float margin = Rounding * std::max({ 1.f, std::abs(a), std::abs(b), std::abs(offset) });
-    if (!std::isfinite(margin))
-    {
-      return true;
-    }
-    const float low = std::min(a, b) - margin;
-    const float high = std::max(a, b) + margin;
-    const std::vector<IntervalTable::Interval>& intervals = this->Function.Table->Intervals;
-    // The first interval that ends at low or above, and the first one that begins above high.
-    const auto first = std::lower_bound(intervals.begin(), intervals.end(), low,
-      [](const IntervalTable::Interval& interval, float x) { return interval.Hi < x; });
-    const auto last = std::upper_bound(intervals.begin(), intervals.end(), high,
-      [](float x, const IntervalTable::Interval& interval) { return x < interval.Lo; });
-    return this->Before[last - intervals.begin()] > this->Before[first - intervals.begin()];
-  }
-
-private:
-  const SpaceFunction& Function;
-  std::vector<int> Before; ///< how many intervals before each one contribute
-};
-
 } // namespace
 
 void BlockRanges::Build(const ImageVolume& volume, int component, int threads)
@@ -163,6 +120,26 @@ void BlockRanges::Build(const ImageVolume& volume, int component, int threads)
       FindRanges<float>(volume, component, this->Size, threads, this->Ranges);
       break;
   }
+}
+
+BlockRanges::Range BlockRanges::FindRange(const double low[3], const double high[3]) const
+{
+  const BlockBox box(this->Size, BlockSize, low, high);
+  Range all{ std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity() };
+  for (std::int64_t z = box.From[2]; z < box.To[2]; ++z)
+  {
+    for (std::int64_t y = box.From[1]; y < box.To[1]; ++y)
+    {
+      const Range* row = this->Ranges.data() + (z * this->Size[1] + y) * this->Size[0];
+      for (std::int64_t x = box.From[0]; x < box.To[0]; ++x)
+      {
+        all.Low = std::min(all.Low, row[x].Low);
+        all.High = std::max(all.High, row[x].High);
+        all.Mixed = all.Mixed || row[x].Mixed;
+      }
+    }
+  }
+  return all;
 }
 
 BlockRanges::Range BlockRanges::GetRange() const
@@ -204,19 +181,10 @@ void BlockLabels::Build(
   }
 }
 
-void EmptySpace::Build(const std::vector<SpaceFunction>& functions, const BlockLabels& labels)
+void EmptySpace::Build(
+  const std::int32_t size[3], const std::function<bool(std::int64_t)>& contributes)
 {
-  const std::int32_t* size = functions.front().Blocks->GetSize();
   std::copy(size, size + 3, this->Size);
-  const std::vector<VisibleRanges> visible(functions.begin(), functions.end());
-  const std::vector<BlockLabels::Set>& sets = labels.GetSets();
-  const auto isVisible = [&](std::int64_t block)
-  {
-    const BlockLabels::Set set = sets.empty() ? BlockLabels::GetSet(0) : sets[block];
-    return std::any_of(visible.begin(), visible.end(),
-      [&](const VisibleRanges& ranges) { return ranges.IsVisible(block, set); });
-  };
-
   const std::int64_t nx = this->Size[0] + 1, ny = this->Size[1] + 1, nz = this->Size[2] + 1;
   this->Sums.assign(static_cast<std::size_t>(nx * ny * nz), 0);
   for (std::int64_t z = 1; z < nz; ++z)
@@ -226,7 +194,7 @@ void EmptySpace::Build(const std::vector<SpaceFunction>& functions, const BlockL
       std::int32_t row = 0;
       for (std::int64_t x = 1; x < nx; ++x)
       {
-        row += isVisible(((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1) ? 1 : 0;
+        row += contributes(((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1) ? 1 : 0;
         const auto at = [&](std::int64_t j, std::int64_t k)
         { return this->Sums[(k * ny + j) * nx + x]; };
         this->Sums[(z * ny + y) * nx + x] = row + at(y - 1, z) + at(y, z - 1) - at(y - 1, z - 1);

@@ -2,30 +2,53 @@
 #ifndef tetralux_EmptySpace_h
 #define tetralux_EmptySpace_h
 
-// Where a volume has anything that is not transparent, outside and inside of its hull: past the
-// hull of Knittel 1999, section 2.1.
+// Where a volume has anything that contributes to a picture, outside and inside of its hull: past
+// the hull of Knittel 1999, section 2.1.
 
-#include "Optics/IntervalTable.h"
 #include "TetraluxCoreModule.h"
 #include "TriangleCaster/ImageVolume.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tetralux
 {
 
+/// The blocks that a box meets: from From on, up to To. None where To is not above From.
+struct BlockBox
+{
+  std::int64_t From[3], To[3];
+
+  /// size: blocks along each axis. edge: cells along that of a block. low, high: corners of the box
+  /// in coordinates of the volume.
+  BlockBox(const std::int32_t (&size)[3], int edge, const double low[3], const double high[3])
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      // Outside of the volume there is nothing, and rounding is far below a thousandth of a cell.
+      constexpr double Margin = 1e-3;
+      const double most = size[a];
+      const double first = (low[a] - Margin) / edge;
+      const double last = (high[a] + Margin) / edge;
+      const bool meets = first < most && last >= 0;
+      this->From[a] = static_cast<std::int64_t>(meets && first > 0 ? first : 0);
+      this->To[a] = meets ? static_cast<std::int64_t>(last < most ? last + 1 : most) : 0;
+    }
+  }
+};
+
 /// Smallest and largest value in blocks of cells. Depends on the volume alone.
 class TETRALUXCORE_EXPORT BlockRanges
 {
 public:
-  /// Cells along the edge of a block: fine enough for skin and bone, and 1/64 of the volume's
-  /// memory in ranges of 8 bytes.
+  /// Cells along the edge of a block: fine enough for skin and bone, and a range for 64 values.
   static constexpr int BlockSize = 4;
 
   struct Range
   {
-    float Low, High; ///< of the volume's values; Low above High where none is a number
+    float Low, High;    ///< of the volume's values; Low above High where none is a number
+    bool Mixed = false; ///< some values are finite, and some are not
   };
 
   /// component: of the volume's points, from 0 on. threads: at least 1.
@@ -33,6 +56,9 @@ public:
 
   const std::int32_t* GetSize() const { return this->Size; }
   const std::vector<Range>& GetRanges() const { return this->Ranges; }
+
+  /// Of all cells that a box meets. low, high: corners in coordinates of the volume.
+  Range FindRange(const double low[3], const double high[3]) const;
 
   /// Of the whole volume; 0..0 where no value is a finite number.
   Range GetRange() const;
@@ -66,40 +92,23 @@ private:
   std::vector<Set> Sets; ///< x fastest
 };
 
-/// One of the functions that a volume is seen by.
-struct SpaceFunction
-{
-  const BlockRanges* Blocks;
-  const IntervalTable* Table; ///< a value v lies at x = Offset + Scale v in it
-  float Scale;
-  float Offset;
-  BlockLabels::Set Labels; ///< of the samples that it is for
-};
-
 /// Counts of blocks that may contribute, so that any box is known to be empty in constant time.
 class TETRALUXCORE_EXPORT EmptySpace
 {
 public:
-  /// A block contributes if any function has a sample there that does. functions: at least one.
-  void Build(const std::vector<SpaceFunction>& functions, const BlockLabels& labels);
+  /// size: blocks along each axis. contributes: whether a block may contribute, by its index, x
+  /// fastest.
+  void Build(const std::int32_t size[3], const std::function<bool(std::int64_t)>& contributes);
 
   /// Whether no cell that a box meets contributes. low, high: corners in coordinates of the volume.
   bool IsEmpty(const double low[3], const double high[3]) const
   {
-    std::int64_t from[3], to[3];
-    for (int a = 0; a < 3; ++a)
+    const BlockBox box(this->Size, BlockRanges::BlockSize, low, high);
+    const std::int64_t(&from)[3] = box.From;
+    const std::int64_t(&to)[3] = box.To;
+    if (to[0] <= from[0] || to[1] <= from[1] || to[2] <= from[2])
     {
-      // Outside of the volume there is nothing, and rounding is far below a thousandth of a cell.
-      constexpr double Margin = 1e-3;
-      const double most = this->Size[a];
-      const double first = (low[a] - Margin) / BlockRanges::BlockSize;
-      const double last = (high[a] + Margin) / BlockRanges::BlockSize;
-      if (!(first < most) || !(last >= 0))
-      {
-        return true;
-      }
-      from[a] = static_cast<std::int64_t>(first > 0 ? first : 0);
-      to[a] = static_cast<std::int64_t>(last < most ? last + 1 : most);
+      return true;
     }
     const auto sum = [this](std::int64_t i, std::int64_t j, std::int64_t k)
     { return this->Sums[(k * (this->Size[1] + 1) + j) * (this->Size[0] + 1) + i]; };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TriangleCaster/FunctionSet.h"
 
+#include "TriangleCaster/TransferTableEvaluation.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -41,7 +43,16 @@ PartFunctions MakePartFunctions(
 FunctionSet MakeFunctionSet(const ImageOptics& optics)
 {
   FunctionSet set;
-  set.Parts.push_back(MakePartFunctions(optics.Function, optics.GradientOpacity));
+  if (HasTable(optics))
+  {
+    CheckTable(optics.Table);
+    set.Parts.push_back(
+      MakePartFunctions(FindVisibleScalars(optics.Table), optics.GradientOpacity));
+  }
+  else
+  {
+    set.Parts.push_back(MakePartFunctions(optics.Function, optics.GradientOpacity));
+  }
   for (const ComponentOptics& other : optics.OtherComponents)
   {
     set.Parts.push_back(MakePartFunctions(other.Function, other.GradientOpacity));

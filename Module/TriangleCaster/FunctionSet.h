@@ -20,14 +20,21 @@ struct PartFunctions
 /// All functions of ImageOptics. What lookups point to moves with them.
 struct FunctionSet
 {
-  std::vector<PartFunctions> Parts;       ///< of all components
+  /// Of all components. Where the optics have a table, the first one tells where that has anything.
+  std::vector<PartFunctions> Parts;
   FunctionsLookup LabelFunctions;         ///< of label 0, 1 and so on
   FunctionsLookup LabelGradientFunctions; ///< as many, or none
 
   const PartFunctions& GetFirst() const { return this->Parts.front(); }
 };
 
-/// Throws as MakeIntervalTable.
+/// Whether a table takes the place of the function.
+inline bool HasTable(const ImageOptics& optics)
+{
+  return optics.Blend == ImageBlend::Composite && !optics.Table.Entries.empty();
+}
+
+/// Throws as MakeIntervalTable and CheckTable.
 FunctionSet MakeFunctionSet(const ImageOptics& optics);
 
 } // namespace tetralux

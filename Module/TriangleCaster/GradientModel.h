@@ -5,9 +5,12 @@
 // What gradients change of a sample (Knittel 1999, section 7): opacity by their length, colour by
 // lights.
 
-#include "TriangleCaster/GradientLanes.h"
 #include "TriangleCaster/ImageRays.h"
+#include "TriangleCaster/IntensityLanes.h"
+#include "TriangleCaster/SampleField.h"
 #include "TriangleCaster/TransferLanes.h"
+
+#include <type_traits>
 
 namespace tetralux
 {
@@ -19,20 +22,32 @@ namespace
 /// For models that use no gradients.
 struct NoGradients
 {
+  static constexpr bool HasTables = false;
+
+  template <class Value>
+  using Field = ValueField<Value>;
+
   NoGradients(const ImageKernelInput&, const ImageRays&) {}
 };
 
-/// What the gradients of a vector's samples do.
+/// What the gradients of a vector's samples do. Prepared: gradients may come from GradientVoxels,
+/// light from an IntensityMap, and colours from a TransferTable; without all those it is faster.
+template <bool Prepared>
 class GradientModel
 {
 public:
+  static constexpr bool HasTables = Prepared;
+
+  template <class Value>
+  using Field = std::conditional_t<Prepared, StoredField<Value>, GradientField<Value>>;
+
   GradientModel(const ImageKernelInput& in, const ImageRays& rays)
     : Rays(rays)
     , Lights(MakeRays(in, rays), Double8(0.))
   {
   }
 
-  /// The length of a gradient that gradient opacities depend on.
+  /// How long a gradient is, in scalars for a GradientLength of the world.
   static TETRALUX_INLINE Float8 GetLength(const ImageKernelInput& in, const LaneVector& gradient)
   {
     LaneVector world;
@@ -45,26 +60,29 @@ public:
   }
 
   /// The factor that the gradient opacity has for a gradient.
-  TETRALUX_INLINE Float8 GetOpacityFactor(
-    const ImageKernelInput& in, const LaneVector& gradient) const
+  static TETRALUX_INLINE Float8 GetOpacityFactor(
+    const ImageKernelInput& in, const LaneVector& gradient)
   {
-    const Float8 length = GetLength(in, gradient);
-    const Float8 x = Fma(length, Float8(in.GradientScale), Float8(in.GradientOffset));
+    const Float8 x =
+      Fma(GetLength(in, gradient), Float8(in.GradientScale), Float8(in.GradientOffset));
     return in.GradientTransfer.Count <= TransferLookup::MostFew
       ? FewIntervals<TransferLookup::MostFew>(in.GradientTransfer, x).GetOpacity()
       : ManyIntervals(in.GradientTransfer, x).GetOpacity();
   }
 
-  /// Lets the lights shine on colours.
+  /// Lets lights shine on colours. Prepared: those of in.Intensities, if there are any.
   TETRALUX_INLINE void Light(const ImageKernelInput& in, const KernelLighting& lighting,
     const ImageSample& sample, const LaneVector& gradient, Float8 (&color)[3]) const
   {
-    const LaneVector normal =
-      LaneLights::ToWorld(lighting, gradient * LaneLights::GetScale(gradient));
-    const Double8 depth = Fma(ToDouble(Fma(Float8(0.5f), sample.Share, sample.Front)),
-      Double8(in.Slices.Distance), Double8(in.Slices.Origin));
-    const LaneFactors factors =
-      this->Lights.Find(lighting, normal, depth * LoadDouble8(this->Rays.WorldLength));
+    LaneFactors factors;
+    if (Prepared && in.Intensities)
+    {
+      factors = LookUpIntensities(in, gradient);
+    }
+    else
+    {
+      factors = this->SumLights(in, lighting, sample, gradient);
+    }
     for (int c = 0; c < 3; ++c)
     {
       color[c] = Fma(color[c], factors.Scale.C[c], factors.Add.C[c]);
@@ -72,6 +90,23 @@ public:
   }
 
 private:
+  static TETRALUX_NOINLINE LaneFactors LookUpIntensities(
+    const ImageKernelInput& in, const LaneVector& gradient)
+  {
+    const IntensityLanes intensities(in, gradient);
+    return in.InterpolateIntensities ? intensities.Interpolate() : intensities.GetNearest();
+  }
+
+  TETRALUX_INLINE LaneFactors SumLights(const ImageKernelInput& in, const KernelLighting& lighting,
+    const ImageSample& sample, const LaneVector& gradient) const
+  {
+    const LaneVector normal =
+      LaneLights::ToWorld(lighting, gradient * LaneLights::GetScale(gradient));
+    const Double8 depth = Fma(ToDouble(Fma(Float8(0.5f), sample.Share, sample.Front)),
+      Double8(in.Slices.Distance), Double8(in.Slices.Origin));
+    return this->Lights.Find(lighting, normal, depth * LoadDouble8(this->Rays.WorldLength));
+  }
+
   static WorldRays MakeRays(const ImageKernelInput& in, const ImageRays& rays)
   {
     double x[LaneCount], y[LaneCount];

@@ -4,15 +4,21 @@
 #include "Base/ParallelTiles.h"
 #include "Optics/IntervalTable.h"
 #include "Simd/InstructionSet.h"
+#include "TriangleCaster/ContributingValues.h"
 #include "TriangleCaster/EmptySpace.h"
 #include "TriangleCaster/FunctionLookup.h"
 #include "TriangleCaster/FunctionSet.h"
+#include "TriangleCaster/GradientVoxels.h"
 #include "TriangleCaster/HiddenCells.h"
+#include "TriangleCaster/ImageBlending.h"
 #include "TriangleCaster/ImageKernel.h"
+#include "TriangleCaster/IntensityMap.h"
 #include "TriangleCaster/SlabTable.h"
+#include "TriangleCaster/TransferTableEvaluation.h"
 #include "View/MeshToWorld.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -37,14 +43,15 @@ constexpr int LargestTile = 64;
 
 ImageKernel GetKernel(InstructionSet set, const ImageKernelInput& in)
 {
+  const bool components = in.Components > 1 || in.Labels;
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
   if (set == InstructionSet::Avx2)
   {
-    return GetImageKernelAvx2(in);
+    return components ? GetImageComponentKernelAvx2(in) : GetImageKernelAvx2(in);
   }
 #endif
   static_cast<void>(set);
-  return GetImageKernelGeneric(in);
+  return components ? GetImageComponentKernelGeneric(in) : GetImageKernelGeneric(in);
 }
 
 void CheckVolume(const ImageVolume& volume)
@@ -126,6 +133,17 @@ void CheckMatch(const ImageVolume& volume, const ImageOptics& optics)
     throw std::invalid_argument(
       "labels are shown of one component; the image has " + std::to_string(volume.Components));
   }
+  const bool several = volume.Components > 1 || (volume.Labels && !optics.Labels.empty());
+  if (several && optics.Blend != ImageBlend::Composite)
+  {
+    throw std::invalid_argument(
+      "several components and labels are composited: other blend modes have one function");
+  }
+  if (several && HasTable(optics))
+  {
+    throw std::invalid_argument(
+      "a table over scalars and gradients is of one component, without labels");
+  }
   if (optics.Components == ImageComponents::Dependent && volume.Components != 2 &&
     volume.Components != 4)
   {
@@ -167,7 +185,50 @@ struct KernelLights
   }
 };
 
+bool HasCue(const ImageCasterOptions& options)
+{
+  const auto isOne = [](float factor) { return factor == 1; };
+  return !std::all_of(options.NearColor, options.NearColor + 3, isOne) ||
+    !std::all_of(options.FarColor, options.FarColor + 3, isOne);
+}
+
+/// Whether several components, or labels, have what options ask for.
+void CheckComponentOptions(const ImageCasterOptions& options)
+{
+  if (options.Gradients != GradientSource::OnTheFly || options.SumOfLights != LightSum::Direct)
+  {
+    throw std::invalid_argument(
+      "stored gradients and maps of light need one component, without labels");
+  }
+  if (HasCue(options))
+  {
+    throw std::invalid_argument("depth cueing needs one component, without labels");
+  }
+}
+
+/// The factors of depth cueing, once in.Slices is filled.
+void FillCue(const ImageCasterOptions& options, ImageKernelInput& in)
+{
+  const SlicePlanes& slices = in.Slices;
+  in.Cued = HasCue(options);
+  for (int c = 0; c < 3; ++c)
+  {
+    const double change = static_cast<double>(options.FarColor[c]) - options.NearColor[c];
+    in.Cue[c] = options.NearColor[c];
+    in.CueStep[c] = static_cast<float>(change * slices.Distance / (slices.Back - slices.Origin));
+  }
+}
+
 PixelLinear MakeLinear(double value, double stepX, double stepY) { return { value, stepX, stepY }; }
+
+PlaneAlongRays MakePlane(const RayGrid& grid, const std::array<double, 4>& plane)
+{
+  const auto apply = [&plane](const double v[3])
+  { return plane[0] * v[0] + plane[1] * v[1] + plane[2] * v[2]; };
+  return { MakeLinear(
+             apply(grid.Origin) + plane[3], apply(grid.OriginStepX), apply(grid.OriginStepY)),
+    MakeLinear(apply(grid.Direction), apply(grid.DirectionStepX), apply(grid.DirectionStepY)) };
+}
 
 } // namespace
 
@@ -193,13 +254,16 @@ public:
   }
   ///@}
   const BlockRanges& GetBlocks(int component, int threads);
-  SpaceFunction MakeSpaceFunction(
-    int component, int threads, const IntervalTable& table, BlockLabels::Set labels);
-  std::vector<SpaceFunction> MakeSpaceFunctions(int threads);
+  SpaceFunction MakeSpaceFunction(const ImageKernelInput& in, int component, int threads,
+    const IntervalTable& table, BlockLabels::Set labels);
+  std::vector<SpaceFunction> MakeSpaceFunctions(const ImageKernelInput& in, int threads);
   void PrepareHiddenCells(int threads);
-  void PrepareSpace(int threads);
+  /// Finds out what in may skip. Hidden cells must be prepared.
+  void PrepareSpace(int threads, ImageKernelInput& in);
   void PrepareSlabs(const ImageCasterOptions& options, int threads);
+  void FillTable(ImageKernelInput& in) const;
   void FillGradients(const RayGrid& grid, ImageKernelInput& in) const;
+  void PrepareGradients(const ImageCasterOptions& options, int threads, ImageKernelInput& in);
   void FillParts(ImageKernelInput& in);
   void FillLabels(ImageKernelInput& in);
   void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
@@ -211,6 +275,8 @@ public:
   ImageOptics Optics;
   bool HasOptics = false;
   FunctionSet Functions;
+  SurfaceTable Surfaces;
+
   SlabTable Slabs; ///< of Optics, and the scalars of Volume
 
   // What a kernel reads besides its input.
@@ -227,6 +293,10 @@ public:
 
   EmptySpace Space;
   bool SpaceValid = false; ///< of Volume and Optics
+
+  GradientVoxels Gradients;
+  bool GradientsValid = false; ///< of Volume
+  IntensityMap Intensities;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -262,15 +332,17 @@ const BlockRanges& ImageCaster::Internals::GetBlocks(int component, int threads)
 }
 
 //------------------------------------------------------------------------------------------------
-SpaceFunction ImageCaster::Internals::MakeSpaceFunction(
-  int component, int threads, const IntervalTable& table, BlockLabels::Set labels)
+SpaceFunction ImageCaster::Internals::MakeSpaceFunction(const ImageKernelInput& in, int component,
+  int threads, const IntervalTable& table, BlockLabels::Set labels)
 {
-  return { &this->GetBlocks(component, threads), &table, this->GetValueScale(table),
-    this->GetValueOffset(table), labels };
+  return { &this->GetBlocks(component, threads),
+    ContributingValues(in, table, this->GetValueScale(table), this->GetValueOffset(table)),
+    labels };
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<SpaceFunction> ImageCaster::Internals::MakeSpaceFunctions(int threads)
+std::vector<SpaceFunction> ImageCaster::Internals::MakeSpaceFunctions(
+  const ImageKernelInput& in, int threads)
 {
   constexpr BlockLabels::Set AnyLabel = ~static_cast<BlockLabels::Set>(0);
   std::vector<SpaceFunction> functions;
@@ -280,7 +352,7 @@ std::vector<SpaceFunction> ImageCaster::Internals::MakeSpaceFunctions(int thread
     {
       const double weight =
         component == 0 ? this->Optics.Weight : this->Optics.OtherComponents[component - 1].Weight;
-      functions.push_back(this->MakeSpaceFunction(component, threads,
+      functions.push_back(this->MakeSpaceFunction(in, component, threads,
         this->Functions.Parts[component].Function.Table, weight > 0 ? AnyLabel : 0));
     }
   }
@@ -295,24 +367,24 @@ std::vector<SpaceFunction> ImageCaster::Internals::MakeSpaceFunctions(int thread
     }
     // Without labels of its own share, a function is seen everywhere.
     functions.push_back(this->MakeSpaceFunction(
-      0, threads, tables.front(), this->Optics.LabelShare < 1 ? AnyLabel : plain));
+      in, 0, threads, tables.front(), this->Optics.LabelShare < 1 ? AnyLabel : plain));
     for (int label = 1; label < std::min(labels, 256); ++label)
     {
       functions.push_back(
-        this->MakeSpaceFunction(0, threads, tables[label], BlockLabels::GetSet(label)));
+        this->MakeSpaceFunction(in, 0, threads, tables[label], BlockLabels::GetSet(label)));
     }
   }
   else
   {
     // Of dependent components the last one has the opacity.
-    functions.push_back(this->MakeSpaceFunction(
-      this->Volume.Components - 1, threads, this->Functions.GetFirst().Function.Table, AnyLabel));
+    functions.push_back(this->MakeSpaceFunction(in, this->Volume.Components - 1, threads,
+      this->Functions.GetFirst().Function.Table, AnyLabel));
   }
   return functions;
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareSpace(int threads)
+void ImageCaster::Internals::PrepareSpace(int threads, ImageKernelInput& in)
 {
   if (!this->LabelsValid)
   {
@@ -321,15 +393,31 @@ void ImageCaster::Internals::PrepareSpace(int threads)
   }
   if (!this->SpaceValid)
   {
-    this->Space.Build(this->MakeSpaceFunctions(threads), this->Labels);
+    const std::vector<SpaceFunction> functions = this->MakeSpaceFunctions(in, threads);
+    const std::vector<BlockLabels::Set>& sets = this->Labels.GetSets();
+    // A surface may be between two samples that have something hidden between them.
+    const bool hides = !sets.empty() && in.Blend != ImageBlend::Isosurfaces;
+    this->Space.Build(functions.front().Blocks->GetSize(),
+      [&](std::int64_t block)
+      {
+        const BlockLabels::Set set = hides ? sets[block] : BlockLabels::GetSet(0);
+        return std::any_of(functions.begin(), functions.end(),
+          [&](const SpaceFunction& function) { return function.Contributes(block, set); });
+      });
     this->SpaceValid = true;
   }
+  in.Space = &this->Space;
+  if (this->Volume.Components == 1)
+  {
+    in.Ranges = &this->GetBlocks(0, threads);
+  }
+  in.SpaceReach = in.Blend == ImageBlend::Isosurfaces ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------------------------
 void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options, int threads)
 {
-  if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty())
+  if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty() || HasTable(this->Optics))
   {
     throw std::invalid_argument(
       "pre-integrated slabs have no gradients: shading and gradient opacity need them off");
@@ -338,6 +426,10 @@ void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options, int
   {
     throw std::invalid_argument(
       "pre-integrated slabs are of one function: they need one component, without labels");
+  }
+  if (HasCue(options))
+  {
+    throw std::invalid_argument("pre-integrated slabs have no depth cueing");
   }
   const BlockRanges::Range range = this->GetBlocks(0, threads).GetRange();
   const double a = this->Volume.Offset + this->Volume.Scale * range.Low;
@@ -364,20 +456,46 @@ void ImageCaster::Internals::FillRays(
   }
   for (const std::array<double, 4>& plane : limits.Planes)
   {
-    const auto apply = [&plane](const double v[3])
-    { return plane[0] * v[0] + plane[1] * v[1] + plane[2] * v[2]; };
-    in.Planes.push_back({ MakeLinear(apply(grid.Origin) + plane[3], apply(grid.OriginStepX),
-                            apply(grid.OriginStepY)),
-      MakeLinear(apply(grid.Direction), apply(grid.DirectionStepX), apply(grid.DirectionStepY)) });
+    in.Planes.push_back(MakePlane(grid, plane));
   }
+  in.SlicePlane = MakePlane(grid, this->Optics.SlicePlane);
   in.Limits = &limits;
   in.Grid = &grid;
   in.Width = grid.Width;
 }
 
 //------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillTable(ImageKernelInput& in) const
+{
+  const TransferTable& table = this->Optics.Table;
+  TransferTableLookup& lookup = in.Table;
+  lookup.Entries = table.Entries.data();
+  lookup.Columns = table.Columns;
+  lookup.LastColumn = static_cast<float>(table.Columns - 1);
+  lookup.LastRow = static_cast<float>(table.Rows - 1);
+  const IntervalTable& intervals = this->Functions.GetFirst().Function.Table;
+  const double perScalar = (table.Columns - 1) / (table.LastScalar - table.FirstScalar);
+  lookup.ColumnScale = static_cast<float>(perScalar * intervals.Scale);
+  lookup.ColumnOffset = static_cast<float>(perScalar * (intervals.Offset - table.FirstScalar));
+  const double perLength = (table.Rows - 1) / (table.LastLength - table.FirstLength);
+  lookup.RowScale = static_cast<float>(perLength);
+  lookup.RowOffset = static_cast<float>(-perLength * table.FirstLength);
+}
+
+//------------------------------------------------------------------------------------------------
 void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput& in) const
 {
+  if (HasTable(this->Optics))
+  {
+    this->FillTable(in);
+  }
+  else if (!this->Optics.GradientOpacity.Nodes.empty())
+  {
+    const FunctionLookup& function = this->Functions.GetFirst().GradientFunction;
+    in.GradientTransfer = function.Lookup;
+    in.GradientScale = static_cast<float>(function.GetScale());
+    in.GradientOffset = static_cast<float>(function.GetOffset());
+  }
   in.Norm = this->Optics.Norm;
   const double factor = this->Volume.Scale * this->Optics.GradientLength;
   for (int row = 0; row < 3; ++row)
@@ -388,10 +506,6 @@ void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput
       in.WorldGradient[row][column] = static_cast<float>(factor * grid.MeshFromWorld[column][row]);
     }
   }
-  const FunctionLookup& function = this->Functions.GetFirst().GradientFunction;
-  in.GradientTransfer = function.Lookup;
-  in.GradientScale = static_cast<float>(function.GetScale());
-  in.GradientOffset = static_cast<float>(function.GetOffset());
 }
 
 //------------------------------------------------------------------------------------------------
@@ -445,6 +559,29 @@ void ImageCaster::Internals::FillLabels(ImageKernelInput& in)
 }
 
 //------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareGradients(
+  const ImageCasterOptions& options, int threads, ImageKernelInput& in)
+{
+  if (in.Lighting && options.SumOfLights != LightSum::Direct)
+  {
+    this->Intensities.Update(*in.Lighting, *in.Grid, threads);
+    in.Intensities = this->Intensities.GetEntries().data();
+    in.InterpolateIntensities = options.SumOfLights == LightSum::Interpolated;
+  }
+  const bool needed = in.Lighting || in.Table.Entries || in.GradientTransfer.Count > 0;
+  if (needed && in.Blend == ImageBlend::Composite && options.Gradients == GradientSource::Bytes)
+  {
+    if (!this->GradientsValid)
+    {
+      this->Gradients.Build(this->Volume, threads);
+      this->GradientsValid = true;
+    }
+    in.GradientWords = this->Gradients.GetWords().data();
+    in.GradientWordScale = this->Gradients.GetScale();
+  }
+}
+
+//------------------------------------------------------------------------------------------------
 ImageKernelInput ImageCaster::Internals::MakeInput(
   const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options)
 {
@@ -463,7 +600,8 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.HiddenCells = this->HiddenCells.empty() ? nullptr : this->HiddenCells.data();
   in.Masked = in.Mask || in.HiddenCells;
   in.Transfer = this->Functions.GetFirst().Function.Lookup;
-  if (options.PreIntegrated)
+  FillBlending(this->Volume, this->Optics, this->Surfaces, in);
+  if (options.PreIntegrated && in.Blend == ImageBlend::Composite)
   {
     in.Slab.Texels = this->Slabs.GetTexels();
     in.Slab.Size = SlabTable::Size;
@@ -479,6 +617,7 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.Slices = MakeSlicePlanes(this->Volume, grid, options.Shape, options.SampleDistance);
   this->FillRays(grid, limits, in);
   this->FillGradients(grid, in);
+  FillCue(options, in);
   in.Components = this->Volume.Components;
   in.Dependent = this->Optics.Components == ImageComponents::Dependent;
   for (int c = 0; c < 3; ++c)
@@ -498,7 +637,9 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   }
   in.EndTriangles = options.EndTriangles;
   in.SkipPixels = options.SkipPixels;
-  in.Space = options.SkipEmptySpace ? &this->Space : nullptr;
+  // Others change by what is transparent, too.
+  const bool hulls = in.Blend == ImageBlend::Composite || in.Blend == ImageBlend::Additive;
+  in.Hulls = hulls ? options.Hulls : nullptr;
   in.TileSize = std::clamp(options.TileSize, SmallestTile, LargestTile);
   in.Triangles = options.Triangles;
   return in;
@@ -523,6 +664,7 @@ void ImageCaster::SetVolume(const ImageVolume& volume)
     this->Private->BlocksValid, this->Private->BlocksValid + ImageVolume::MostComponents, false);
   this->Private->LabelsValid = false;
   this->Private->HiddenCellsValid = false;
+  this->Private->GradientsValid = false;
   this->Private->SpaceValid = false;
   this->Private->Slabs.Invalidate();
 }
@@ -535,6 +677,7 @@ void ImageCaster::SetOptics(const ImageOptics& optics)
   {
     throw std::invalid_argument("the length that gradients are measured over is not above 0");
   }
+  CheckBlending(optics);
   // A function that is not valid changes nothing.
   this->Private->Functions = MakeFunctionSet(optics);
   this->Private->Optics = optics;
@@ -554,17 +697,21 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   }
   Internals& self = *this->Private;
   self.CheckReady();
+  if (self.Volume.Components > 1 || self.ShowsLabels())
+  {
+    CheckComponentOptions(options);
+  }
   const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
   self.PrepareHiddenCells(threads);
-  if (options.SkipEmptySpace)
-  {
-    self.PrepareSpace(threads);
-  }
-  if (options.PreIntegrated)
+  if (options.PreIntegrated && self.Optics.Blend == ImageBlend::Composite)
   {
     self.PrepareSlabs(options, threads);
   }
   ImageKernelInput in = self.MakeInput(grid, limits, options);
+  if (options.SkipEmptySpace)
+  {
+    self.PrepareSpace(threads, in);
+  }
   in.Colors = colors.data();
   in.Depths = depths.data();
   KernelLights lights[ImageVolume::MostComponents];
@@ -583,6 +730,7 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
         : nullptr;
     }
   }
+  self.PrepareGradients(options, threads, in);
 
   const InstructionSet set =
     options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();
@@ -597,12 +745,12 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
     [&](const Tile& tile, int thread) { kernel(in, tile, counts[thread]); });
   statistics.InstructionSet = GetName(set);
   statistics.NumberOfThreads = threads;
-  statistics.Rays = static_cast<std::int64_t>(pixels);
   statistics.Slices = in.Slices.Count;
   for (const Counts& count : counts)
   {
     statistics.Triangles += count.Triangles;
     statistics.Samples += count.Samples;
+    statistics.Rays += count.Rays;
   }
   statistics.TerminationError = in.Threshold;
   return statistics;

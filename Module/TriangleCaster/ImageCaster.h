@@ -22,7 +22,7 @@ struct ImageCastStatistics
   bool Aborted = false;
   std::string InstructionSet;
   int NumberOfThreads = 0;
-  std::int64_t Rays = 0;
+  std::int64_t Rays = 0;       ///< through the volume, but those of tiles that show nothing
   std::int64_t Slices = 0;     ///< planes or shells of the picture
   std::int64_t Triangles = 0;  ///< P-triangles that were cast
   std::int64_t Samples = 0;    ///< interpolated, over all rays
@@ -34,7 +34,8 @@ struct ImageCastStatistics
 /// part of the volume stay in the first-level cache. Tiles go over the threads of OpenMP; the
 /// picture does not depend on the number of threads.
 ///
-/// Keeps what it finds out about a volume: smallest and largest scalar of its blocks.
+/// Keeps what it finds out about a volume: smallest and largest scalar of its blocks, and gradients
+/// where options ask for stored ones.
 class TETRALUXCORE_EXPORT ImageCaster
 {
 public:

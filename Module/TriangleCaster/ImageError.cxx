@@ -90,6 +90,7 @@ std::vector<float> CastLattice(ImageCaster& caster, const RayLattice& lattice,
   fine.SampleDistance = distance;
   fine.Threshold = threshold;
   fine.Progress = nullptr;
+  fine.Hulls = nullptr; // of the picture's tiles
   std::vector<float> colors(4 * lattice.GetNumberOfRays());
   std::vector<float> depths(lattice.GetNumberOfRays());
   caster.Cast(lattice.Grid, lattice.Limits, fine, colors, depths);

@@ -3,14 +3,17 @@
 #define tetralux_ImageKernel_h
 
 // What the kernels of the triangle caster read and write: plain pointers, filled by ImageCaster.
-// The kernels themselves (ImageKernel.inl) are compiled once for each instruction set.
+// The kernels themselves (ImageKernel.inl, ImageComponentKernel.inl) are compiled once for each
+// instruction set.
 
 #include "Base/Tile.h"
 #include "Lighting/KernelLighting.h"
 #include "Optics/IntervalTable.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/HullDepths.h"
 #include "TriangleCaster/ImageOptics.h"
 #include "TriangleCaster/ImageVolume.h"
+#include "TriangleCaster/IntensityMap.h"
 #include "TriangleCaster/SlicePlanes.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
@@ -105,6 +108,33 @@ struct LabelsLookup
   float Share; ///< ImageOptics::LabelShare
 };
 
+/// Surfaces of constant scalar, as a kernel reads them.
+struct SurfaceLookup
+{
+  int Count = 0;
+  float Sign = 1; ///< of the scalar that a value is worth
+  /// Sign times the surfaces' values, ascending with their scalars, between two infinite ones.
+  const float* Bounds = nullptr;
+  const float* Optics = nullptr; ///< red, green, blue and opacity of each, aligned to 16 bytes
+};
+
+/// A table over scalars and gradients as a kernel looks it up.
+struct TransferTableLookup
+{
+  const TransferTable::Entry* Entries = nullptr; ///< nullptr: there is none
+  std::int32_t Columns = 0;
+  float LastColumn = 0;
+  float LastRow = 0;
+  /// The column of a scalar at x among the intervals of the transfer function is ColumnOffset +
+  /// ColumnScale x, and the row of a gradient length is RowOffset + RowScale length.
+  ///@{
+  float ColumnScale = 0;
+  float ColumnOffset = 0;
+  float RowScale = 0;
+  float RowOffset = 0;
+  ///@}
+};
+
 struct ImageKernelInput
 {
   // The volume.
@@ -124,6 +154,11 @@ struct ImageKernelInput
   const unsigned char* HiddenCells; ///< not 0: hidden; of the first point of each cell
 
   // Optics.
+  ImageBlend Blend;
+  float AverageLow, AverageHigh; ///< values that ImageBlend::AverageIntensity counts
+  float GreyScale, GreyOffset;   ///< the grey of a value v is GreyOffset + GreyScale v, within 0..1
+  SurfaceLookup Surfaces;
+  PlaneAlongRays SlicePlane;
   TransferLookup Transfer;
   SlabLookup Slab;
   bool Power; ///< StepOpacity::Power
@@ -141,6 +176,20 @@ struct ImageKernelInput
   float WorldGradient[3][3];
   float GradientScale;
   float GradientOffset;
+  ///@}
+  /// Colours and opacities in place of those of Transfer, which then tells where there are any.
+  TransferTableLookup Table;
+  const float* GradientWords; ///< of GradientVoxels; nullptr: gradients are found on the fly
+  float GradientWordScale;
+  const IntensityMap::Entry* Intensities; ///< nullptr: lights are summed up directly
+  bool InterpolateIntensities;
+
+  /// Factors of colours that are linear in the slab position: those at 0, and what they grow by in
+  /// a slab.
+  ///@{
+  bool Cued;
+  float Cue[3];
+  float CueStep[3];
   ///@}
 
   // Several components, and labels.
@@ -164,7 +213,10 @@ struct ImageKernelInput
   // The order of work.
   bool EndTriangles;
   bool SkipPixels;
-  const EmptySpace* Space; ///< nullptr: nothing is skipped
+  const EmptySpace* Space;   ///< nullptr: nothing is skipped
+  const HullDepths* Hulls;   ///< the same
+  const BlockRanges* Ranges; ///< of the one component; nullptr with Space
+  int SpaceReach;            ///< slabs in front of a sample and behind it that it depends on
   int TileSize;
   bool Triangles;
 
@@ -176,16 +228,25 @@ struct ImageKernelCounts
 {
   std::int64_t Triangles = 0;
   std::int64_t Samples = 0;
+  std::int64_t Rays = 0; ///< through the volume, and tiles that are not empty
 };
 
 /// Casts the pixels of a tile, whose edges are multiples of TileSize or those of the picture.
 using ImageKernel = void (*)(const ImageKernelInput&, const Tile&, ImageKernelCounts&);
 
-/// The kernel that does what an input asks for.
+/// The kernel that does what an input of one component, without labels, asks for.
 ///@{
 ImageKernel GetImageKernelGeneric(const ImageKernelInput& in);
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
 ImageKernel GetImageKernelAvx2(const ImageKernelInput& in);
+#endif
+///@}
+
+/// The same for several components, or labels.
+///@{
+ImageKernel GetImageComponentKernelGeneric(const ImageKernelInput& in);
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+ImageKernel GetImageComponentKernelAvx2(const ImageKernelInput& in);
 #endif
 ///@}
 

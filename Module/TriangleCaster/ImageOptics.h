@@ -4,7 +4,10 @@
 
 #include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
+#include "TriangleCaster/TransferTable.h"
 
+#include <array>
+#include <limits>
 #include <vector>
 
 namespace tetralux
@@ -62,22 +65,76 @@ struct LabelOptics
   TransferFunction GradientOpacity; ///< as that of ImageOptics; without nodes there is none
 };
 
-/// What the rays gather in an image volume.
+/// How the samples of a ray become a pixel: the blend modes of vtkVolumeMapper, as
+/// vtkGPUVolumeRayCastMapper shows them. Scalar opacity is that of the transfer function.
+enum class ImageBlend
+{
+  /// What emits and absorbs, composited front to back.
+  Composite,
+
+  /// Colour and scalar opacity of the largest or smallest scalar, however long its stretch. The
+  /// depth of the pixel is that of the sample, of the first one of several.
+  ///@{
+  MaximumIntensity,
+  MinimumIntensity,
+  ///@}
+
+  /// Mean of scalar opacity times grey of those samples whose scalar is in AverageRange, weighted
+  /// by the lengths of their stretches; opaque if there is any. The depth is that of the first one.
+  AverageIntensity,
+
+  /// Sum of scalar opacity times grey times length in unit distances, at most 1; opaque wherever a
+  /// ray goes through anything of the volume. The depth is that of the first stretch that adds
+  /// anything.
+  Additive,
+
+  /// Surfaces of constant scalar, composited front to back. They are where the scalar of one sample
+  /// is below a value and that of the next one of the same part of the ray is not, or the other way
+  /// round; in between the scalar is taken for linear. Next to a hidden sample there is none.
+  /// The depth is that of the first surface that is not transparent.
+  Isosurfaces,
+
+  /// Colour and scalar opacity at the point that a ray has on a plane.
+  Slice
+};
+
+/// What the rays gather in an image volume. Scalars that are not finite are empty.
 struct ImageOptics
 {
+  ImageBlend Blend = ImageBlend::Composite;
+
   /// Colours, and the scalar opacity a in place of the attenuation: 0..1, or for
   /// StepOpacity::Attenuation at least 0.
   TransferFunction Function;
   StepOpacity Opacity = StepOpacity::Power;
   double UnitDistance = 1; ///< world units, above 0
 
-  /// A factor of the scalar opacity, 0..1, in place of the attenuation, over the length of the
-  /// scalar's gradient times GradientLength. Without nodes there is none.
+  /// ImageBlend::Composite: a factor of the scalar opacity, 0..1, in place of the attenuation, over
+  /// the length of the scalar's gradient times GradientLength. Without nodes there is none.
   TransferFunction GradientOpacity;
   double GradientLength = 1; ///< world units, above 0; VTK has the mean spacing of points
   GradientNorm Norm = GradientNorm::Euclidean;
 
-  // Several components.
+  /// In place of Function and GradientOpacity; ImageBlend::Composite only. Without entries there is
+  /// none.
+  TransferTable Table;
+
+  /// ImageBlend::AverageIntensity: scalars that count, both ends included.
+  double AverageRange[2] = { -std::numeric_limits<double>::max(),
+    std::numeric_limits<double>::max() };
+
+  /// ImageBlend::AverageIntensity and Additive: the scalars of grey 0 and 1, different. Grey is
+  /// linear between them and constant beyond. In VTK they are the ends of the volume's range.
+  double GreyRange[2] = { 0, 1 };
+
+  /// ImageBlend::Isosurfaces: in any order. Of several with the same value the first one is in
+  /// front where scalars ascend along the ray, and the last one where they descend.
+  std::vector<Isosurface> Surfaces;
+
+  /// ImageBlend::Slice: world points with a x + b y + c z + d = 0.
+  std::array<double, 4> SlicePlane{ 0, 0, 1, 0 };
+
+  // Several components: ImageBlend::Composite only, and without Table.
   ImageComponents Components = ImageComponents::Independent;
   double Weight = 1; ///< of the first component, at least 0; in VTK at most 1
   /// The components behind the first one, if they are independent. The first one has what stands
@@ -92,7 +149,8 @@ struct ImageOptics
   ///@}
 
   /// Of a volume of one component with labels: how labels 1, 2 and so on are shown. Label 0, and
-  /// labels that are not here, have what stands above.
+  /// labels that are not here, have what stands above. ImageBlend::Composite only, and without
+  /// Table.
   std::vector<LabelOptics> Labels;
   /// How much of a labelled sample's colour and opacity is that of its label, 0..1; the rest is
   /// what it would have without. Both are mixed before the colour is multiplied by opacity.

@@ -47,8 +47,9 @@ struct ImageRays
 
   float Color[3][LaneCount];
   float Translucency[LaneCount];
-  float Front[LaneCount]; ///< slab position of what contributes first, or -1
-  bool Ended;             ///< nothing changes any ray any more
+  float Front[LaneCount];   ///< slab position of what contributes first, or -1
+  float Kept[4][LaneCount]; ///< what models need besides, each in its own way; 0 at first
+  bool Ended;               ///< nothing changes any ray any more
 
   /// Nothing gathered, and no part to go through.
   void Clear()
@@ -59,11 +60,24 @@ struct ImageRays
       this->Translucency[l] = 1.f;
       this->Front[l] = -1.f;
       this->WorldLength[l] = 0;
+      this->HasPart[l] = 0;
+      for (auto& kept : this->Kept)
+      {
+        kept[l] = 0.f;
+      }
     }
     this->FirstSlab = NoSlab;
     this->LastSlab = -1;
     this->Ended = true;
   }
+};
+
+/// Pixels of a vector.
+struct PixelLanes
+{
+  Float8 Color[3]; ///< premultiplied
+  Float8 Opacity;
+  Float8 Front; ///< slab position of the pixel's depth, or below 0 where it has none
 };
 
 /// Where the rays go, and the slab positions between which they are in the volume and its limits.

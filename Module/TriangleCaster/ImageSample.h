@@ -7,6 +7,7 @@
 #include "TriangleCaster/VoxelLanes.h"
 
 #include <cstdint>
+#include <limits>
 
 namespace tetralux
 {
@@ -15,6 +16,15 @@ namespace TETRALUX_ISA
 namespace
 {
 
+/// The largest finite number: scalars beyond are empty.
+constexpr float LargestScalar = std::numeric_limits<float>::max();
+
+/// A value as the intervals of the transfer function map it.
+TETRALUX_INLINE Float8 FindScalar(const ImageKernelInput& in, Float8 value)
+{
+  return Fma(value, Float8(in.ValueScale), Float8(in.ValueOffset));
+}
+
 /// Where the rays of a vector have a sample, and what they know of it.
 struct ImageSample
 {
@@ -22,9 +32,12 @@ struct ImageSample
   Float8 Place[3]; ///< where in the cell, 0..1
   Float8 Cell[3];  ///< which cell, counted along each axis
   Mask8 Active;    ///< rays that have a sample here
-  Float8 Front;    ///< slab position of where its stretch begins
-  Float8 Share;    ///< of a slab that its stretch has, 0..1
-  Float8 Length;   ///< of its stretch, in unit distances
+  std::int32_t Slab;
+  Mask8 Begins;  ///< it is the first one of its part of the ray
+  Float8 Front;  ///< slab position of where its stretch begins
+  Float8 Middle; ///< slab position of the sample itself
+  Float8 Share;  ///< of a slab that its stretch has, 0..1
+  Float8 Length; ///< of its stretch, in unit distances
 
   /// The value there.
   template <class Value>
@@ -36,7 +49,7 @@ struct ImageSample
   template <class Value>
   TETRALUX_INLINE Float8 GetScalar(const ImageKernelInput& in) const
   {
-    return Fma(this->GetValue<Value>(in), Float8(in.ValueScale), Float8(in.ValueOffset));
+    return FindScalar(in, this->GetValue<Value>(in));
   }
 };
 

@@ -121,6 +121,7 @@ SlicePlanes MakeSlicePlanes(
     nearest = std::hypot(outside(0), outside(1), outside(2));
   }
   planes.Origin = std::max(nearest, 0.);
+  planes.Back = farthest;
   const double slabs = std::ceil((farthest - planes.Origin) / distance);
   if (slabs > MostSlabs)
   {

@@ -27,11 +27,12 @@ struct SlicePlanes
   /// the world's axes around it, but not behind the camera.
   double Origin = 0;
 
-  std::int32_t Count = 0; ///< slabs up to the back of the volume's box
+  double Back = 0;        ///< depth of the back of the volume's box
+  std::int32_t Count = 0; ///< slabs up to there
 
   /// What the depth grows by along a ray's Direction of RayGrid, that is the depth of Direction.
   /// direction: of the ray.
-  double GetDepthOfDirection(const double direction[3]) const;
+  TETRALUXCORE_EXPORT double GetDepthOfDirection(const double direction[3]) const;
 
   double Normal[3] = { 0, 0, -1 }; ///< of the planes, away from the camera, of length 1
 };

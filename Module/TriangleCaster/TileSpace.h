@@ -50,14 +50,14 @@ struct TileBeam
     }
   }
 
-  /// Whether it meets nothing visible between two slab positions. Positions are linear over pixels
-  /// and along rays, so the corners bound them.
-  bool IsEmpty(const ImageKernelInput& in, double begin, double end) const
+  /// Bounds what is between two slab positions, in coordinates of the volume. Positions are linear
+  /// over pixels and along rays, so the corners bound them.
+  void FindBox(
+    const ImageKernelInput& in, double begin, double end, double (&low)[3], double (&high)[3]) const
   {
     const SlicePlanes& slices = in.Slices;
     const double ways[2] = { (slices.Origin + begin * slices.Distance) / this->Longest,
       (slices.Origin + end * slices.Distance) / this->Shortest };
-    double low[3], high[3];
     for (int a = 0; a < 3; ++a)
     {
       double least = std::numeric_limits<double>::infinity();
@@ -74,6 +74,14 @@ struct TileBeam
       low[a] = least;
       high[a] = most;
     }
+  }
+
+  /// Whether it meets nothing that contributes between two slab positions, and within reach of
+  /// them.
+  bool IsEmpty(const ImageKernelInput& in, double begin, double end) const
+  {
+    double low[3], high[3];
+    this->FindBox(in, std::max(begin - in.SpaceReach, 0.), end + in.SpaceReach, low, high);
     return in.Space->IsEmpty(low, high);
   }
 };
@@ -98,6 +106,31 @@ inline void FindVisibleBlocks(const ImageKernelInput& in, const TileBeam& beam, 
   const std::int32_t middle = begin + (end - begin) / 2;
   FindVisibleBlocks(in, beam, begin, middle, blocks);
   FindVisibleBlocks(in, beam, middle, end, blocks);
+}
+
+/// The blocks of slabs between the front and the back of the hulls in a tile: [begin, end).
+inline void LimitBlocks(
+  const ImageKernelInput& in, const Tile& box, std::int32_t& begin, std::int32_t& end)
+{
+  if (!in.Hulls)
+  {
+    return;
+  }
+  // Far above the rounding of depths, and far below a slab that matters.
+  constexpr double Margin = 1e-6;
+  const int tile = box.Y0 / in.TileSize * in.Hulls->Tiles.GetColumns() + box.X0 / in.TileSize;
+  DepthRange range = in.Hulls->Triangles[2 * tile];
+  range.Add(in.Hulls->Triangles[2 * tile + 1].Front, in.Hulls->Triangles[2 * tile + 1].Back);
+  const double blockDepth = in.Slices.Distance * SlabsOfBlock;
+  const double first = (range.Front - in.Slices.Origin) / blockDepth - Margin;
+  const double last = (range.Back - in.Slices.Origin) / blockDepth + Margin;
+  if (range.IsEmpty() || !(last >= 0) || !(first < end))
+  {
+    end = begin;
+    return;
+  }
+  begin = std::max(begin, static_cast<std::int32_t>(std::max(first, 0.)));
+  end = last < end ? static_cast<std::int32_t>(last) + 1 : end;
 }
 
 } // namespace

@@ -22,7 +22,7 @@ template <int Capacity>
 class FewIntervals
 {
 public:
-  FewIntervals(const TransferLookup& transfer, Float8 x)
+  TETRALUX_INLINE FewIntervals(const TransferLookup& transfer, Float8 x)
     : Transfer(transfer)
     , X(x)
   {
@@ -119,34 +119,6 @@ private:
   Float8 Reference, Opacity, OpacitySlope, Offset;
   Float8 Color[3];
 };
-
-/// A transfer function at a scalar.
-struct Classified
-{
-  Float8 Opacity;
-  Float8 Color[3];
-};
-
-/// By the lookup that is fastest for this function.
-TETRALUX_NOINLINE Classified Classify(const TransferLookup& transfer, Float8 x)
-{
-  const auto evaluate = [](const auto& intervals)
-  {
-    Classified classified;
-    classified.Opacity = intervals.GetOpacity();
-    intervals.GetColor(classified.Color);
-    return classified;
-  };
-  if (transfer.Count <= LaneCount)
-  {
-    return evaluate(FewIntervals<LaneCount>(transfer, x));
-  }
-  if (transfer.Count <= TransferLookup::MostFew)
-  {
-    return evaluate(FewIntervals<TransferLookup::MostFew>(transfer, x));
-  }
-  return evaluate(ManyIntervals(transfer, x));
-}
 
 } // namespace
 } // namespace TETRALUX_ISA

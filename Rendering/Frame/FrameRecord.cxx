@@ -35,6 +35,7 @@ Json Describe(const ErrorBudget& budget)
   section["table"] = budget.Table;
   section["buffer"] = budget.Buffer;
   section["light"] = budget.Light;
+  section["slices"] = budget.Slices;
   return section;
 }
 
@@ -203,9 +204,9 @@ void FrameRecord::PrintStatistics(std::ostream& os, vtkIndent indent) const
   }
 }
 
-bool FrameRecord::IsErrorKept(double maximumError) const
+bool FrameRecord::IsErrorKept(double maximumError, double further) const
 {
-  return maximumError < SmallestMaximumError || this->ErrorEstimate <= maximumError;
+  return maximumError < SmallestMaximumError || this->ErrorEstimate + further <= maximumError;
 }
 
 } // namespace tetralux

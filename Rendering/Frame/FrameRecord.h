@@ -67,7 +67,8 @@ public:
   void PrintStatistics(std::ostream& os, vtkIndent indent) const;
 
   /// Whether the estimated error is at most this; true below what single precision reaches.
-  bool IsErrorKept(double maximumError) const;
+  /// further: an error that was found after the frame.
+  bool IsErrorKept(double maximumError, double further = 0) const;
 
 private:
   void Clear();

@@ -212,6 +212,8 @@ std::vector<MapperProperty> MakeProperties()
     { "SampleDistance", PropertyType::Real, TriangleCasterKind, Slices, false,
       { { "automatic", 0, "half of the mean spacing of points, less for small volumes" } }, 0,
       Unbounded, { 0 }, "", "world units", "Distance of slices." },
+    MakeBoolean("SampleDistanceByError", TriangleCasterKind, Slices, false, false,
+      "Choose the distance of slices by MaximumError."),
     { "InteractiveSampleDistance", PropertyType::Real, TriangleCasterKind, Slices, true,
       { { "automatic", 0, "twice that of other frames" } }, 0, Unbounded, { 0 }, "", "world units",
       "Distance of slices in frames of an interaction, if AutoAdjustSampleDistances is on." },

@@ -6,8 +6,10 @@
 // buffer costs (sections 1.2 and 3.2). Prints CSV. Takes the size of the picture, 512 by default.
 // The data sets are in the folder that the environment variable TETRALUX_DATA names.
 
+#include "TriangleCaster/HullDepths.h"
 #include "TriangleCaster/ImageCaster.h"
 #include "TriangleCaster/ImageError.h"
+#include "TriangleCaster/VisibleHull.h"
 
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -175,6 +177,67 @@ void Measure(const std::string& scene, const std::string& variant, ImageCaster& 
   std::fflush(stdout);
 }
 
+/// One byte a cell: whether a corner has an opacity.
+template <class Value>
+std::vector<std::uint8_t> FindVisibleCells(const ImageVolume& volume, double lowest)
+{
+  const int* size = volume.Dimensions;
+  const auto* values = static_cast<const Value*>(volume.Values);
+  std::vector<std::uint8_t> visible;
+  for (int k = 0; k + 1 < size[2]; ++k)
+  {
+    for (int j = 0; j + 1 < size[1]; ++j)
+    {
+      for (int i = 0; i + 1 < size[0]; ++i)
+      {
+        bool any = false;
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          const std::size_t at =
+            (static_cast<std::size_t>(k + (corner >> 2)) * size[1] + j + (corner >> 1 & 1)) *
+              size[0] +
+            i + (corner & 1);
+          any = any || static_cast<double>(values[at]) > lowest;
+        }
+        visible.push_back(any ? 1 : 0);
+      }
+    }
+  }
+  return visible;
+}
+
+/// Hulls in place of blocks: what making and rasterising them takes, and the picture.
+void StudyHulls(const std::string& name, const Scene& scene, const Ramp& ramp, ImageCaster& caster,
+  const ImageCasterOptions& options)
+{
+  constexpr std::size_t FewTriangles = 500; // the paper's several hundred
+  const int* size = scene.Volume.Dimensions;
+  const int cells[3] = { size[0] - 1, size[1] - 1, size[2] - 1 };
+  const std::vector<std::uint8_t> visible = scene.Volume.Type == ImageScalar::UInt8
+    ? FindVisibleCells<std::uint8_t>(scene.Volume, ramp.front().first)
+    : FindVisibleCells<std::uint16_t>(scene.Volume, ramp.front().first);
+  const SlicePlanes planes =
+    MakeSlicePlanes(scene.Volume, scene.Grid, options.Shape, options.SampleDistance);
+  for (const bool tight : { true, false })
+  {
+    const double start = GetProcessorSeconds();
+    const VisibleHull hull =
+      tight ? MakeVisibleHull(cells, visible, 1) : MakeCoarseHull(cells, visible, FewTriangles);
+    const double made = GetProcessorSeconds();
+    const HullDepths depths = FindDepthsOfPixels(
+      Span<const VisibleHull>(&hull, 1), scene.Grid, planes, options.TileSize, 1);
+    const double rasterised = GetProcessorSeconds();
+    const std::string variant = tight ? "tight hull" : "coarse hull";
+    std::printf("%s,%s of %zu triangles: made; rasterised,%.2f,%.2f,,,\n", name.c_str(),
+      variant.c_str(), hull.GetNumberOfTriangles(), 1e3 * (made - start),
+      1e3 * (rasterised - made));
+    ImageCasterOptions hulls = options;
+    hulls.SkipEmptySpace = false;
+    hulls.Hulls = &depths;
+    Measure(name, variant, caster, scene.Grid, hulls);
+  }
+}
+
 void StudyIdeas(const std::string& name, const Scene& scene, const Ramp& ramp)
 {
   ImageCaster caster;
@@ -205,6 +268,7 @@ void StudyIdeas(const std::string& name, const Scene& scene, const Ramp& ramp)
     change(changed);
     Measure(name, variant, caster, scene.Grid, changed);
   }
+  StudyHulls(name, scene, ramp, caster, options);
 }
 
 /// Voxels that texture coordinates are off after a number of additions in single precision, where
