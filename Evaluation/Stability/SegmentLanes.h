@@ -20,6 +20,8 @@ struct SegmentLanes
   Function Erfcx;
   Function Dawson;
   Function MinusLog;
+  Function MinusLogOfRest;
+  Function OneMinusExp;
   void (*Power)(const float* x, const float* power, float* result);
   void (*FindBulgeShare)(const float* d0, const float* d1, float* share);
   void (*IntegrateConstant)(const float* depth, float* opacity, float* transmittance);

@@ -20,6 +20,10 @@ SegmentLanes MakeSegmentLanes(InstructionSet set)
   lanes.Erfcx = [](const float* x, float* result) { Store(result, Erfcx(LoadFloat8(x))); };
   lanes.Dawson = [](const float* x, float* result) { Store(result, Dawson(LoadFloat8(x))); };
   lanes.MinusLog = [](const float* x, float* result) { Store(result, MinusLog(LoadFloat8(x))); };
+  lanes.MinusLogOfRest = [](const float* x, float* result)
+  { Store(result, MinusLogOfRest(LoadFloat8(x))); };
+  lanes.OneMinusExp = [](const float* x, float* result)
+  { Store(result, OneMinusExp(LoadFloat8(x))); };
   lanes.Power = [](const float* x, const float* power, float* result)
   { Store(result, Power(LoadFloat8(x), LoadFloat8(power))); };
   lanes.FindBulgeShare = [](const float* d0, const float* d1, float* share)

@@ -35,7 +35,7 @@ struct Neighbors<std::uint16_t>
 {
   static TETRALUX_INLINE void Load(const void* values, Int8 index, Float8& a, Float8& b)
   {
-    const Int8 pair = GatherWords(values, index + index);
+    const Int8 pair = GatherWords(values, ShiftLeft(index, 1));
     a = ToFloat(ShiftRight(ShiftLeft(pair, 16), 16));
     b = ToFloat(ShiftRight(pair, 16));
   }
@@ -45,7 +45,7 @@ struct Neighbors<std::int16_t>
 {
   static TETRALUX_INLINE void Load(const void* values, Int8 index, Float8& a, Float8& b)
   {
-    const Int8 pair = GatherWords(values, index + index);
+    const Int8 pair = GatherWords(values, ShiftLeft(index, 1));
     a = ToFloat(ShiftRightSigned(ShiftLeft(pair, 16), 16));
     b = ToFloat(ShiftRightSigned(pair, 16));
   }

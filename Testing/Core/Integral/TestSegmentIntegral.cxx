@@ -32,6 +32,8 @@ constexpr double ErfcxError = 3e-7;
 constexpr double DawsonError = 8e-7;
 
 constexpr double MinusLogError = 2e-7;
+constexpr double MinusLogOfRestError = 3e-7;
+constexpr double OneMinusExpError = 3e-7;
 constexpr double PowerError = 3e-7;   ///< for each e-fold, and one more for the exponential itself
 constexpr double BulgeError = 2.5e-4; ///< absolute
 
@@ -136,6 +138,40 @@ TEST(SegmentIntegral, FunctionsHaveTheErrorTheyPromise)
     const double dawson = MeasureError(lanes.Dawson, x, PreciseDawson);
     EXPECT_LE(dawson, DawsonError);
     Report(lanes, "Dawson", dawson);
+  }
+}
+
+TEST(SegmentIntegral, OpacitiesKeepTheirRelativeAccuracyNearZero)
+{
+  for (const SegmentLanes& lanes : GetSegmentLanes())
+  {
+    SCOPED_TRACE(lanes.Name);
+    std::vector<float> x = MakeArguments(-30, 0, 20000);
+    for (std::size_t i = 0; i < x.size(); i += 2)
+    {
+      x[i] = 1 - std::min(x[i], 0.5f);
+    }
+    // What the argument itself is rounded by is not the function's error.
+    x.erase(std::remove_if(x.begin(), x.end(), [](float y) { return y >= 1; }), x.end());
+    x.resize(x.size() / NumberOfLanes * NumberOfLanes);
+    const double log =
+      MeasureError(lanes.MinusLogOfRest, x, [](long double y) { return -std::log1p(-y); });
+    EXPECT_LE(log, MinusLogOfRestError);
+    Report(lanes, "MinusLogOfRest", log);
+    const Lanes beyond = { 1.f, 1.0000001f, 1.5f, 2.f, 10.f, 1e10f, 1e30f, 3e38f };
+    Lanes result;
+    lanes.MinusLogOfRest(beyond.data(), result.data());
+    EXPECT_EQ(*std::min_element(result.begin(), result.end()), 1e37f) << "nothing comes through";
+
+    x = MakeArguments(-30, std::log10(ExpMinusEnd), 20000);
+    const double exp =
+      MeasureError(lanes.OneMinusExp, x, [](long double y) { return -std::expm1(-y); });
+    EXPECT_LE(exp, OneMinusExpError);
+    Report(lanes, "OneMinusExp", exp);
+    const Lanes large = { 0.f, 87.f, 1e3f, 1e10f, 1e30f, 1e37f, 3e38f, 88.f };
+    lanes.OneMinusExp(large.data(), result.data());
+    EXPECT_EQ(result[0], 0);
+    EXPECT_EQ(*std::min_element(result.begin() + 1, result.end()), 1);
   }
 }
 

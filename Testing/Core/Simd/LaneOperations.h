@@ -70,6 +70,11 @@ struct LaneOperations
     const double* base, const std::int32_t* index, double (*columns)[LaneCount]);
   void (*GatherIntegers)(
     const std::int32_t* base, const std::int32_t* index, std::int32_t (*columns)[LaneCount]);
+  void (*GatherWords)(const void* base, const std::int32_t* index, std::int32_t* words);
+  void (*GatherNeighbors)(
+    const float* base, const std::int32_t* index, float* first, float* second);
+  void (*LookUpFew)(const float (&table)[LaneCount], const std::int32_t* index, float* found);
+  void (*LookUpMore)(const float (&table)[2 * LaneCount], const std::int32_t* index, float* found);
 };
 
 LaneOperations GetLaneOperationsGeneric();
@@ -124,6 +129,12 @@ constexpr float LaneCoefficients[] = { 1.f, -0.5f, 0.3f, 1e-3f };
   OPERATION(Integers, Integers, ShiftLeftNot, ShiftLeft(i, 0))                                     \
   OPERATION(Integers, Integers, ShiftLeftByTwo, ShiftLeft(i, 2))                                   \
   OPERATION(Integers, Integers, ShiftLeftByAll, ShiftLeft(i, 31))                                  \
+  OPERATION(Integers, Integers, ShiftLeftByLanes, ShiftLeft(i, ShiftLeft(Ones(m), 4) + Ones(n)))   \
+  OPERATION(Integers, Integers, ShiftRightNot, ShiftRight(i, 0))                                   \
+  OPERATION(Integers, Integers, ShiftRightBySeven, ShiftRight(i, 7))                               \
+  OPERATION(Integers, Integers, ShiftRightByAll, ShiftRight(i, 31))                                \
+  OPERATION(Integers, Integers, ShiftRightSignedBySeven, ShiftRightSigned(i, 7))                   \
+  OPERATION(Integers, Integers, ShiftRightSignedByAll, ShiftRightSigned(i, 31))                    \
   OPERATION(Integers, Integers, SelectIntegers, Select(m, i, j))                                   \
   OPERATION(Integers, Integers, OnesOfMask, Ones(m))                                               \
   OPERATION(Integers, Integers, FloatToBits, ToBits(a))                                            \

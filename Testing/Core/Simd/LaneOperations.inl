@@ -81,6 +81,20 @@ LaneOperations MakeLaneOperations()
     Store(columns[0], first);
     Store(columns[1], second);
   };
+  set.GatherWords = [](const void* base, const std::int32_t* index, std::int32_t* words)
+  { Store(words, GatherWords(base, LoadInt8(index))); };
+  set.GatherNeighbors = [](
+                          const float* base, const std::int32_t* index, float* first, float* second)
+  {
+    Float8 a, b;
+    GatherNeighbors(base, LoadInt8(index), a, b);
+    Store(first, a);
+    Store(second, b);
+  };
+  set.LookUpFew = [](const float(&table)[LaneCount], const std::int32_t* index, float* found)
+  { Store(found, LookUp(table, LoadInt8(index))); };
+  set.LookUpMore = [](const float(&table)[2 * LaneCount], const std::int32_t* index, float* found)
+  { Store(found, LookUp(table, LoadInt8(index))); };
   return set;
 }
 

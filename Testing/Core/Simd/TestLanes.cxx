@@ -87,6 +87,20 @@ struct Scalar
   {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) << bits);
   }
+  static std::int32_t ShiftRight(std::int32_t a, int bits)
+  {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) >> bits);
+  }
+  static std::int32_t ShiftRightSigned(std::int32_t a, int bits)
+  {
+    // Halved by division, which rounds towards zero.
+    std::int64_t value = a;
+    for (int i = 0; i < bits; ++i)
+    {
+      value = value < 0 ? -((1 - value) / 2) : value / 2;
+    }
+    return static_cast<std::int32_t>(value);
+  }
   static std::int32_t Ones(bool m) { return m ? 1 : 0; }
   /// Ties to even by hand: not by the rounding mode.
   static std::int32_t RoundToInt(float a)
@@ -518,6 +532,90 @@ TEST_P(Lanes, GathersTransposeRows)
   TestGather<std::int32_t, 2>([](std::mt19937_64& generator)
     { return static_cast<std::int32_t>(generator()); },
     this->Tested.GatherIntegers);
+}
+
+TEST_P(Lanes, GathersWordsAtAnyByte)
+{
+  std::mt19937_64 generator(Seed);
+  std::vector<unsigned char> bytes(1000);
+  for (unsigned char& byte : bytes)
+  {
+    byte = static_cast<unsigned char>(generator());
+  }
+  for (int trial = 0; trial < 1000; ++trial)
+  {
+    std::int32_t index[LaneCount];
+    for (std::int32_t& i : index)
+    {
+      i = static_cast<std::int32_t>(generator() % (bytes.size() - 3));
+    }
+    index[trial % LaneCount] = trial % 2 ? 0 : static_cast<std::int32_t>(bytes.size() - 4);
+    std::int32_t words[LaneCount];
+    this->Tested.GatherWords(bytes.data(), index, words);
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      std::int32_t expected;
+      std::memcpy(&expected, &bytes[index[lane]], sizeof(expected));
+      ASSERT_EQ(words[lane], expected) << "lane " << lane << ", seed " << Seed;
+    }
+  }
+}
+
+TEST_P(Lanes, GathersNeighbors)
+{
+  std::mt19937_64 generator(Seed);
+  std::vector<float> values(1000);
+  for (float& value : values)
+  {
+    value = DrawFloat(generator);
+  }
+  for (int trial = 0; trial < 1000; ++trial)
+  {
+    std::int32_t index[LaneCount];
+    for (std::int32_t& i : index)
+    {
+      i = static_cast<std::int32_t>(generator() % (values.size() - 1));
+    }
+    index[trial % LaneCount] = trial % 2 ? 0 : static_cast<std::int32_t>(values.size() - 2);
+    float first[LaneCount], second[LaneCount];
+    this->Tested.GatherNeighbors(values.data(), index, first, second);
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      ASSERT_TRUE(HaveSameBits(first[lane], values[index[lane]])) << "lane " << lane;
+      ASSERT_TRUE(HaveSameBits(second[lane], values[index[lane] + 1])) << "lane " << lane;
+    }
+  }
+}
+
+TEST_P(Lanes, LookUpTables)
+{
+  std::mt19937_64 generator(Seed);
+  for (int trial = 0; trial < 1000; ++trial)
+  {
+    float few[LaneCount], more[2 * LaneCount];
+    for (float& value : few)
+    {
+      value = DrawFloat(generator);
+    }
+    for (float& value : more)
+    {
+      value = DrawFloat(generator);
+    }
+    std::int32_t index[LaneCount], indexOfMore[LaneCount];
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      index[lane] = static_cast<std::int32_t>(generator() % LaneCount);
+      indexOfMore[lane] = static_cast<std::int32_t>(generator() % (2 * LaneCount));
+    }
+    float found[LaneCount], foundOfMore[LaneCount];
+    this->Tested.LookUpFew(few, index, found);
+    this->Tested.LookUpMore(more, indexOfMore, foundOfMore);
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      ASSERT_TRUE(HaveSameBits(found[lane], few[index[lane]])) << "lane " << lane;
+      ASSERT_TRUE(HaveSameBits(foundOfMore[lane], more[indexOfMore[lane]])) << "lane " << lane;
+    }
+  }
 }
 
 std::vector<InstructionSet> GetCompiledSets()
