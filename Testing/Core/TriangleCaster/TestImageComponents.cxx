@@ -534,4 +534,37 @@ TEST(ImageComponents, WhatHasNoMeaningIsRefused)
   EXPECT_TRUE(refuses(scene, "share"));
 }
 
+TEST(ImageComponents, WhatOneFunctionHasIsRefused)
+{
+  const ComponentScene scenes[] = { MakeIndependent(ImageScalar::UInt8, 2, true),
+    MakeDependent(ImageScalar::UInt8, 4, true), MakeLabelled(ImageScalar::UInt8, 1, true) };
+  for (const ComponentScene& scene : scenes)
+  {
+    const auto refuses = [&](const auto& change)
+    {
+      ComponentScene changed = scene;
+      change(changed.Optics, changed.Options);
+      EXPECT_THROW(CastScene(changed), std::invalid_argument);
+    };
+    EXPECT_NO_THROW(CastScene(scene));
+    for (const ImageBlend blend :
+      { ImageBlend::MaximumIntensity, ImageBlend::MinimumIntensity, ImageBlend::AverageIntensity,
+        ImageBlend::Additive, ImageBlend::Isosurfaces, ImageBlend::Slice })
+    {
+      refuses([&](ImageOptics& optics, ImageCasterOptions&) { optics.Blend = blend; });
+    }
+    refuses(
+      [](ImageOptics& optics, ImageCasterOptions&)
+      {
+        optics.Table.Columns = optics.Table.Rows = 2;
+        optics.Table.Entries.resize(4);
+      });
+    refuses(
+      [](ImageOptics&, ImageCasterOptions& options) { options.Gradients = GradientSource::Bytes; });
+    refuses([](ImageOptics&, ImageCasterOptions& options)
+      { options.SumOfLights = LightSum::NearestEntry; });
+    refuses([](ImageOptics&, ImageCasterOptions& options) { options.FarColor[1] = 0.5f; });
+  }
+}
+
 } // namespace tetralux
