@@ -22,6 +22,7 @@ class AdditiveModel
 public:
   static constexpr bool AtEnds = false;
   static constexpr bool InAnyOrder = false;
+  static constexpr bool JoinsSamples = false;
   static constexpr bool CountsEmptyRays = true;
 
   AdditiveModel(const ImageKernelInput&, const ImageRays& rays)

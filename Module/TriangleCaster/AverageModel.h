@@ -42,6 +42,7 @@ class AverageModel
 public:
   static constexpr bool AtEnds = false;
   static constexpr bool InAnyOrder = false;
+  static constexpr bool JoinsSamples = false;
   static constexpr bool CountsEmptyRays = false;
 
   AverageModel(const ImageKernelInput&, const ImageRays& rays)

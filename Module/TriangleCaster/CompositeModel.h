@@ -9,6 +9,7 @@
 #include "TriangleCaster/GradientModel.h"
 #include "TriangleCaster/ImageSample.h"
 #include "TriangleCaster/TransferLanes.h"
+#include "TriangleCaster/TransferTableLanes.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,17 +21,6 @@ namespace TETRALUX_ISA
 {
 namespace
 {
-
-/// For models that use no gradients.
-struct NoGradients
-{
-  static constexpr bool HasTables = false;
-
-  template <class Value>
-  using Field = ValueField<Value>;
-
-  NoGradients(const ImageKernelInput&, const ImageRays&) {}
-};
 
 /// Samples at the middle of stretches. Gradients: NoGradients, or GradientModel where lights shine,
 /// or opacity depends on gradients.
@@ -92,7 +82,7 @@ public:
       }
       if (in.Lighting)
       {
-        this->Gradient.Light(in, sample, gradient, color);
+        this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
       }
     }
     if (in.Cued)

@@ -20,6 +20,9 @@ class CompositingBuffer
 public:
   /// Whether a ray has a pixel even if nothing of it contributes.
   static constexpr bool CountsEmptyRays = false;
+  /// Whether a sample depends on the one before it.
+  static constexpr bool JoinsSamples = false;
+
   /// Whether slabs may come in any order.
   static constexpr bool InAnyOrder = false;
 

@@ -14,13 +14,17 @@ constexpr float Rounding = 1e-6f;
 
 } // namespace
 
-ContributingValues::ContributingValues(const ImageKernelInput& in)
+ContributingValues::ContributingValues(
+  const ImageKernelInput& in, const IntervalTable& table, float scale, float offset)
   : In(in)
-  , VisibleBefore(in.Transfer.Count + 1, 0)
+  , Intervals(table.Intervals)
+  , Scale(scale)
+  , Offset(offset)
+  , VisibleBefore(table.Intervals.size() + 1, 0)
 {
-  for (int k = 0; k < in.Transfer.Count; ++k)
+  for (std::size_t k = 0; k < this->Intervals.size(); ++k)
   {
-    const IntervalTable::Interval& interval = in.Transfer.Intervals[k];
+    const IntervalTable::Interval& interval = this->Intervals[k];
     const bool visible = interval.Attenuation > 0 || interval.AttenuationSlope != 0;
     this->VisibleBefore[k + 1] = this->VisibleBefore[k] + (visible ? 1 : 0);
   }
@@ -58,19 +62,18 @@ bool ContributingValues::Include(const BlockRanges::Range& range) const
 
 bool ContributingValues::IncludeTransfer(float low, float high) const
 {
-  const float scale = this->In.ValueScale;
-  const float offset = this->In.ValueOffset;
-  const float a = offset + scale * low;
-  const float b = offset + scale * high;
-  const float margin = Rounding * std::max({ 1.f, std::abs(a), std::abs(b), std::abs(offset) });
+  const float a = this->Offset + this->Scale * low;
+  const float b = this->Offset + this->Scale * high;
+  const float margin =
+    Rounding * std::max({ 1.f, std::abs(a), std::abs(b), std::abs(this->Offset) });
   if (!std::isfinite(margin))
   {
     return true;
   }
   // The first interval that ends at the lowest scalar or above, and the first one that begins above
   // the highest.
-  const IntervalTable::Interval* begin = this->In.Transfer.Intervals;
-  const IntervalTable::Interval* end = begin + this->In.Transfer.Count;
+  const IntervalTable::Interval* begin = this->Intervals.data();
+  const IntervalTable::Interval* end = begin + this->Intervals.size();
   const auto first = this->In.Blend == ImageBlend::MaximumIntensity
     ? begin
     : std::lower_bound(begin, end, std::min(a, b) - margin,

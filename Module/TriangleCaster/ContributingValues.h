@@ -5,6 +5,7 @@
 #include "TriangleCaster/EmptySpace.h"
 #include "TriangleCaster/ImageKernel.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace tetralux
@@ -24,8 +25,10 @@ namespace tetralux
 class ContributingValues
 {
 public:
-  /// Uses the optics of in, and how values are mapped.
-  explicit ContributingValues(const ImageKernelInput& in);
+  /// Uses how in is blended. table: of one of its functions; a value v lies at x = offset + scale v
+  /// in it.
+  ContributingValues(
+    const ImageKernelInput& in, const IntervalTable& table, float scale, float offset);
 
   bool Include(const BlockRanges::Range& range) const;
 
@@ -33,7 +36,23 @@ private:
   bool IncludeTransfer(float low, float high) const;
 
   const ImageKernelInput& In;
+  const std::vector<IntervalTable::Interval>& Intervals;
+  float Scale, Offset;
   std::vector<int> VisibleBefore; ///< intervals that are not transparent, before each one
+};
+
+/// One of the functions that a volume is seen by.
+struct SpaceFunction
+{
+  const BlockRanges* Blocks;
+  ContributingValues Values;
+  BlockLabels::Set Labels; ///< of the samples that it is for
+
+  /// Whether a block with these labels may contribute by it.
+  bool Contributes(std::int64_t block, BlockLabels::Set labels) const
+  {
+    return (labels & this->Labels) != 0 && this->Values.Include(this->Blocks->GetRanges()[block]);
+  }
 };
 
 } // namespace tetralux

@@ -12,11 +12,12 @@ namespace
 {
 
 template <class Value>
-void FindRanges(const ImageVolume& volume, const std::int32_t (&size)[3], int threads,
-  std::vector<BlockRanges::Range>& ranges)
+void FindRanges(const ImageVolume& volume, int component, const std::int32_t (&size)[3],
+  int threads, std::vector<BlockRanges::Range>& ranges)
 {
-  const auto* values = static_cast<const Value*>(volume.Values);
-  const std::int64_t row = volume.Dimensions[0];
+  const auto* values = static_cast<const Value*>(volume.Values) + component;
+  const std::int64_t step = volume.Components;
+  const std::int64_t row = step * volume.Dimensions[0];
   const std::int64_t slice = row * volume.Dimensions[1];
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
   for (std::int32_t bz = 0; bz < size[2]; ++bz)
@@ -39,7 +40,7 @@ void FindRanges(const ImageVolume& volume, const std::int32_t (&size)[3], int th
             const Value* at = values + z * slice + y * row;
             for (int x = bx * BlockRanges::BlockSize; x <= x1; ++x)
             {
-              const auto value = static_cast<float>(at[x]);
+              const auto value = static_cast<float>(at[x * step]);
               low = value < low ? value : low;
               high = value > high ? value : high;
               if constexpr (std::is_same_v<Value, float>)
@@ -57,31 +58,66 @@ void FindRanges(const ImageVolume& volume, const std::int32_t (&size)[3], int th
   }
 }
 
+std::int32_t CountBlocks(int points)
+{
+  return (points - 1 + BlockRanges::BlockSize - 1) / BlockRanges::BlockSize;
+}
+
+BlockLabels::Set FindLabels(const ImageVolume& volume, const std::vector<unsigned char>& hidden,
+  const std::int64_t (&block)[3])
+{
+  std::int64_t begin[3], end[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    begin[a] = block[a] * BlockRanges::BlockSize;
+    end[a] = std::min<std::int64_t>(begin[a] + BlockRanges::BlockSize, volume.Dimensions[a] - 1);
+  }
+  BlockLabels::Set labels = 0;
+  bool shown = hidden.empty();
+  for (std::int64_t z = begin[2]; z <= end[2]; ++z)
+  {
+    for (std::int64_t y = begin[1]; y <= end[1]; ++y)
+    {
+      for (std::int64_t x = begin[0]; x <= end[0]; ++x)
+      {
+        const std::int64_t point = (z * volume.Dimensions[1] + y) * volume.Dimensions[0] + x;
+        const bool isCell = x < end[0] && y < end[1] && z < end[2];
+        shown = shown || (isCell && hidden[point] == 0);
+        if (!volume.Mask || volume.Mask[point] != 0)
+        {
+          labels |= BlockLabels::GetSet(volume.Labels ? volume.Labels[point] : 0);
+        }
+      }
+    }
+  }
+  return shown ? labels : 0;
+}
+
 } // namespace
 
-void BlockRanges::Build(const ImageVolume& volume, int threads)
+void BlockRanges::Build(const ImageVolume& volume, int component, int threads)
 {
   for (int a = 0; a < 3; ++a)
   {
-    this->Size[a] = (volume.Dimensions[a] - 1 + BlockSize - 1) / BlockSize;
+    this->Size[a] = CountBlocks(volume.Dimensions[a]);
   }
   this->Ranges.resize(static_cast<std::size_t>(this->Size[0]) * this->Size[1] * this->Size[2]);
   switch (volume.Type)
   {
     case ImageScalar::Int8:
-      FindRanges<std::int8_t>(volume, this->Size, threads, this->Ranges);
+      FindRanges<std::int8_t>(volume, component, this->Size, threads, this->Ranges);
       break;
     case ImageScalar::UInt8:
-      FindRanges<std::uint8_t>(volume, this->Size, threads, this->Ranges);
+      FindRanges<std::uint8_t>(volume, component, this->Size, threads, this->Ranges);
       break;
     case ImageScalar::Int16:
-      FindRanges<std::int16_t>(volume, this->Size, threads, this->Ranges);
+      FindRanges<std::int16_t>(volume, component, this->Size, threads, this->Ranges);
       break;
     case ImageScalar::UInt16:
-      FindRanges<std::uint16_t>(volume, this->Size, threads, this->Ranges);
+      FindRanges<std::uint16_t>(volume, component, this->Size, threads, this->Ranges);
       break;
     case ImageScalar::Float:
-      FindRanges<float>(volume, this->Size, threads, this->Ranges);
+      FindRanges<float>(volume, component, this->Size, threads, this->Ranges);
       break;
   }
 }
@@ -117,13 +153,40 @@ BlockRanges::Range BlockRanges::GetRange() const
   return std::isfinite(all.Low) && std::isfinite(all.High) ? all : Range{ 0, 0 };
 }
 
-void EmptySpace::Build(
-  const BlockRanges& blocks, const std::function<bool(const BlockRanges::Range&)>& contributes)
+void BlockLabels::Build(
+  const ImageVolume& volume, const std::vector<unsigned char>& hiddenCells, int threads)
 {
-  std::copy(blocks.GetSize(), blocks.GetSize() + 3, this->Size);
+  this->Sets.clear();
+  if (!volume.Labels && !volume.Mask && hiddenCells.empty())
+  {
+    return;
+  }
+  std::int64_t size[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    size[a] = CountBlocks(volume.Dimensions[a]);
+  }
+  this->Sets.resize(size[0] * size[1] * size[2]);
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+  for (std::int64_t bz = 0; bz < size[2]; ++bz)
+  {
+    for (std::int64_t by = 0; by < size[1]; ++by)
+    {
+      for (std::int64_t bx = 0; bx < size[0]; ++bx)
+      {
+        const std::int64_t block[3] = { bx, by, bz };
+        this->Sets[(bz * size[1] + by) * size[0] + bx] = FindLabels(volume, hiddenCells, block);
+      }
+    }
+  }
+}
+
+void EmptySpace::Build(
+  const std::int32_t size[3], const std::function<bool(std::int64_t)>& contributes)
+{
+  std::copy(size, size + 3, this->Size);
   const std::int64_t nx = this->Size[0] + 1, ny = this->Size[1] + 1, nz = this->Size[2] + 1;
   this->Sums.assign(static_cast<std::size_t>(nx * ny * nz), 0);
-  const std::vector<BlockRanges::Range>& ranges = blocks.GetRanges();
   for (std::int64_t z = 1; z < nz; ++z)
   {
     for (std::int64_t y = 1; y < ny; ++y)
@@ -131,7 +194,7 @@ void EmptySpace::Build(
       std::int32_t row = 0;
       for (std::int64_t x = 1; x < nx; ++x)
       {
-        row += contributes(ranges[((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1]) ? 1 : 0;
+        row += contributes(((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1) ? 1 : 0;
         const auto at = [&](std::int64_t j, std::int64_t k)
         { return this->Sums[(k * ny + j) * nx + x]; };
         this->Sums[(z * ny + y) * nx + x] = row + at(y - 1, z) + at(y, z - 1) - at(y - 1, z - 1);

@@ -51,8 +51,8 @@ public:
     bool Mixed = false; ///< some values are finite, and some are not
   };
 
-  /// threads: at least 1.
-  void Build(const ImageVolume& volume, int threads);
+  /// component: of the volume's points, from 0 on. threads: at least 1.
+  void Build(const ImageVolume& volume, int component, int threads);
 
   const std::int32_t* GetSize() const { return this->Size; }
   const std::vector<Range>& GetRanges() const { return this->Ranges; }
@@ -68,13 +68,37 @@ private:
   std::vector<Range> Ranges;          ///< x fastest
 };
 
+/// Which labels blocks have, and whether anything of them is shown. Depends on the volume alone.
+class TETRALUXCORE_EXPORT BlockLabels
+{
+public:
+  using Set = std::uint64_t;
+
+  /// The set that has this label, 0..255. Labels from the last one on are one.
+  static Set GetSet(int label)
+  {
+    constexpr int Last = 63;
+    return static_cast<Set>(1) << (label < Last ? label : Last);
+  }
+
+  /// hiddenCells: as FindHiddenCells returns them. threads: at least 1.
+  void Build(const ImageVolume& volume, const std::vector<unsigned char>& hiddenCells, int threads);
+
+  /// For each block of BlockRanges, those of points that are not masked, and none if all cells are
+  /// hidden; without labels all points have label 0. Empty if nothing has labels or is hidden.
+  const std::vector<Set>& GetSets() const { return this->Sets; }
+
+private:
+  std::vector<Set> Sets; ///< x fastest
+};
+
 /// Counts of blocks that may contribute, so that any box is known to be empty in constant time.
 class TETRALUXCORE_EXPORT EmptySpace
 {
 public:
-  /// contributes: whether a block with that range may contribute.
-  void Build(
-    const BlockRanges& blocks, const std::function<bool(const BlockRanges::Range&)>& contributes);
+  /// size: blocks along each axis. contributes: whether a block may contribute, by its index, x
+  /// fastest.
+  void Build(const std::int32_t size[3], const std::function<bool(std::int64_t)>& contributes);
 
   /// Whether no cell that a box meets contributes. low, high: corners in coordinates of the volume.
   bool IsEmpty(const double low[3], const double high[3]) const

@@ -9,7 +9,6 @@
 #include "TriangleCaster/IntensityLanes.h"
 #include "TriangleCaster/SampleField.h"
 #include "TriangleCaster/TransferLanes.h"
-#include "TriangleCaster/TransferTableLanes.h"
 
 #include <type_traits>
 
@@ -19,6 +18,17 @@ namespace TETRALUX_ISA
 {
 namespace
 {
+
+/// For models that use no gradients.
+struct NoGradients
+{
+  static constexpr bool HasTables = false;
+
+  template <class Value>
+  using Field = ValueField<Value>;
+
+  NoGradients(const ImageKernelInput&, const ImageRays&) {}
+};
 
 /// What the gradients of a vector's samples do. Prepared: gradients may come from GradientVoxels,
 /// light from an IntensityMap, and colours from a TransferTable; without all those it is faster.
@@ -60,9 +70,9 @@ public:
       : ManyIntervals(in.GradientTransfer, x).GetOpacity();
   }
 
-  /// Lets the lights shine on colours.
-  TETRALUX_INLINE void Light(const ImageKernelInput& in, const ImageSample& sample,
-    const LaneVector& gradient, Float8 (&color)[3]) const
+  /// Lets lights shine on colours. Prepared: those of in.Intensities, if there are any.
+  TETRALUX_INLINE void Light(const ImageKernelInput& in, const KernelLighting& lighting,
+    const ImageSample& sample, const LaneVector& gradient, Float8 (&color)[3]) const
   {
     LaneFactors factors;
     if (Prepared && in.Intensities)
@@ -71,7 +81,7 @@ public:
     }
     else
     {
-      factors = this->SumLights(in, sample, gradient);
+      factors = this->SumLights(in, lighting, sample, gradient);
     }
     for (int c = 0; c < 3; ++c)
     {
@@ -87,10 +97,9 @@ private:
     return in.InterpolateIntensities ? intensities.Interpolate() : intensities.GetNearest();
   }
 
-  TETRALUX_INLINE LaneFactors SumLights(
-    const ImageKernelInput& in, const ImageSample& sample, const LaneVector& gradient) const
+  TETRALUX_INLINE LaneFactors SumLights(const ImageKernelInput& in, const KernelLighting& lighting,
+    const ImageSample& sample, const LaneVector& gradient) const
   {
-    const KernelLighting& lighting = *in.Lighting;
     const LaneVector normal =
       LaneLights::ToWorld(lighting, gradient * LaneLights::GetScale(gradient));
     const Double8 depth = Fma(ToDouble(Fma(Float8(0.5f), sample.Share, sample.Front)),

@@ -6,7 +6,10 @@
 #include "Simd/InstructionSet.h"
 #include "TriangleCaster/ContributingValues.h"
 #include "TriangleCaster/EmptySpace.h"
+#include "TriangleCaster/FunctionLookup.h"
+#include "TriangleCaster/FunctionSet.h"
 #include "TriangleCaster/GradientVoxels.h"
+#include "TriangleCaster/HiddenCells.h"
 #include "TriangleCaster/ImageBlending.h"
 #include "TriangleCaster/ImageKernel.h"
 #include "TriangleCaster/IntensityMap.h"
@@ -17,8 +20,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,14 +43,15 @@ constexpr int LargestTile = 64;
 
 ImageKernel GetKernel(InstructionSet set, const ImageKernelInput& in)
 {
+  const bool components = in.Components > 1 || in.Labels;
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
   if (set == InstructionSet::Avx2)
   {
-    return GetImageKernelAvx2(in);
+    return components ? GetImageComponentKernelAvx2(in) : GetImageKernelAvx2(in);
   }
 #endif
   static_cast<void>(set);
-  return GetImageKernelGeneric(in);
+  return components ? GetImageComponentKernelGeneric(in) : GetImageKernelGeneric(in);
 }
 
 void CheckVolume(const ImageVolume& volume)
@@ -61,10 +67,16 @@ void CheckVolume(const ImageVolume& volume)
     }
     values *= volume.Dimensions[a];
   }
+  if (volume.Components < 1 || volume.Components > ImageVolume::MostComponents)
+  {
+    throw std::invalid_argument("the image has " + std::to_string(volume.Components) +
+      " components; a volume has 1 to " + std::to_string(ImageVolume::MostComponents));
+  }
+  values *= volume.Components;
   if (values > std::numeric_limits<std::int32_t>::max())
   {
     throw std::invalid_argument(
-      "the image has more than 2^31 - 1 points, the most that the triangle caster takes");
+      "the image has more than 2^31 - 1 values, the most that the triangle caster takes");
   }
   if (!volume.Values)
   {
@@ -76,99 +88,74 @@ void CheckVolume(const ImageVolume& volume)
   }
 }
 
-/// For each bucket of equal width over [-1, 1] the interval that its lower end lies in, or one
-/// below.
-struct IntervalBuckets
+void CheckUnitDistance(double distance)
 {
-  std::vector<std::int32_t> First;
-  int MostSteps = 0; ///< the most intervals that a scalar of a bucket lies above that
-};
-
-IntervalBuckets MakeBuckets(const std::vector<IntervalTable::Interval>& intervals, int count)
-{
-  // The bucket of a scalar is rounded; a scalar may lie this far outside of its own.
-  constexpr double Rounding = 1e-5; // of the whole range
-  IntervalBuckets buckets;
-  buckets.First.resize(count);
-  std::size_t first = 0;
-  std::size_t last = 0;
-  for (int b = 0; b < count; ++b)
+  if (!(distance > 0) || !std::isfinite(distance))
   {
-    const double low = 2. * b / count - 1 - Rounding;
-    const double high = 2. * (b + 1) / count - 1 + Rounding;
-    while (intervals[first].Hi <= low)
-    {
-      ++first;
-    }
-    while (last + 1 < intervals.size() && intervals[last].Hi <= high)
-    {
-      ++last;
-    }
-    // The first and last bucket take what is beyond.
-    const std::size_t begin = b == 0 ? 0 : first;
-    const std::size_t end = b + 1 == count ? intervals.size() - 1 : last;
-    buckets.First[b] = static_cast<std::int32_t>(begin);
-    buckets.MostSteps = std::max(buckets.MostSteps, static_cast<int>(end - begin));
+    throw std::invalid_argument("the unit distance of opacity is not above 0");
   }
-  return buckets;
 }
 
-/// A transfer function, and what its lookup points to.
-struct FunctionLookup
+void CheckComponents(const ImageOptics& optics)
 {
-  IntervalTable Table;
-  IntervalBuckets Buckets;
-  TransferLookup Lookup;
-
-  void Set(const TransferFunction& function);
-
-  /// Where a scalar lies in the intervals: x = scale s + offset.
-  ///@{
-  double GetScale() const { return 1 / this->Table.Scale; }
-  double GetOffset() const { return -this->Table.Offset / this->Table.Scale; }
-  ///@}
-};
-
-void FunctionLookup::Set(const TransferFunction& function)
-{
-  this->Table = MakeIntervalTable(function);
-  const std::vector<IntervalTable::Interval>& intervals = this->Table.Intervals;
-  TransferLookup& transfer = this->Lookup;
-  transfer = TransferLookup();
-  transfer.Count = static_cast<int>(intervals.size());
-  transfer.Intervals = intervals.data();
-  for (int k = 0; k < TransferLookup::MostFew; ++k)
+  CheckUnitDistance(optics.UnitDistance);
+  const auto checkWeight = [](double weight)
   {
-    const IntervalTable::Interval& interval =
-      intervals[std::min<std::size_t>(k, intervals.size() - 1)];
-    transfer.Lower[k] = interval.Lo;
-    transfer.Reference[k] = interval.Reference;
-    transfer.Opacity[k] = interval.Attenuation;
-    transfer.OpacitySlope[k] = interval.AttenuationSlope;
-    for (int c = 0; c < 3; ++c)
+    if (!(weight >= 0) || !std::isfinite(weight))
     {
-      transfer.Color[c][k] = interval.Color[c];
-      transfer.ColorSlope[c][k] = interval.ColorSlope[c];
+      throw std::invalid_argument("the weight of a component is negative, or not finite");
+    }
+  };
+  checkWeight(optics.Weight);
+  for (const ComponentOptics& other : optics.OtherComponents)
+  {
+    CheckUnitDistance(other.UnitDistance);
+    checkWeight(other.Weight);
+  }
+  for (int c = 0; c < 3; ++c)
+  {
+    if (!std::isfinite(optics.ColorScale[c]) || !std::isfinite(optics.ColorOffset[c]))
+    {
+      throw std::invalid_argument("the scale of the colours of components is not finite");
     }
   }
-  if (transfer.Count > TransferLookup::MostFew)
+  if (!(optics.LabelShare >= 0 && optics.LabelShare <= 1))
   {
-    // A step to the next interval costs as much as looking up a bucket; nodes that are closer
-    // together than the smallest buckets cost more steps.
-    constexpr int FewSteps = 2;
-    constexpr int FirstCount = 1024;
-    constexpr int LargestCount = 65536;
-    for (int count = FirstCount; count <= LargestCount; count *= 4)
-    {
-      this->Buckets = MakeBuckets(intervals, count);
-      if (this->Buckets.MostSteps <= FewSteps)
-      {
-        break;
-      }
-    }
-    transfer.Buckets = this->Buckets.First.data();
-    transfer.NumberOfBuckets = static_cast<float>(this->Buckets.First.size());
-    transfer.MostSteps = this->Buckets.MostSteps;
+    throw std::invalid_argument("the share of labels is not within 0..1");
+  }
+}
+
+/// Whether what there is of components has a meaning.
+void CheckMatch(const ImageVolume& volume, const ImageOptics& optics)
+{
+  if (volume.Components > 1 && volume.Labels && !optics.Labels.empty())
+  {
+    throw std::invalid_argument(
+      "labels are shown of one component; the image has " + std::to_string(volume.Components));
+  }
+  const bool several = volume.Components > 1 || (volume.Labels && !optics.Labels.empty());
+  if (several && optics.Blend != ImageBlend::Composite)
+  {
+    throw std::invalid_argument(
+      "several components and labels are composited: other blend modes have one function");
+  }
+  if (several && HasTable(optics))
+  {
+    throw std::invalid_argument(
+      "a table over scalars and gradients is of one component, without labels");
+  }
+  if (optics.Components == ImageComponents::Dependent && volume.Components != 2 &&
+    volume.Components != 4)
+  {
+    throw std::invalid_argument(
+      "dependent components are 2 or 4; the image has " + std::to_string(volume.Components));
+  }
+  if (optics.Components == ImageComponents::Independent &&
+    optics.OtherComponents.size() + 1 != static_cast<std::size_t>(volume.Components))
+  {
+    throw std::invalid_argument("the image has " + std::to_string(volume.Components) +
+      " independent components, and there are optics for " +
+      std::to_string(optics.OtherComponents.size() + 1));
   }
 }
 
@@ -183,17 +170,40 @@ double FindRadius(const ImageVolume& volume, const RayGrid& grid)
   return std::sqrt(squared) * MeasureMeshToWorld(grid.MeshFromWorld).Largest;
 }
 
-/// Whether a table takes the place of the function.
-bool HasTable(const ImageOptics& optics)
+/// Lights as a kernel reads them, of one material.
+struct KernelLights
 {
-  return optics.Blend == ImageBlend::Composite && !optics.Table.Entries.empty();
-}
+  KernelLighting Lighting{};
+  std::vector<KernelLight> Lights;
+
+  const KernelLighting* Fill(const std::vector<Light>& lights, const Material& surface,
+    const RayGrid& grid, const ImageVolume& volume)
+  {
+    FillKernelLighting(
+      lights, surface, grid, FindRadius(volume, grid), this->Lighting, this->Lights);
+    return &this->Lighting;
+  }
+};
 
 bool HasCue(const ImageCasterOptions& options)
 {
   const auto isOne = [](float factor) { return factor == 1; };
   return !std::all_of(options.NearColor, options.NearColor + 3, isOne) ||
     !std::all_of(options.FarColor, options.FarColor + 3, isOne);
+}
+
+/// Whether several components, or labels, have what options ask for.
+void CheckComponentOptions(const ImageCasterOptions& options)
+{
+  if (options.Gradients != GradientSource::OnTheFly || options.SumOfLights != LightSum::Direct)
+  {
+    throw std::invalid_argument(
+      "stored gradients and maps of light need one component, without labels");
+  }
+  if (HasCue(options))
+  {
+    throw std::invalid_argument("depth cueing needs one component, without labels");
+  }
 }
 
 /// The factors of depth cueing, once in.Slices is filled.
@@ -227,25 +237,35 @@ class ImageCaster::Internals
 {
 public:
   void CheckReady() const;
-  /// Where a value lies in the intervals of Function.
-  ///@{
-  float GetValueScale() const
+  bool ShowsLabels() const { return this->Volume.Labels && !this->Optics.Labels.empty(); }
+  bool ShowsParts() const
   {
-    return static_cast<float>(this->Volume.Scale * this->Function.GetScale());
+    return this->Volume.Components > 1 && this->Optics.Components == ImageComponents::Independent;
   }
-  float GetValueOffset() const
+  /// Where a value lies in the intervals of a function.
+  ///@{
+  float GetValueScale(const IntervalTable& table) const
   {
-    return static_cast<float>(
-      (this->Volume.Offset - this->Function.Table.Offset) / this->Function.Table.Scale);
+    return static_cast<float>(this->Volume.Scale * (1 / table.Scale));
+  }
+  float GetValueOffset(const IntervalTable& table) const
+  {
+    return static_cast<float>((this->Volume.Offset - table.Offset) / table.Scale);
   }
   ///@}
-  void PrepareBlocks(int threads);
-  /// Finds out what in may skip. Blocks must be prepared.
-  void PrepareSpace(ImageKernelInput& in);
-  void PrepareSlabs(const ImageCasterOptions& options);
+  const BlockRanges& GetBlocks(int component, int threads);
+  SpaceFunction MakeSpaceFunction(const ImageKernelInput& in, int component, int threads,
+    const IntervalTable& table, BlockLabels::Set labels);
+  std::vector<SpaceFunction> MakeSpaceFunctions(const ImageKernelInput& in, int threads);
+  void PrepareHiddenCells(int threads);
+  /// Finds out what in may skip. Hidden cells must be prepared.
+  void PrepareSpace(int threads, ImageKernelInput& in);
+  void PrepareSlabs(const ImageCasterOptions& options, int threads);
   void FillTable(ImageKernelInput& in) const;
   void FillGradients(const RayGrid& grid, ImageKernelInput& in) const;
   void PrepareGradients(const ImageCasterOptions& options, int threads, ImageKernelInput& in);
+  void FillParts(ImageKernelInput& in);
+  void FillLabels(ImageKernelInput& in);
   void FillRays(const RayGrid& grid, const RayLimits& limits, ImageKernelInput& in) const;
   ImageKernelInput MakeInput(
     const RayGrid& grid, const RayLimits& limits, const ImageCasterOptions& options);
@@ -254,16 +274,25 @@ public:
   bool HasVolume = false;
   ImageOptics Optics;
   bool HasOptics = false;
-  FunctionLookup Function;
-  FunctionLookup GradientFunction;
+  FunctionSet Functions;
   SurfaceTable Surfaces;
 
   SlabTable Slabs; ///< of Optics, and the scalars of Volume
 
-  BlockRanges Blocks;
-  bool BlocksValid = false; ///< of Volume
+  // What a kernel reads besides its input.
+  std::vector<ComponentLookup> PartLookups; ///< of all components
+  LabelsLookup LabelLookup;
+
+  // Of Volume, if valid.
+  std::vector<unsigned char> HiddenCells;
+  bool HiddenCellsValid = false;
+  BlockRanges Blocks[ImageVolume::MostComponents];
+  bool BlocksValid[ImageVolume::MostComponents] = {};
+  BlockLabels Labels;
+  bool LabelsValid = false;
+
   EmptySpace Space;
-  bool SpaceValid = false; ///< of Blocks and Optics
+  bool SpaceValid = false; ///< of Volume and Optics
 
   GradientVoxels Gradients;
   bool GradientsValid = false; ///< of Volume
@@ -278,48 +307,131 @@ void ImageCaster::Internals::CheckReady() const
     throw std::invalid_argument(
       this->HasVolume ? "the image caster has no optics" : "the image caster has no volume");
   }
+  CheckMatch(this->Volume, this->Optics);
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareBlocks(int threads)
+void ImageCaster::Internals::PrepareHiddenCells(int threads)
 {
-  if (!this->BlocksValid)
+  if (!this->HiddenCellsValid)
   {
-    this->Blocks.Build(this->Volume, threads);
-    this->BlocksValid = true;
-    this->SpaceValid = false;
-    this->Slabs.Invalidate();
+    this->HiddenCells = FindHiddenCells(this->Volume, threads);
+    this->HiddenCellsValid = true;
   }
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareSpace(ImageKernelInput& in)
+const BlockRanges& ImageCaster::Internals::GetBlocks(int component, int threads)
 {
+  if (!this->BlocksValid[component])
+  {
+    this->Blocks[component].Build(this->Volume, component, threads);
+    this->BlocksValid[component] = true;
+  }
+  return this->Blocks[component];
+}
+
+//------------------------------------------------------------------------------------------------
+SpaceFunction ImageCaster::Internals::MakeSpaceFunction(const ImageKernelInput& in, int component,
+  int threads, const IntervalTable& table, BlockLabels::Set labels)
+{
+  return { &this->GetBlocks(component, threads),
+    ContributingValues(in, table, this->GetValueScale(table), this->GetValueOffset(table)),
+    labels };
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<SpaceFunction> ImageCaster::Internals::MakeSpaceFunctions(
+  const ImageKernelInput& in, int threads)
+{
+  constexpr BlockLabels::Set AnyLabel = ~static_cast<BlockLabels::Set>(0);
+  std::vector<SpaceFunction> functions;
+  if (this->ShowsParts())
+  {
+    for (int component = 0; component < this->Volume.Components; ++component)
+    {
+      const double weight =
+        component == 0 ? this->Optics.Weight : this->Optics.OtherComponents[component - 1].Weight;
+      functions.push_back(this->MakeSpaceFunction(in, component, threads,
+        this->Functions.Parts[component].Function.Table, weight > 0 ? AnyLabel : 0));
+    }
+  }
+  else if (this->ShowsLabels())
+  {
+    const std::vector<IntervalTable>& tables = this->Functions.LabelFunctions.Tables;
+    const int labels = static_cast<int>(tables.size());
+    BlockLabels::Set plain = BlockLabels::GetSet(0);
+    for (int label = labels; label < 256; ++label)
+    {
+      plain |= BlockLabels::GetSet(label);
+    }
+    // Without labels of its own share, a function is seen everywhere.
+    functions.push_back(this->MakeSpaceFunction(
+      in, 0, threads, tables.front(), this->Optics.LabelShare < 1 ? AnyLabel : plain));
+    for (int label = 1; label < std::min(labels, 256); ++label)
+    {
+      functions.push_back(
+        this->MakeSpaceFunction(in, 0, threads, tables[label], BlockLabels::GetSet(label)));
+    }
+  }
+  else
+  {
+    // Of dependent components the last one has the opacity.
+    functions.push_back(this->MakeSpaceFunction(in, this->Volume.Components - 1, threads,
+      this->Functions.GetFirst().Function.Table, AnyLabel));
+  }
+  return functions;
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::PrepareSpace(int threads, ImageKernelInput& in)
+{
+  if (!this->LabelsValid)
+  {
+    this->Labels.Build(this->Volume, this->HiddenCells, threads);
+    this->LabelsValid = true;
+  }
   if (!this->SpaceValid)
   {
-    const ContributingValues values(in);
-    this->Space.Build(
-      this->Blocks, [&](const BlockRanges::Range& range) { return values.Include(range); });
+    const std::vector<SpaceFunction> functions = this->MakeSpaceFunctions(in, threads);
+    const std::vector<BlockLabels::Set>& sets = this->Labels.GetSets();
+    // A surface may be between two samples that have something hidden between them.
+    const bool hides = !sets.empty() && in.Blend != ImageBlend::Isosurfaces;
+    this->Space.Build(functions.front().Blocks->GetSize(),
+      [&](std::int64_t block)
+      {
+        const BlockLabels::Set set = hides ? sets[block] : BlockLabels::GetSet(0);
+        return std::any_of(functions.begin(), functions.end(),
+          [&](const SpaceFunction& function) { return function.Contributes(block, set); });
+      });
     this->SpaceValid = true;
   }
   in.Space = &this->Space;
-  in.Ranges = &this->Blocks;
+  if (this->Volume.Components == 1)
+  {
+    in.Ranges = &this->GetBlocks(0, threads);
+  }
   in.SpaceReach = in.Blend == ImageBlend::Isosurfaces ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------------------------
-void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options)
+void ImageCaster::Internals::PrepareSlabs(const ImageCasterOptions& options, int threads)
 {
   if (options.Shaded || !this->Optics.GradientOpacity.Nodes.empty() || HasTable(this->Optics))
   {
     throw std::invalid_argument(
       "pre-integrated slabs have no gradients: shading and gradient opacity need them off");
   }
+  if (this->Volume.Components > 1 || this->ShowsLabels())
+  {
+    throw std::invalid_argument(
+      "pre-integrated slabs are of one function: they need one component, without labels");
+  }
   if (HasCue(options))
   {
     throw std::invalid_argument("pre-integrated slabs have no depth cueing");
   }
-  const BlockRanges::Range range = this->Blocks.GetRange();
+  const BlockRanges::Range range = this->GetBlocks(0, threads).GetRange();
   const double a = this->Volume.Offset + this->Volume.Scale * range.Low;
   const double b = this->Volume.Offset + this->Volume.Scale * range.High;
   const double scalars[2] = { std::min(a, b), std::max(a, b) };
@@ -361,7 +473,7 @@ void ImageCaster::Internals::FillTable(ImageKernelInput& in) const
   lookup.Columns = table.Columns;
   lookup.LastColumn = static_cast<float>(table.Columns - 1);
   lookup.LastRow = static_cast<float>(table.Rows - 1);
-  const IntervalTable& intervals = this->Function.Table;
+  const IntervalTable& intervals = this->Functions.GetFirst().Function.Table;
   const double perScalar = (table.Columns - 1) / (table.LastScalar - table.FirstScalar);
   lookup.ColumnScale = static_cast<float>(perScalar * intervals.Scale);
   lookup.ColumnOffset = static_cast<float>(perScalar * (intervals.Offset - table.FirstScalar));
@@ -379,9 +491,10 @@ void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput
   }
   else if (!this->Optics.GradientOpacity.Nodes.empty())
   {
-    in.GradientTransfer = this->GradientFunction.Lookup;
-    in.GradientScale = static_cast<float>(this->GradientFunction.GetScale());
-    in.GradientOffset = static_cast<float>(this->GradientFunction.GetOffset());
+    const FunctionLookup& function = this->Functions.GetFirst().GradientFunction;
+    in.GradientTransfer = function.Lookup;
+    in.GradientScale = static_cast<float>(function.GetScale());
+    in.GradientOffset = static_cast<float>(function.GetOffset());
   }
   in.Norm = this->Optics.Norm;
   const double factor = this->Volume.Scale * this->Optics.GradientLength;
@@ -393,6 +506,56 @@ void ImageCaster::Internals::FillGradients(const RayGrid& grid, ImageKernelInput
       in.WorldGradient[row][column] = static_cast<float>(factor * grid.MeshFromWorld[column][row]);
     }
   }
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillParts(ImageKernelInput& in)
+{
+  this->PartLookups.clear();
+  const ImageOptics& optics = this->Optics;
+  for (std::size_t k = 0; k < this->Functions.Parts.size(); ++k)
+  {
+    const FunctionLookup& function = this->Functions.Parts[k].Function;
+    const FunctionLookup& gradientFunction = this->Functions.Parts[k].GradientFunction;
+    ComponentLookup part{};
+    part.Transfer = function.Lookup;
+    part.ValueScale = this->GetValueScale(function.Table);
+    part.ValueOffset = this->GetValueOffset(function.Table);
+    part.LengthScale = k == 0
+      ? 1.f
+      : static_cast<float>(optics.UnitDistance / optics.OtherComponents[k - 1].UnitDistance);
+    part.Weight = static_cast<float>(k == 0 ? optics.Weight : optics.OtherComponents[k - 1].Weight);
+    part.GradientTransfer = gradientFunction.Lookup;
+    part.GradientScale = static_cast<float>(gradientFunction.GetScale());
+    part.GradientOffset = static_cast<float>(gradientFunction.GetOffset());
+    this->PartLookups.push_back(part);
+  }
+  in.Parts = this->PartLookups.data();
+}
+
+//------------------------------------------------------------------------------------------------
+void ImageCaster::Internals::FillLabels(ImageKernelInput& in)
+{
+  LabelsLookup& lookup = this->LabelLookup;
+  lookup = LabelsLookup();
+  lookup.Labels = this->Volume.Labels;
+  const FunctionsLookup& functions = this->Functions.LabelFunctions;
+  for (std::size_t label = 0; label < std::size(lookup.Rows); ++label)
+  {
+    lookup.Rows[label] = label < functions.Tables.size() ? static_cast<std::int32_t>(label) : 0;
+  }
+  lookup.Transfer = functions.Lookup;
+  lookup.ValueScale = this->GetValueScale(functions.Tables.front());
+  lookup.ValueOffset = this->GetValueOffset(functions.Tables.front());
+  const FunctionsLookup& gradientFunctions = this->Functions.LabelGradientFunctions;
+  lookup.GradientTransfer = gradientFunctions.Lookup;
+  if (!gradientFunctions.Tables.empty())
+  {
+    lookup.GradientScale = static_cast<float>(gradientFunctions.GetScale());
+    lookup.GradientOffset = static_cast<float>(gradientFunctions.GetOffset());
+  }
+  lookup.Share = static_cast<float>(this->Optics.LabelShare);
+  in.Labels = &lookup;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -431,10 +594,13 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   {
     in.LastCell[a] = this->Volume.Dimensions[a] - 2;
   }
-  in.ValueScale = this->GetValueScale();
-  in.ValueOffset = this->GetValueOffset();
+  in.ValueScale = this->GetValueScale(this->Functions.GetFirst().Function.Table);
+  in.ValueOffset = this->GetValueOffset(this->Functions.GetFirst().Function.Table);
+  in.Mask = this->Volume.Mask;
+  in.HiddenCells = this->HiddenCells.empty() ? nullptr : this->HiddenCells.data();
+  in.Masked = in.Mask || in.HiddenCells;
+  in.Transfer = this->Functions.GetFirst().Function.Lookup;
   FillBlending(this->Volume, this->Optics, this->Surfaces, in);
-  in.Transfer = this->Function.Lookup;
   if (options.PreIntegrated && in.Blend == ImageBlend::Composite)
   {
     in.Slab.Texels = this->Slabs.GetTexels();
@@ -452,6 +618,23 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   this->FillRays(grid, limits, in);
   this->FillGradients(grid, in);
   FillCue(options, in);
+  in.Components = this->Volume.Components;
+  in.Dependent = this->Optics.Components == ImageComponents::Dependent;
+  for (int c = 0; c < 3; ++c)
+  {
+    // From values instead of scalars.
+    in.ColorScale[c] = static_cast<float>(this->Optics.ColorScale[c] * this->Volume.Scale);
+    in.ColorOffset[c] = static_cast<float>(
+      this->Optics.ColorOffset[c] + this->Optics.ColorScale[c] * this->Volume.Offset);
+  }
+  if (this->ShowsParts())
+  {
+    this->FillParts(in);
+  }
+  if (this->ShowsLabels())
+  {
+    this->FillLabels(in);
+  }
   in.EndTriangles = options.EndTriangles;
   in.SkipPixels = options.SkipPixels;
   // Others change by what is transparent, too.
@@ -477,41 +660,26 @@ void ImageCaster::SetVolume(const ImageVolume& volume)
   CheckVolume(volume);
   this->Private->Volume = volume;
   this->Private->HasVolume = true;
-  this->Private->BlocksValid = false;
+  std::fill(
+    this->Private->BlocksValid, this->Private->BlocksValid + ImageVolume::MostComponents, false);
+  this->Private->LabelsValid = false;
+  this->Private->HiddenCellsValid = false;
   this->Private->GradientsValid = false;
+  this->Private->SpaceValid = false;
+  this->Private->Slabs.Invalidate();
 }
 
 //------------------------------------------------------------------------------------------------
 void ImageCaster::SetOptics(const ImageOptics& optics)
 {
-  if (!(optics.UnitDistance > 0) || !std::isfinite(optics.UnitDistance))
-  {
-    throw std::invalid_argument("the unit distance of opacity is not above 0");
-  }
+  CheckComponents(optics);
   if (!(optics.GradientLength > 0) || !std::isfinite(optics.GradientLength))
   {
     throw std::invalid_argument("the length that gradients are measured over is not above 0");
   }
   CheckBlending(optics);
   // A function that is not valid changes nothing.
-  FunctionLookup function;
-  FunctionLookup gradientFunction;
-  if (HasTable(optics))
-  {
-    CheckTable(optics.Table);
-    function.Set(FindVisibleScalars(optics.Table));
-  }
-  else
-  {
-    function.Set(optics.Function);
-  }
-  if (!optics.GradientOpacity.Nodes.empty())
-  {
-    gradientFunction.Set(optics.GradientOpacity);
-  }
-  // What lookups point to moves with them.
-  this->Private->Function = std::move(function);
-  this->Private->GradientFunction = std::move(gradientFunction);
+  this->Private->Functions = MakeFunctionSet(optics);
   this->Private->Optics = optics;
   this->Private->HasOptics = true;
   this->Private->SpaceValid = false;
@@ -529,30 +697,38 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   }
   Internals& self = *this->Private;
   self.CheckReady();
-  const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
-  const bool slabs = options.PreIntegrated && self.Optics.Blend == ImageBlend::Composite;
-  if (options.SkipEmptySpace || slabs)
+  if (self.Volume.Components > 1 || self.ShowsLabels())
   {
-    self.PrepareBlocks(threads);
+    CheckComponentOptions(options);
   }
-  if (slabs)
+  const int threads = options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads();
+  self.PrepareHiddenCells(threads);
+  if (options.PreIntegrated && self.Optics.Blend == ImageBlend::Composite)
   {
-    self.PrepareSlabs(options);
+    self.PrepareSlabs(options, threads);
   }
   ImageKernelInput in = self.MakeInput(grid, limits, options);
   if (options.SkipEmptySpace)
   {
-    self.PrepareSpace(in);
+    self.PrepareSpace(threads, in);
   }
   in.Colors = colors.data();
   in.Depths = depths.data();
-  KernelLighting lighting{};
-  std::vector<KernelLight> lights;
+  KernelLights lights[ImageVolume::MostComponents];
   if (options.Shaded)
   {
-    FillKernelLighting(
-      options.Lights, options.Surface, grid, FindRadius(self.Volume, grid), lighting, lights);
-    in.Lighting = &lighting;
+    in.Lighting = lights[0].Fill(options.Lights, options.Surface, grid, self.Volume);
+  }
+  if (in.Parts)
+  {
+    self.PartLookups[0].Lighting = in.Lighting;
+    for (std::size_t k = 0; k < self.Optics.OtherComponents.size(); ++k)
+    {
+      const ComponentOptics& other = self.Optics.OtherComponents[k];
+      self.PartLookups[k + 1].Lighting = other.Shaded
+        ? lights[k + 1].Fill(options.Lights, other.Surface, grid, self.Volume)
+        : nullptr;
+    }
   }
   self.PrepareGradients(options, threads, in);
 

@@ -45,16 +45,17 @@ public:
   ImageCaster& operator=(const ImageCaster&) = delete;
 
   /// The volume that is cast. Its values are read in each Cast, so they must stay until then. To be
-  /// called whenever a value changed. Throws std::invalid_argument, with one line, if there are
-  /// fewer than 2 points along an axis, or more than 2^31 - 1 in all.
+  /// called whenever a value, label or flag changed. Throws std::invalid_argument, with one line,
+  /// if there are fewer than 2 points along an axis, or more than 2^31 - 1 values in all.
   void SetVolume(const ImageVolume& volume);
 
-  /// Throws std::invalid_argument, with one line, if the function is not valid (MakeIntervalTable)
-  /// or the unit distance is not above 0.
+  /// Throws std::invalid_argument, with one line, if a function is not valid (MakeIntervalTable), a
+  /// unit distance not above 0, a weight negative or LabelShare not within 0..1.
   void SetOptics(const ImageOptics& optics);
 
-  /// Makes a picture. grid.MeshFromWorld and limits' cropping planes are in coordinates of the
-  /// volume, that is in indices of its points.
+  /// Makes a picture. Throws std::invalid_argument, with one line, if the optics are not those of
+  /// the volume's components. grid.MeshFromWorld and limits' cropping planes are in coordinates of
+  /// the volume, that is in indices of its points.
   ///
   /// colors: four floats a pixel, premultiplied red, green, blue and opacity. depths: one float a
   /// pixel, the distance along the ray to the first slab that contributes, world units, or -1. Both

@@ -24,6 +24,7 @@ class ImageIsosurfaceModel : public CompositingBuffer
 {
 public:
   static constexpr bool AtEnds = false;
+  static constexpr bool JoinsSamples = true;
 
   ImageIsosurfaceModel(const ImageKernelInput& in, const ImageRays& rays)
     : CompositingBuffer(in, rays)
@@ -65,6 +66,9 @@ public:
     this->Middle = Select(exists, sample.Middle, this->Middle);
     this->Next = Select(sample.Active, Keep(exists, Float8(slab + 1.f)), this->Next);
   }
+
+  /// No sample follows the last one of these rays.
+  TETRALUX_INLINE void Restart(Mask8 rays) { this->Next = Select(rays, Float8(0.f), this->Next); }
 
 private:
   // Rows of Kept.

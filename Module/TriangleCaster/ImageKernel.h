@@ -3,7 +3,8 @@
 #define tetralux_ImageKernel_h
 
 // What the kernels of the triangle caster read and write: plain pointers, filled by ImageCaster.
-// The kernels themselves (ImageKernel.inl) are compiled once for each instruction set.
+// The kernels themselves (ImageKernel.inl, ImageComponentKernel.inl) are compiled once for each
+// instruction set.
 
 #include "Base/Tile.h"
 #include "Lighting/KernelLighting.h"
@@ -75,6 +76,38 @@ struct SlabLookup
   float PerLength = 1; ///< 1 over the length of the table's slabs, in unit distances
 };
 
+/// One of several components, as a kernel reads it.
+struct ComponentLookup
+{
+  TransferLookup Transfer;
+  /// Where a value lies in the intervals of Transfer: x = ValueOffset + ValueScale v.
+  ///@{
+  float ValueScale;
+  float ValueOffset;
+  ///@}
+  float LengthScale; ///< the first component's unit distance over this one's
+  float Weight;
+  TransferLookup GradientTransfer; ///< of no intervals: opacity does not depend on gradients
+  float GradientScale;             ///< as those of ImageKernelInput
+  float GradientOffset;
+  const KernelLighting* Lighting; ///< nullptr: no lights
+};
+
+/// The functions of all labels, one behind the other in what both lookups point to. They lie over
+/// the same range of scalars.
+struct LabelsLookup
+{
+  const unsigned char* Labels; ///< of points
+  std::int32_t Rows[256];      ///< which function each label has
+  TransferLookup Transfer;
+  float ValueScale; ///< as those of ComponentLookup
+  float ValueOffset;
+  TransferLookup GradientTransfer;
+  float GradientScale;
+  float GradientOffset;
+  float Share; ///< ImageOptics::LabelShare
+};
+
 /// Surfaces of constant scalar, as a kernel reads them.
 struct SurfaceLookup
 {
@@ -107,14 +140,18 @@ struct ImageKernelInput
   // The volume.
   ImageScalar Type;
   const void* Values;
-  std::int32_t Row;   ///< values from one row to the next
-  std::int32_t Slice; ///< values from one slice of the grid to the next
+  std::int32_t Row;   ///< points from one row to the next
+  std::int32_t Slice; ///< points from one slice of the grid to the next
   std::int32_t LastCell[3];
   /// Where a value lies in the transfer function's intervals: x = ValueOffset + ValueScale v.
   ///@{
   float ValueScale;
   float ValueOffset;
   ///@}
+
+  bool Masked; ///< some points or cells are hidden, by one of these
+  const unsigned char* Mask;
+  const unsigned char* HiddenCells; ///< not 0: hidden; of the first point of each cell
 
   // Optics.
   ImageBlend Blend;
@@ -155,6 +192,14 @@ struct ImageKernelInput
   float CueStep[3];
   ///@}
 
+  // Several components, and labels.
+  int Components;
+  bool Dependent;
+  const ComponentLookup* Parts; ///< of independent components
+  float ColorScale[3];          ///< from values to colours, of four dependent components
+  float ColorOffset[3];
+  const LabelsLookup* Labels; ///< nullptr: there are none
+
   // Rays: their starts and directions in coordinates of the volume, and directions in the world.
   PixelLinear Start[3];
   PixelLinear Direction[3];
@@ -170,7 +215,7 @@ struct ImageKernelInput
   bool SkipPixels;
   const EmptySpace* Space;   ///< nullptr: nothing is skipped
   const HullDepths* Hulls;   ///< the same
-  const BlockRanges* Ranges; ///< nullptr with Space
+  const BlockRanges* Ranges; ///< of the one component; nullptr with Space
   int SpaceReach;            ///< slabs in front of a sample and behind it that it depends on
   int TileSize;
   bool Triangles;
@@ -189,11 +234,19 @@ struct ImageKernelCounts
 /// Casts the pixels of a tile, whose edges are multiples of TileSize or those of the picture.
 using ImageKernel = void (*)(const ImageKernelInput&, const Tile&, ImageKernelCounts&);
 
-/// The kernel that does what an input asks for.
+/// The kernel that does what an input of one component, without labels, asks for.
 ///@{
 ImageKernel GetImageKernelGeneric(const ImageKernelInput& in);
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
 ImageKernel GetImageKernelAvx2(const ImageKernelInput& in);
+#endif
+///@}
+
+/// The same for several components, or labels.
+///@{
+ImageKernel GetImageComponentKernelGeneric(const ImageKernelInput& in);
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+ImageKernel GetImageComponentKernelAvx2(const ImageKernelInput& in);
 #endif
 ///@}
 

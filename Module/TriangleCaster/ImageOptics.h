@@ -28,6 +28,43 @@ enum class GradientNorm
   Sum        ///< L1, the sum of its components: less to compute (Knittel 1999, section 7)
 };
 
+/// What the components of a point are to each other.
+enum class ImageComponents
+{
+  /// Each has functions of its own, and what they show is added up by their weights. With alpha the
+  /// opacity of a component's step and w its weight, a sample emits the sum of w alpha color, and
+  /// absorbs the sum of alpha^2 over that of w alpha, at most 1; components of no weight are not
+  /// there. As in vtkGPUVolumeRayCastMapper.
+  Independent,
+
+  /// Of two components, the first one has the colour and the last one the opacity of the one
+  /// function. Of four, the first three are red, green and blue, and the last one has the opacity.
+  /// Gradients are those of the last one. Of three there is no such meaning.
+  Dependent
+};
+
+/// How one of several independent components is shown.
+struct ComponentOptics
+{
+  /// As those of ImageOptics.
+  ///@{
+  TransferFunction Function;
+  double UnitDistance = 1;
+  TransferFunction GradientOpacity;
+  double Weight = 1;
+  ///@}
+  bool Shaded = false; ///< by the lights of ImageCasterOptions
+  Material Surface;
+};
+
+/// How samples of a label are shown. Unlike in VTK 9.1, the opacity of a step follows from its
+/// length as that of other samples does.
+struct LabelOptics
+{
+  TransferFunction Function;        ///< as that of ImageOptics
+  TransferFunction GradientOpacity; ///< as that of ImageOptics; without nodes there is none
+};
+
 /// How the samples of a ray become a pixel: the blend modes of vtkVolumeMapper, as
 /// vtkGPUVolumeRayCastMapper shows them. Scalar opacity is that of the transfer function.
 enum class ImageBlend
@@ -53,8 +90,8 @@ enum class ImageBlend
 
   /// Surfaces of constant scalar, composited front to back. They are where the scalar of one sample
   /// is below a value and that of the next one of the same part of the ray is not, or the other way
-  /// round; in between the scalar is taken for linear. The depth is that of the first surface that
-  /// is not transparent.
+  /// round; in between the scalar is taken for linear. Next to a hidden sample there is none.
+  /// The depth is that of the first surface that is not transparent.
   Isosurfaces,
 
   /// Colour and scalar opacity at the point that a ray has on a plane.
@@ -96,6 +133,28 @@ struct ImageOptics
 
   /// ImageBlend::Slice: world points with a x + b y + c z + d = 0.
   std::array<double, 4> SlicePlane{ 0, 0, 1, 0 };
+
+  // Several components: ImageBlend::Composite only, and without Table.
+  ImageComponents Components = ImageComponents::Independent;
+  double Weight = 1; ///< of the first component, at least 0; in VTK at most 1
+  /// The components behind the first one, if they are independent. The first one has what stands
+  /// above, and is shaded by ImageCasterOptions.
+  std::vector<ComponentOptics> OtherComponents;
+  /// Of four dependent ones: a channel is ColorOffset + ColorScale s, with s the scalar of its
+  /// component. By default that is bytes over 255. vtkGPUVolumeRayCastMapper has 1 / 65535 for 16
+  /// bits without a sign, 1 / 32767 with one, and 1 for floats.
+  ///@{
+  double ColorScale[3] = { 1. / 255, 1. / 255, 1. / 255 };
+  double ColorOffset[3] = { 0, 0, 0 };
+  ///@}
+
+  /// Of a volume of one component with labels: how labels 1, 2 and so on are shown. Label 0, and
+  /// labels that are not here, have what stands above. ImageBlend::Composite only, and without
+  /// Table.
+  std::vector<LabelOptics> Labels;
+  /// How much of a labelled sample's colour and opacity is that of its label, 0..1; the rest is
+  /// what it would have without. Both are mixed before the colour is multiplied by opacity.
+  double LabelShare = 1;
 };
 
 } // namespace tetralux

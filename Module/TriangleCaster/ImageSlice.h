@@ -6,6 +6,7 @@
 
 #include "TriangleCaster/ImageRays.h"
 #include "TriangleCaster/ImageSample.h"
+#include "TriangleCaster/MaskLanes.h"
 #include "TriangleCaster/ValuePixels.h"
 
 #include <algorithm>
@@ -74,7 +75,11 @@ inline ImageSample FindSliceSample(const ImageKernelInput& in, const ImageRays& 
 template <class Value>
 PixelLanes GetSlicePixels(const ImageKernelInput& in, const ImageRays& rays, std::int64_t& samples)
 {
-  const ImageSample sample = FindSliceSample(in, rays);
+  ImageSample sample = FindSliceSample(in, rays);
+  if (in.Masked)
+  {
+    sample.Active = sample.Active & FindShown(in, sample);
+  }
   samples += __builtin_popcount(Bits(sample.Active));
   const Float8 x = sample.GetScalar<Value>(in);
   return GetValuePixels(in, sample.Active & (Abs(x) <= Float8(LargestScalar)), x, sample.Middle);

@@ -27,6 +27,7 @@ class ExtremeModel
 public:
   static constexpr bool AtEnds = false;
   static constexpr bool InAnyOrder = true;
+  static constexpr bool JoinsSamples = false;
   static constexpr bool CountsEmptyRays = false;
 
   ExtremeModel(const ImageKernelInput&, const ImageRays& rays)

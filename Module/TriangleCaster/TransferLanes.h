@@ -7,6 +7,9 @@
 #include "Simd/Lanes.h"
 #include "TriangleCaster/ImageKernel.h"
 
+#include <cstdint>
+#include <limits>
+
 namespace tetralux
 {
 namespace TETRALUX_ISA
@@ -68,18 +71,22 @@ private:
 class ManyIntervals
 {
 public:
-  ManyIntervals(const TransferLookup& transfer, Float8 x)
+  /// function: which one, if the lookup has several of them.
+  ManyIntervals(const TransferLookup& transfer, Float8 x, Int8 function = 0)
   {
     const Float8 most = transfer.NumberOfBuckets - 1.f;
     const Float8 half = 0.5f * transfer.NumberOfBuckets;
     const Float8 bucket = Min(Max(Fma(x, half, half - Float8(0.5f)), Float8(0.f)), most);
-    Int8 index = GatherWords(transfer.Buckets, ShiftLeft(RoundToInt(bucket), 2));
+    const Int8 ofFunction = function * Int8(static_cast<std::int32_t>(transfer.NumberOfBuckets));
+    Int8 index = GatherWords(transfer.Buckets, ShiftLeft(RoundToInt(bucket) + ofFunction, 2));
     const auto* rows = reinterpret_cast<const float*>(transfer.Intervals);
+    // No scalar is above the last interval, an infinite one neither.
+    const Float8 finite = Min(Float8(std::numeric_limits<float>::max()), x);
     Float8 lower, upper;
     for (int step = 0;; ++step)
     {
       GatherRows(rows, index + index + index, lower, upper, this->Reference, this->Opacity);
-      const Mask8 above = upper <= x;
+      const Mask8 above = upper <= finite;
       if (step == transfer.MostSteps || !Any(above))
       {
         break;

@@ -75,6 +75,7 @@ struct Scene
 {
   std::array<int, 3> Dimensions{};
   std::vector<float> Values; ///< as ImageVolume has them
+  std::vector<unsigned char> PointFlags, Mask;
   ImageScalar Type = ImageScalar::Float;
   double Scale = 1;
   double Offset = 0;
@@ -128,6 +129,8 @@ Picture Cast(const Scene& scene)
   volume.Values = bytes.data();
   volume.Scale = scene.Scale;
   volume.Offset = scene.Offset;
+  volume.PointFlags = scene.PointFlags.empty() ? nullptr : scene.PointFlags.data();
+  volume.Mask = scene.Mask.empty() ? nullptr : scene.Mask.data();
   RayLimits limits = scene.Limits;
   limits.MaximumDistances =
     scene.MaximumDistances.empty() ? nullptr : scene.MaximumDistances.data();
@@ -1181,6 +1184,81 @@ TEST(ImageBlends, SurfacesBesideEmptySpace)
     std::copy(planes, planes + 6, scene.Limits.CroppingPlanes);
     ExpectPlain(scene, Cast(scene));
     ExpectSameBits(scene);
+  }
+}
+
+constexpr unsigned char HiddenPoint = 2;
+
+// A cell is as empty with a hidden point as with one that is not a number.
+TEST(ImageBlends, HiddenCellsAreAsEmptyOnes)
+{
+  ForEachScene(5,
+    [](Scene& scene, std::mt19937& random)
+    {
+      scene.PointFlags.assign(scene.Values.size(), 0);
+      for (std::size_t n = 0; n < scene.Values.size() / 50; ++n)
+      {
+        scene.PointFlags[random() % scene.Values.size()] = HiddenPoint;
+      }
+      ForEachLimit(scene, random,
+        [&]
+        {
+          Scene empty = scene;
+          empty.PointFlags.clear();
+          for (std::size_t k = 0; k < scene.Values.size(); ++k)
+          {
+            empty.Values[k] = scene.PointFlags[k] != 0 ? NotANumber : scene.Values[k];
+          }
+          Scene whole = scene;
+          whole.PointFlags.clear();
+          const Picture picture = Cast(scene);
+          EXPECT_TRUE(picture == Cast(empty));
+          EXPECT_FALSE(picture == Cast(whole));
+          scene.Options.SkipEmptySpace = false;
+          EXPECT_TRUE(picture == Cast(scene));
+          scene.Options.SkipEmptySpace = true;
+        });
+    });
+}
+
+TEST(ImageBlends, MasksHide)
+{
+  ForEachScene(5,
+    [](Scene& scene, std::mt19937& random)
+    {
+      const Picture whole = Cast(scene);
+      scene.Mask.assign(scene.Values.size(), 1);
+      EXPECT_TRUE(Cast(scene) == whole);
+      for (std::size_t n = 0; n < scene.Values.size() / 5; ++n)
+      {
+        scene.Mask[random() % scene.Values.size()] = 0;
+      }
+      EXPECT_FALSE(Cast(scene) == whole);
+      ExpectSameBits(scene);
+      std::fill(scene.Mask.begin(), scene.Mask.end(), 0);
+      const Picture nothing = Cast(scene);
+      EXPECT_EQ(nothing.Statistics.Samples, 0);
+      EXPECT_TRUE(std::all_of(
+        nothing.Depths.begin(), nothing.Depths.end(), [](float depth) { return depth == -1; }));
+    });
+}
+
+// Samples on both sides of what is hidden follow each other where it is thinner than a slab.
+TEST(ImageBlends, SurfacesBesideHiddenLayers)
+{
+  for (int step = 10; step < 150; ++step)
+  {
+    std::vector<double> values(160, 0);
+    std::fill(values.begin() + step, values.end(), 100);
+    Scene scene = MakeLayers(values);
+    scene.Options.SampleDistance = 17.3;
+    scene.PointFlags.assign(scene.Values.size(), 0);
+    const std::size_t layer = scene.Values.size() / values.size();
+    std::fill(scene.PointFlags.begin() + (step - 5) * layer,
+      scene.PointFlags.begin() + (step + 5) * layer, HiddenPoint);
+    const Picture picture = Cast(scene);
+    scene.Options.SkipEmptySpace = false;
+    EXPECT_TRUE(Cast(scene) == picture) << step;
   }
 }
 
