@@ -101,6 +101,8 @@ AccessorMap MakeCasterAccessors()
         2, &Caster::GetAverageIPScalarRange, &Caster::SetAverageIPScalarRange) },
     { "NearColor", MakeArrayAccessors<Caster>(3, &Caster::GetNearColor, &Caster::SetNearColor) },
     { "FarColor", MakeArrayAccessors<Caster>(3, &Caster::GetFarColor, &Caster::SetFarColor) },
+    ACCESSORS(Caster, MaskType),
+    ACCESSORS(Caster, MaskBlendFactor),
     ACCESSORS(Caster, GradientSource),
     ACCESSORS(Caster, LightSum),
     ACCESSORS(Caster, SampleDistance),

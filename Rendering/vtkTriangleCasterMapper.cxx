@@ -137,6 +137,7 @@ public:
 
 private:
   void SetUp(MapperFrame& frame) const;
+  void SetUpLights(MapperFrame& frame) const;
   PixelRectangle MakePicture(MapperFrame& frame, const tetralux::CPUPicture& picture);
   tetralux::ImageCasterOptions MakeOptions(const tetralux::RayGrid& grid, MapperFrame& frame) const;
   double FindBrightness(const tetralux::RayGrid& grid, const MapperFrame& frame) const;
@@ -175,6 +176,10 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVol
   input.Property = volume->GetProperty();
   input.Matrix = volume->GetMatrix();
   input.Scalars = this->SelectScalars();
+  input.Mask = this->Self->MaskInput;
+  input.Type = this->Self->MaskType == BinaryMaskType ? tetralux::MaskType::Binary
+                                                      : tetralux::MaskType::Labels;
+  input.LabelShare = this->Self->MaskBlendFactor;
   input.Blend = tetralux::GetImageBlend(this->Self->BlendMode);
   std::copy_n(this->Self->AverageIPScalarRange, 2, input.AverageRange);
   input.Opacity = this->Self->OpacityModel == POWER_OPACITY ? tetralux::StepOpacity::Power
@@ -183,6 +188,7 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVol
                                                           : tetralux::GradientNorm::Sum;
   input.MaximumError = frame.MaximumError;
   this->Preparation.Update(input);
+  this->SetUpLights(frame);
 
   tetralux::RayDistances distances;
   distances.Automatic = this->Self->AutoAdjustSampleDistances != 0;
@@ -204,19 +210,28 @@ void vtkTriangleCasterMapper::Internals::SetUp(MapperFrame& frame) const
 {
   frame.Method = "triangle-caster";
   frame.MaximumError = this->Self->MaximumError;
-  vtkVolumeProperty* property = frame.Volume->GetProperty();
-  if (property->GetShade(0) != 0 && this->Self->BlendMode == COMPOSITE_BLEND)
-  {
-    frame.Shaded = true;
-    frame.Lights = tetralux::GetRendererLights(frame.Renderer);
-    frame.Surface = tetralux::GetMaterial(property);
-  }
   tetralux::FrameSettings& settings = frame.Settings;
   settings.IntermixIntersectingGeometry = this->Self->IntermixIntersectingGeometry != 0;
   settings.ClippingPlanes = tetralux::GetClippingPlanes(this->Self);
   settings.Cropping = this->Self->Cropping != 0;
   std::copy_n(this->Self->CroppingRegionPlanes, 6, settings.CroppingRegionPlanes);
   settings.CroppingRegionFlags = static_cast<std::uint32_t>(this->Self->CroppingRegionFlags);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::Internals::SetUpLights(MapperFrame& frame) const
+{
+  vtkVolumeProperty* property = frame.Volume->GetProperty();
+  const auto& others = this->Preparation.GetOtherComponents();
+  frame.Shaded = this->Self->BlendMode == COMPOSITE_BLEND &&
+    (property->GetShade(0) != 0 ||
+      std::any_of(others.begin(), others.end(),
+        [](const tetralux::ComponentOptics& other) { return other.Shaded; }));
+  if (frame.Shaded)
+  {
+    frame.Lights = tetralux::GetRendererLights(frame.Renderer);
+    frame.Surface = tetralux::GetMaterial(property);
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -278,7 +293,7 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
                                                          : tetralux::SliceShape::Shells;
   options.CorrectOpacity = this->Self->CorrectOpacity != 0;
   options.PreIntegrated = this->Self->PreIntegration != 0;
-  options.Shaded = frame.Shaded;
+  options.Shaded = frame.Shaded && frame.Volume->GetProperty()->GetShade(0) != 0;
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
   options.Gradients = this->Self->GradientSource == ON_THE_FLY_GRADIENTS
@@ -317,10 +332,18 @@ double vtkTriangleCasterMapper::Internals::FindBrightness(
   }
   const int* size = this->Preparation.GetScalars().GetVolume().Dimensions;
   const double center[3] = { 0.5 * (size[0] - 1), 0.5 * (size[1] - 1), 0.5 * (size[2] - 1) };
-  return colors *
-    tetralux::FindLargestBrightness(frame.Lights, frame.Surface, grid.MeshFromWorld, center,
+  const auto findBrightness = [&](const tetralux::Material& surface)
+  {
+    return tetralux::FindLargestBrightness(frame.Lights, surface, grid.MeshFromWorld, center,
       std::hypot(center[0], center[1], center[2]),
       tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Smallest);
+  };
+  double brightness = findBrightness(frame.Surface);
+  for (const tetralux::ComponentOptics& other : this->Preparation.GetOtherComponents())
+  {
+    brightness = std::max(brightness, findBrightness(other.Surface));
+  }
+  return colors * brightness;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -505,6 +528,21 @@ tetraluxSetNumberMacro(vtkTriangleCasterMapper, MinimumImageSampleDistance, floa
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, MaximumImageSampleDistance, float);
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, VectorMode);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, VectorComponent, int);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, MaskType);
+tetraluxSetNumberMacro(vtkTriangleCasterMapper, MaskBlendFactor, float);
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetMaskInput(vtkImageData* mask)
+{
+  if (this->MaskInput != mask)
+  {
+    this->MaskInput = mask;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+vtkImageData* vtkTriangleCasterMapper::GetMaskInput() { return this->MaskInput; }
 
 //------------------------------------------------------------------------------------------------
 void vtkTriangleCasterMapper::SetAverageIPScalarRange(double least, double largest)
@@ -604,6 +642,9 @@ void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
   printer.Print("AutoAdjustSampleDistances", this->AutoAdjustSampleDistances);
   printer.Print("VectorMode", this->VectorMode);
   printer.Print("VectorComponent", this->VectorComponent);
+  os << indent << "MaskInput: " << this->MaskInput << "\n";
+  printer.Print("MaskType", this->MaskType);
+  printer.Print("MaskBlendFactor", this->MaskBlendFactor);
   printer.Print("IntermixIntersectingGeometry", this->IntermixIntersectingGeometry);
   printer.Print("Cropping", this->Cropping);
   const double* planes = this->CroppingRegionPlanes;

@@ -8,9 +8,9 @@
  * the next one begins. The picture does not depend on the number of threads.
  *
  * Takes vtkImageData with scalars at points, of any type, origin, spacing, extent and direction
- * matrix, with at least 2 points along each axis. Arrays of one component of 8 or 16 bit integers
- * or of floats are read where they are. A component of several is copied; other types are copied
- * to floats relative to the middle of the array's range. The copy is kept until the array changes.
+ * matrix, with at least 2 points along each axis. Arrays of 8 or 16 bit integers or of floats are
+ * read where they are. One component of several is copied; other types are copied to floats
+ * relative to the middle of the array's range. The copy is kept until the array changes.
  *
  * What is computed: in each slab between two slices a ray has one sample, at the middle of its way
  * through what of the slab is in the volume and not clipped, cropped or hidden. There the scalar is
@@ -33,9 +33,15 @@
  * values, any other value of an enumeration and NaN. Each cause of an error is reported once; the
  * volume is then not drawn.
  *
- * @warning There are errors for: rectilinear grids, scalars at cells, ghost, hidden and blanked
- * points and cells, TF_2D with another BlendMode than COMPOSITE_BLEND, more than 2^31 - 1 points.
- * Warnings say that functions of labels, and components but the first one, are not used.
+ * Of up to 4 components, independent ones have functions, weights and shading of their own, and what
+ * they show is added up. Of 2 dependent ones, the first one has the colour and the second one the
+ * opacity; of 4, the first three are red, green and blue. Blanked points and hidden cells are
+ * empty, and so is what a binary mask hides.
+ *
+ * @warning There are errors for: rectilinear grids, scalars at cells, more than 2^31 - 1 values, 3
+ * dependent components; and with several components or labels for any BlendMode but
+ * COMPOSITE_BLEND, TF_2D, PreIntegration, BYTE_GRADIENTS, maps of light and depth cueing. TF_2D is
+ * of COMPOSITE_BLEND only. Warnings say what of the property is not used.
  *
  * @sa vtkFixedPointVolumeRayCastMapper, vtkTetrahedraRayCastMapper
  */
@@ -43,6 +49,7 @@
 #define vtkTriangleCasterMapper_h
 
 #include "TetraluxRenderingModule.h" // For export macro
+#include "vtkSmartPointer.h"         // For vtkSmartPointer
 #include "vtkVolumeMapper.h"
 
 #include <memory> // For std::unique_ptr
@@ -370,10 +377,11 @@ public:
 
   ///@{
   /**
-   * Set how an array of several components becomes the scalar, with the numbers of
+   * Set what of an array of several components is shown, with the numbers of
    * vtkSmartVolumeMapper. Default DISABLED_MODE.
    *
-   * - DISABLED_MODE (-1): the first component; a warning says so.
+   * - DISABLED_MODE (-1): all of up to 4 components, as the property's IndependentComponents says.
+   *   Of more it is the first one, and a warning says so.
    * - MAGNITUDE_MODE (0): the Euclidean norm.
    * - COMPONENT_MODE (1): component VectorComponent.
    */
@@ -393,6 +401,48 @@ public:
    */
   virtual void SetVectorComponent(int component);
   vtkGetMacro(VectorComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Set a mask, as vtkGPUVolumeRayCastMapper has it: image data with a scalar for each point of the
+   * input. Default nullptr: none. A sample has the scalar of the nearest point.
+   *
+   * @warning A frame fails with an error if it has another number of points, or labels that are not
+   * from 0 to 255.
+   */
+  virtual void SetMaskInput(vtkImageData* mask);
+  virtual vtkImageData* GetMaskInput();
+  ///@}
+
+  enum
+  {
+    BinaryMaskType = 0,
+    LabelMapMaskType
+  };
+
+  ///@{
+  /**
+   * Set what the mask says. Default LabelMapMaskType.
+   *
+   * - BinaryMaskType (0): there is nothing where it is 0.
+   * - LabelMapMaskType (1): labels, which have the property's LabelColor, LabelScalarOpacity and
+   *   LabelGradientOpacity. Of an array of one component, and for COMPOSITE_BLEND. Unlike in VTK
+   *   9.1, opacities of labels are those of a length, too.
+   */
+  virtual void SetMaskType(int type);
+  vtkGetMacro(MaskType, int);
+  const char* GetMaskTypeAsString();
+  void SetMaskTypeToBinary() { this->SetMaskType(BinaryMaskType); }
+  void SetMaskTypeToLabelMap() { this->SetMaskType(LabelMapMaskType); }
+  ///@}
+
+  ///@{
+  /**
+   * Set how much of a labelled sample's colour and opacity is that of its label, 0 to 1. Default 1.
+   */
+  virtual void SetMaskBlendFactor(float factor);
+  vtkGetMacro(MaskBlendFactor, float);
   ///@}
 
   ///@{
@@ -500,6 +550,9 @@ protected:
   vtkTypeBool AutoAdjustSampleDistances = 1;
   int VectorMode = DISABLED_MODE;
   int VectorComponent = 0;
+  vtkSmartPointer<vtkImageData> MaskInput;
+  int MaskType = LabelMapMaskType;
+  float MaskBlendFactor = 1;
   vtkTypeBool IntermixIntersectingGeometry = 1;
 
 private:

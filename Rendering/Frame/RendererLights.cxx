@@ -71,13 +71,13 @@ std::vector<Light> GetRendererLights(vtkRenderer* renderer)
   return lights;
 }
 
-Material GetMaterial(vtkVolumeProperty* property)
+Material GetMaterial(vtkVolumeProperty* property, int component)
 {
   Material material;
-  material.Ambient = static_cast<float>(property->GetAmbient(0));
-  material.Diffuse = static_cast<float>(property->GetDiffuse(0));
-  material.Specular = static_cast<float>(property->GetSpecular(0));
-  material.SpecularPower = static_cast<float>(std::max(property->GetSpecularPower(0), 0.));
+  material.Ambient = static_cast<float>(property->GetAmbient(component));
+  material.Diffuse = static_cast<float>(property->GetDiffuse(component));
+  material.Specular = static_cast<float>(property->GetSpecular(component));
+  material.SpecularPower = static_cast<float>(std::max(property->GetSpecularPower(component), 0.));
   return material;
 }
 

@@ -18,8 +18,8 @@ namespace tetralux
 /// first.
 TETRALUXRENDERING_EXPORT std::vector<Light> GetRendererLights(vtkRenderer* renderer);
 
-/// How component 0 of a property answers to lights.
-TETRALUXRENDERING_EXPORT Material GetMaterial(vtkVolumeProperty* property);
+/// How a component of a property answers to lights.
+TETRALUXRENDERING_EXPORT Material GetMaterial(vtkVolumeProperty* property, int component = 0);
 
 } // namespace tetralux
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImagePreparation/ImageObstacles.h"
 
-#include "vtkDataArrayRange.h"
+#include "ImagePreparation/ImageFunctions.h"
+#include "TriangleCaster/ImageVolume.h"
+
 #include "vtkImageData.h"
-#include "vtkPiecewiseFunction.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -15,16 +15,6 @@ namespace
 {
 
 constexpr int DisabledVectorMode = -1; ///< of ScalarSelection
-
-bool HasFlags(vtkUnsignedCharArray* ghosts)
-{
-  if (!ghosts)
-  {
-    return false;
-  }
-  const auto flags = vtk::DataArrayValueRange(ghosts);
-  return std::any_of(flags.begin(), flags.end(), [](unsigned char flag) { return flag != 0; });
-}
 
 } // namespace
 
@@ -56,11 +46,6 @@ std::string FindObstacle(vtkDataObject* data, const ScalarSelection& selection)
   {
     return "the triangle caster renders scalars at points; these are at cells";
   }
-  if (HasFlags(image->GetPointGhostArray()) || HasFlags(image->GetCellGhostArray()))
-  {
-    return "the triangle caster does not know ghost, hidden and blanked points and cells; the "
-           "image data have some";
-  }
   return "";
 }
 
@@ -74,40 +59,21 @@ std::string FindObstacle(vtkVolumeProperty* property, ImageBlend blend)
   return "";
 }
 
-bool HasGradientOpacity(vtkVolumeProperty* property)
-{
-  if (property->GetDisableGradientOpacity(0) != 0 || !property->HasGradientOpacity(0))
-  {
-    return false;
-  }
-  vtkPiecewiseFunction* function = property->GetGradientOpacity(0);
-  double node[4];
-  for (int i = 0; i < function->GetSize(); ++i)
-  {
-    function->GetNodeValue(i, node);
-    if (node[1] != 1)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-std::string DescribeUnused(
-  vtkVolumeProperty* property, ImageBlend blend, int numberOfComponents, int vectorMode)
+std::string DescribeUnused(vtkVolumeProperty* property, ImageBlend blend, int arrayComponents,
+  int vectorMode, bool hasLabels)
 {
   std::string unused;
   const auto add = [&unused](bool isUnused, const char* text)
   { unused += isUnused ? (unused.empty() ? "" : "; ") + std::string(text) : ""; };
   add(blend != ImageBlend::Composite && property->GetShade(0) != 0,
     "Shade is not used: there is light with composite blending only");
-  add(blend != ImageBlend::Composite && HasGradientOpacity(property),
+  add(blend != ImageBlend::Composite && HasGradientOpacity(property, 0),
     "gradient opacity is not used: composite blending has it only");
-  add(property->GetNumberOfLabels() > 0, "functions of labels are not used");
-  add(numberOfComponents > 1 && vectorMode == DisabledVectorMode,
-    property->GetIndependentComponents() != 0
-      ? "independent components are not used but the first one; VectorMode chooses another"
-      : "dependent components are not used but the first one; VectorMode chooses another");
+  add(property->GetNumberOfLabels() > 0 && !hasLabels,
+    "functions of labels are not used: they need a MaskInput, and MaskType label-map");
+  add(arrayComponents > ImageVolume::MostComponents && vectorMode == DisabledVectorMode,
+    "components are not used but the first one, since there are more than 4; VectorMode chooses "
+    "another");
   return unused;
 }
 

@@ -21,14 +21,10 @@ TETRALUXRENDERING_EXPORT std::string FindObstacle(
 /// Why it can't use a property; empty if it can.
 TETRALUXRENDERING_EXPORT std::string FindObstacle(vtkVolumeProperty* property, ImageBlend blend);
 
-/// Whether a property has a function of gradients that changes opacities: VTK's mappers make one
-/// that does not.
-bool HasGradientOpacity(vtkVolumeProperty* property);
-
-/// What of a property it does not use, in one line; empty if nothing. numberOfComponents: of the
-/// array.
-TETRALUXRENDERING_EXPORT std::string DescribeUnused(
-  vtkVolumeProperty* property, ImageBlend blend, int numberOfComponents, int vectorMode);
+/// What of a property it does not use, in one line; empty if nothing. arrayComponents: of the array
+/// itself. hasLabels: whether there is a map of labels.
+TETRALUXRENDERING_EXPORT std::string DescribeUnused(vtkVolumeProperty* property, ImageBlend blend,
+  int arrayComponents, int vectorMode, bool hasLabels);
 
 } // namespace tetralux
 

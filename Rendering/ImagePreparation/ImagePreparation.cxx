@@ -3,6 +3,7 @@
 
 #include "Base/Stopwatch.h"
 #include "ImagePreparation/ImageBlends.h"
+#include "ImagePreparation/ImageFunctions.h"
 #include "ImagePreparation/ImageObstacles.h"
 #include "ImagePreparation/ScalarRange.h"
 #include "ImagePreparation/TransferTableFromProperty.h"
@@ -13,7 +14,6 @@
 
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkVolumeProperty.h"
 
@@ -48,16 +48,6 @@ double FindLongestPath(const ImageVolume& volume, const double steps[3])
   return std::exp2(std::ceil(std::log2(std::sqrt(squares))));
 }
 
-/// Opacities above 1 count as 1.
-void ClampOpacities(TransferFunction& function)
-{
-  for (TransferFunction::Node& node : function.Nodes)
-  {
-    node.Left.Attenuation = std::min(node.Left.Attenuation, 1.);
-    node.Right.Attenuation = std::min(node.Right.Attenuation, 1.);
-  }
-}
-
 /// Whether opacities are those of points, not of lengths.
 bool IsOpacityOfPoints(ImageBlend blend)
 {
@@ -79,20 +69,6 @@ void AddBlend(const ImageOptics& optics, CacheKey& key)
   }
 }
 
-/// The gradient opacity of a property, in the place of attenuation; error: receives what
-/// approximating it adds.
-TransferFunction MakeGradientOpacity(
-  vtkVolumeProperty* property, double maximumError, double longestPath, double& error)
-{
-  vtkNew<vtkVolumeProperty> gradients;
-  gradients->SetScalarOpacity(property->GetGradientOpacity(0));
-  PropertyTransferFunction function =
-    TransferFunctionFromProperty(gradients, maximumError, longestPath);
-  error = function.Error;
-  ClampOpacities(function.Function);
-  return std::move(function.Function);
-}
-
 } // namespace
 
 ImagePreparation::ImagePreparation(vtkObject* source)
@@ -111,9 +87,13 @@ void ImagePreparation::Update(const ImageInput& input)
   }
   Check(FindObstacle(input.Property, input.Blend));
   const Stopwatch stopwatch;
-  if (this->Scalars.Update(image, input.Scalars))
+  const bool hasNewScalars = this->Scalars.Update(image, input.Scalars);
+  const ImageVolume& scalars = this->Scalars.GetVolume();
+  if (this->Mask.Update(input.Mask, input.Type, scalars.Dimensions) || hasNewScalars)
   {
-    this->Caster.SetVolume(this->Scalars.GetVolume());
+    ImageVolume volume = scalars;
+    this->Mask.AddTo(volume);
+    this->Caster.SetVolume(volume);
     this->ScalarsSeconds = stopwatch.GetSeconds();
     this->Rebuilt.emplace_back("scalars");
   }
@@ -121,7 +101,7 @@ void ImagePreparation::Update(const ImageInput& input)
   this->PrepareFunction(input, FindSelectedArray(image, input.Scalars));
   this->UnusedWarning.Update(this->Source,
     DescribeUnused(input.Property, input.Blend, this->Scalars.GetNumberOfComponents(),
-      input.Scalars.VectorMode));
+      input.Scalars.VectorMode, this->Mask.HasLabels()));
 }
 
 void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedArray& selected)
@@ -152,10 +132,28 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
   exactKey.Add(input.Opacity);
   AddBlend(optics, exactKey);
   const bool hasGradients = input.Blend == ImageBlend::Composite && !hasTable &&
-    tetralux::HasGradientOpacity(input.Property);
+    tetralux::HasGradientOpacity(input.Property, 0);
   exactKey.Add(hasGradients);
   exactKey.Add(hasTable);
-  if (hasGradients || hasTable)
+  const int components = this->Scalars.GetVolume().Components;
+  const bool independent = components > 1 && input.Property->GetIndependentComponents() != 0;
+  const bool hasLabels = this->Mask.HasLabels();
+  exactKey.Add(components);
+  exactKey.Add(independent);
+  exactKey.Add(hasLabels);
+  if (independent || hasLabels)
+  {
+    AddComponentsAndLabels(input.Property, components, exactKey);
+  }
+  if (hasLabels)
+  {
+    exactKey.Add(input.LabelShare);
+  }
+  if (components > 1 && !independent)
+  {
+    exactKey.Add(this->Scalars.GetValueType());
+  }
+  if (hasGradients || hasTable || independent || hasLabels)
   {
     exactKey.Add(input.Norm);
     exactKey.Add(gradientLength);
@@ -183,27 +181,35 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
   }
   const Stopwatch stopwatch;
   this->Function.Reset();
-  PropertyTransferFunction function =
-    TransferFunctionFromProperty(input.Property, maximumError, longestPath);
+  FunctionRules rules;
+  rules.OpacitiesAreShares = input.Opacity == StepOpacity::Power || IsOpacityOfPoints(input.Blend);
+  rules.MaximumError = maximumError;
+  rules.LongestPath = longestPath;
+  optics.Opacity = input.Opacity;
   optics.UnitDistance = input.Property->GetScalarOpacityUnitDistance(0);
-  RemoveUnitDistance(function.Function, optics.UnitDistance);
-  if (input.Opacity == StepOpacity::Power || IsOpacityOfPoints(input.Blend))
-  {
-    ClampOpacities(function.Function);
-  }
+  optics.Function = MakeFunction(input.Property, 0, rules);
   if (input.Blend == ImageBlend::Isosurfaces)
   {
-    optics.Surfaces = IsosurfacesFromProperty(input.Property, function.Function);
+    optics.Surfaces = IsosurfacesFromProperty(input.Property, optics.Function);
   }
-  optics.Function = std::move(function.Function);
-  optics.Opacity = input.Opacity;
-  this->FunctionError = function.Error;
   if (hasGradients)
   {
-    double error;
-    optics.GradientOpacity = MakeGradientOpacity(input.Property, maximumError, longestPath, error);
-    this->FunctionError += error;
+    optics.GradientOpacity = MakeGradientOpacity(input.Property, 0, rules);
   }
+  if (independent)
+  {
+    SetIndependentComponents(input.Property, components, rules, optics);
+  }
+  else if (components > 1)
+  {
+    SetDependentComponents(this->Scalars.GetValueType(), optics);
+  }
+  if (hasLabels)
+  {
+    SetLabels(input.Property, rules, optics);
+    optics.LabelShare = input.LabelShare;
+  }
+  this->FunctionError = rules.Error;
   optics.Table =
     TransferTableFromProperty(input.Property, { optics.GreyRange[0], optics.GreyRange[1] });
   this->Caster.SetOptics(optics);
@@ -216,6 +222,14 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
 double ImagePreparation::GetLargestColor() const
 {
   double largest = tetralux::GetLargestColor(this->Optics.Function);
+  for (const ComponentOptics& other : this->Optics.OtherComponents)
+  {
+    largest = std::max(largest, tetralux::GetLargestColor(other.Function));
+  }
+  for (const LabelOptics& label : this->Optics.Labels)
+  {
+    largest = std::max(largest, tetralux::GetLargestColor(label.Function));
+  }
   for (const TransferTable::Entry& entry : this->Optics.Table.Entries)
   {
     for (const float channel : entry.Color)
@@ -238,7 +252,8 @@ Json ImagePreparation::DescribeInput() const
 {
   const ImageVolume& volume = this->Scalars.GetVolume();
   Json input;
-  input["points"] = GetNumberOfValues(volume);
+  input["points"] = GetNumberOfPoints(volume);
+  input["components"] = volume.Components;
   input["dimensions"] = { volume.Dimensions[0], volume.Dimensions[1], volume.Dimensions[2] };
   input["array"] = this->Scalars.GetArrayName();
   input["array_type"] = this->Scalars.GetTypeName();

@@ -3,6 +3,7 @@
 #define tetralux_ImagePreparation_h
 
 #include "Base/Cached.h"
+#include "ImagePreparation/ImageMask.h"
 #include "ImagePreparation/ImagePlacement.h"
 #include "ImagePreparation/ImageScalars.h"
 #include "Intake/ScalarExtraction.h"
@@ -16,6 +17,7 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkImageData;
 class vtkMatrix4x4;
 class vtkObject;
 class vtkVolumeProperty;
@@ -30,6 +32,9 @@ struct ImageInput
   vtkVolumeProperty* Property = nullptr;
   vtkMatrix4x4* Matrix = nullptr; ///< of the volume: world from data
   ScalarSelection Scalars;
+  vtkImageData* Mask = nullptr; ///< may be nullptr
+  MaskType Type = MaskType::Labels;
+  double LabelShare = 1; ///< of ImageOptics
   ImageBlend Blend = ImageBlend::Composite;
   double AverageRange[2] = { 0, 0 }; ///< of ImageBlend::AverageIntensity
   StepOpacity Opacity = StepOpacity::Power;
@@ -53,7 +58,13 @@ public:
   const ImagePlacement& GetPlacement() const { return this->Placement; }
   const ImageScalars& GetScalars() const { return this->Scalars; }
 
-  /// The largest channel of a colour of the function or the table, absolute.
+  /// The independent components behind the first one.
+  const std::vector<ComponentOptics>& GetOtherComponents() const
+  {
+    return this->Optics.OtherComponents;
+  }
+
+  /// The largest channel of a colour of any function, or the table, absolute.
   double GetLargestColor() const;
 
   /// Whether opacities depend on gradients.
@@ -79,6 +90,7 @@ private:
   vtkObject* Source;
   ImagePlacement Placement;
   ImageScalars Scalars;
+  ImageMask Mask;
   ImageOptics Optics;
   CacheStamp Function;
   double FunctionError = 0;

@@ -7,6 +7,7 @@
 #include "vtkArrayDispatch.h"
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 
 namespace tetralux
@@ -47,13 +49,30 @@ constexpr ImageScalar GetImageScalar()
   }
 }
 
-/// The scalar of a tuple, in double precision.
+/// What of an array is read.
+struct Choice
+{
+  bool Magnitude;
+  int First; ///< component
+  int Count; ///< of components
+};
+
+constexpr int DisabledVectorMode = -1; ///< of ScalarSelection
+
+Choice Choose(const SelectedArray& selected, int vectorMode)
+{
+  const int components = selected.Array->GetNumberOfComponents();
+  const bool all = vectorMode == DisabledVectorMode && components <= ImageVolume::MostComponents;
+  return { selected.Magnitude, all ? 0 : selected.Component, all ? components : 1 };
+}
+
+/// A scalar of a tuple, in double precision. component: counted from the first that is read.
 template <class TupleT>
-double GetScalar(const TupleT& tuple, const SelectedArray& selected)
+double GetScalar(const TupleT& tuple, const Choice& selected, int component)
 {
   if (!selected.Magnitude)
   {
-    return static_cast<double>(tuple[selected.Component]);
+    return static_cast<double>(tuple[selected.First + component]);
   }
   double sum = 0;
   for (const auto value : tuple)
@@ -80,7 +99,7 @@ struct Range
 };
 
 template <class TuplesT>
-Range FindRange(const TuplesT& tuples, const SelectedArray& selected)
+Range FindRange(const TuplesT& tuples, const Choice& selected)
 {
   vtkSMPThreadLocal<Range> parts;
   vtkSMPTools::For(0, tuples.size(), Grain,
@@ -89,7 +108,10 @@ Range FindRange(const TuplesT& tuples, const SelectedArray& selected)
       Range& part = parts.Local();
       for (vtkIdType i = begin; i < end; ++i)
       {
-        part.Add(GetScalar(tuples[i], selected));
+        for (int c = 0; c < selected.Count; ++c)
+        {
+          part.Add(GetScalar(tuples[i], selected, c));
+        }
       }
     });
   Range range;
@@ -119,11 +141,12 @@ void SetRange(const Range& range, ImageVolume& volume)
 struct ReadArray
 {
   template <class ArrayT>
-  void operator()(ArrayT* array, const SelectedArray& selected, vtkIdType count,
-    ImageVolume& volume, std::vector<unsigned char>& copy) const
+  void operator()(ArrayT* array, const Choice& selected, vtkIdType count, ImageVolume& volume,
+    std::vector<unsigned char>& copy) const
   {
     using ValueT = vtk::GetAPIType<ArrayT>;
     const auto tuples = vtk::DataArrayTupleRange(array, 0, count);
+    volume.Components = selected.Count;
     volume.Scale = 1;
     volume.Offset = 0;
     if constexpr (IsPlain<ValueT>)
@@ -132,7 +155,7 @@ struct ReadArray
       {
         volume.Type = GetImageScalar<ValueT>();
         const bool inPlace =
-          array->GetNumberOfComponents() == 1 && array->HasStandardMemoryLayout();
+          array->GetNumberOfComponents() == selected.Count && array->HasStandardMemoryLayout();
         if (inPlace && !this->HasInfinite<ValueT>(tuples, selected))
         {
           copy = {};
@@ -140,16 +163,17 @@ struct ReadArray
           return;
         }
         this->Copy<ValueT>(tuples, copy, volume,
-          [&](const auto& tuple) { return this->MakeFinite(ValueT(tuple[selected.Component])); });
+          [&](const auto& tuple, int c)
+          { return this->MakeFinite(ValueT(tuple[selected.First + c])); });
         return;
       }
     }
     volume.Type = ImageScalar::Float;
     SetRange(FindRange(tuples, selected), volume);
     this->Copy<float>(tuples, copy, volume,
-      [&](const auto& tuple)
+      [&](const auto& tuple, int c)
       {
-        const double scalar = GetScalar(tuple, selected);
+        const double scalar = GetScalar(tuple, selected, c);
         return this->MakeFinite(static_cast<float>((scalar - volume.Offset) / volume.Scale));
       });
   }
@@ -169,13 +193,20 @@ private:
   }
 
   template <class T, class TuplesT>
-  static bool HasInfinite(const TuplesT& tuples, const SelectedArray& selected)
+  static bool HasInfinite(const TuplesT& tuples, const Choice& selected)
   {
     if constexpr (std::is_same_v<T, float>)
     {
       return std::any_of(tuples.begin(), tuples.end(),
         [&](const auto& tuple)
-        { return std::isinf(static_cast<float>(tuple[selected.Component])); });
+        {
+          bool infinite = false;
+          for (int c = 0; c < selected.Count; ++c)
+          {
+            infinite = infinite || std::isinf(static_cast<float>(tuple[selected.First + c]));
+          }
+          return infinite;
+        });
     }
     else
     {
@@ -187,19 +218,42 @@ private:
   static void Copy(const TuplesT& tuples, std::vector<unsigned char>& copy, ImageVolume& volume,
     const ScalarT& getScalar)
   {
-    copy.resize(sizeof(T) * tuples.size());
+    const int components = volume.Components;
+    copy.resize(sizeof(T) * components * tuples.size());
     T* values = reinterpret_cast<T*>(copy.data());
     vtkSMPTools::For(0, tuples.size(), Grain,
       [&](vtkIdType begin, vtkIdType end)
       {
         for (vtkIdType i = begin; i < end; ++i)
         {
-          values[i] = getScalar(tuples[i]);
+          for (int c = 0; c < components; ++c)
+          {
+            values[components * i + c] = getScalar(tuples[i], c);
+          }
         }
       });
     volume.Values = values;
   }
 };
+
+/// Gives a volume the flags that say what is hidden.
+void AddFlags(vtkImageData* image, ImageVolume& volume)
+{
+  const auto getFlags = [](vtkUnsignedCharArray* ghosts, vtkIdType count) -> const unsigned char*
+  {
+    if (ghosts && ghosts->GetNumberOfValues() != count)
+    {
+      throw std::invalid_argument("the image data have an array of ghosts with " +
+        std::to_string(ghosts->GetNumberOfValues()) + " values for " + std::to_string(count) +
+        " points or cells");
+    }
+    return ghosts ? ghosts->GetPointer(0) : nullptr;
+  };
+  volume.PointFlags = getFlags(image->GetPointGhostArray(), image->GetNumberOfPoints());
+  volume.HidingPointFlags = vtkDataSetAttributes::HIDDENPOINT;
+  volume.CellFlags = getFlags(image->GetCellGhostArray(), image->GetNumberOfCells());
+  volume.HidingCellFlags = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
+}
 
 } // namespace
 
@@ -226,15 +280,18 @@ bool ImageScalars::Update(vtkImageData* image, const ScalarSelection& selection)
   }
   image->GetDimensions(this->Volume.Dimensions);
   const vtkIdType count = image->GetNumberOfPoints();
+  const Choice choice = Choose(selected, selection.VectorMode);
   ReadArray worker;
   if (!vtkArrayDispatch::Dispatch::Execute(
-        selected.Array, worker, selected, count, this->Volume, this->Copy))
+        selected.Array, worker, choice, count, this->Volume, this->Copy))
   {
-    worker(selected.Array, selected, count, this->Volume, this->Copy);
+    worker(selected.Array, choice, count, this->Volume, this->Copy);
   }
+  AddFlags(image, this->Volume);
   this->ArrayName = selected.Array->GetName() ? selected.Array->GetName() : "";
   this->TypeName = selected.Array->GetDataTypeAsString();
   this->NumberOfComponents = selected.Array->GetNumberOfComponents();
+  this->ValueType = selected.Array->GetDataType();
   this->Array.Set(std::move(array));
   this->Grid.Set(std::move(grid));
   return true;

@@ -16,10 +16,11 @@ class vtkImageData;
 namespace tetralux
 {
 
-/// The scalars of image data as a volume. Arrays of one component of 8 or 16 bit integers or of
-/// floats are read where they are. A component of several of these types is copied, as it is; all
-/// else is brought to floats relative to the middle of its range. Values that are infinite become
-/// not-a-number. A copy is kept until the array or the choice of it changes.
+/// The scalars of image data as a volume, with the flags of points and cells that are hidden. Arrays
+/// of 8 or 16 bit integers or of floats are read where they are, with all of up to 4 components if
+/// the vector mode is disabled. One component of several of these types is copied, as it is; all
+/// else is brought to floats relative to the middle of the range of all components. Values that are
+/// infinite become not-a-number. A copy is kept until the array or the choice of it changes.
 class TETRALUXRENDERING_EXPORT ImageScalars
 {
 public:
@@ -28,9 +29,10 @@ public:
   bool Update(vtkImageData* image, const ScalarSelection& selection);
 
   const ImageVolume& GetVolume() const { return this->Volume; }
-  const std::string& GetArrayName() const { return this->ArrayName; } ///< may be empty
-  const std::string& GetTypeName() const { return this->TypeName; }   ///< of the array
-  int GetNumberOfComponents() const { return this->NumberOfComponents; }
+  const std::string& GetArrayName() const { return this->ArrayName; }    ///< may be empty
+  const std::string& GetTypeName() const { return this->TypeName; }      ///< of the array
+  int GetNumberOfComponents() const { return this->NumberOfComponents; } ///< of the array
+  int GetValueType() const { return this->ValueType; }                   ///< of VTK, of the array
 
   /// Of the copy; 0 where values are read in place.
   std::size_t GetNumberOfCopiedBytes() const { return this->Copy.size(); }
@@ -43,6 +45,7 @@ private:
   std::string ArrayName;
   std::string TypeName;
   int NumberOfComponents = 0;
+  int ValueType = 0;
 };
 
 } // namespace tetralux

@@ -87,11 +87,12 @@ vtkSmartPointer<vtkColorTransferFunction> SearchOnce(vtkColorTransferFunction* f
 class PropertyFunctions
 {
 public:
-  explicit PropertyFunctions(vtkVolumeProperty* property)
-    : Opacity(property->GetScalarOpacity(0))
-    , Color(property->GetColorChannels(0) == 3 ? property->GetRGBTransferFunction(0) : nullptr)
-    , Grey(this->Color ? nullptr : property->GetGrayTransferFunction(0))
-    , UnitDistance(property->GetScalarOpacityUnitDistance(0))
+  PropertyFunctions(vtkVolumeProperty* property, int component)
+    : Opacity(property->GetScalarOpacity(component))
+    , Color(property->GetColorChannels(component) == 3 ? property->GetRGBTransferFunction(component)
+                                                       : nullptr)
+    , Grey(this->Color ? nullptr : property->GetGrayTransferFunction(component))
+    , UnitDistance(property->GetScalarOpacityUnitDistance(component))
   {
     if (!(this->UnitDistance > 0) || !std::isfinite(this->UnitDistance))
     {
@@ -292,9 +293,9 @@ bool Subdivide(const PropertyFunctions& functions, const Tolerance& tolerance, d
 } // namespace
 
 PropertyTransferFunction TransferFunctionFromProperty(
-  vtkVolumeProperty* property, double maximumError, double longestPath)
+  vtkVolumeProperty* property, double maximumError, double longestPath, int component)
 {
-  const PropertyFunctions functions(property);
+  const PropertyFunctions functions(property, component);
   const Tolerance tolerance(maximumError, longestPath);
   const std::vector<double> breaks = functions.GetBreaks();
 

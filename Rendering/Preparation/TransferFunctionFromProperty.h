@@ -23,7 +23,7 @@ struct PropertyTransferFunction
   double Error = 0;
 };
 
-/// Colour and scalar opacity of a property's component 0 as VTK's functions define them, with
+/// Colour and scalar opacity of a property's component as VTK's functions define them, with
 /// attenuation = opacity / ScalarOpacityUnitDistance (opacities below 0 count as 0).
 ///
 /// Nodes are at the exact scalars of the property's nodes; steps (duplicated nodes, sharpness 1,
@@ -39,7 +39,7 @@ struct PropertyTransferFunction
 /// Throws std::invalid_argument, with one line, where the unit distance is not positive or a
 /// function has values that are not finite.
 TETRALUXRENDERING_EXPORT PropertyTransferFunction TransferFunctionFromProperty(
-  vtkVolumeProperty* property, double maximumError, double longestPath);
+  vtkVolumeProperty* property, double maximumError, double longestPath, int component = 0);
 
 /// Scalar opacities in the place of attenuations: of models in which lengths do not count, or count
 /// in another way.

@@ -27,8 +27,8 @@ CLASSES = {
     ],
     tetralux.vtkTetrahedraIsosurfaceMapper: ["MergePoints", "VectorMode"],
     tetralux.vtkTriangleCasterMapper: [
-        "BlendMode", "GradientNorm", "GradientSource", "LightSum", "OpacityModel", "SliceShape",
-        "VectorMode",
+        "BlendMode", "GradientNorm", "GradientSource", "LightSum", "MaskType", "OpacityModel",
+        "SliceShape", "VectorMode",
     ],
     tetralux.vtkPreIntegrationTableSource: ["BlendMode", "Format", "LengthScale", "ScalarAxis"],
     tetralux.vtkMeshedPolyhedraVisibilitySort: ["Order"],

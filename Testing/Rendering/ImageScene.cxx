@@ -119,6 +119,9 @@ std::vector<int> GrabOfVTK(ImageScene& scene)
   other->SetSampleDistance(static_cast<float>(scene.Mapper->GetSampleDistance()));
   other->SetBlendMode(scene.Mapper->GetBlendMode());
   other->SetAverageIPScalarRange(scene.Mapper->GetAverageIPScalarRange());
+  other->SetMaskInput(scene.Mapper->GetMaskInput());
+  other->SetMaskType(scene.Mapper->GetMaskType());
+  other->SetMaskBlendFactor(scene.Mapper->GetMaskBlendFactor());
   scene.Volume->SetMapper(other);
   scene.Window->Render();
   std::vector<int> picture = scene.Grab();

@@ -59,7 +59,7 @@ public:
   vtkNew<vtkPiecewiseFunction> Opacity;
 };
 
-/// What vtkOpenGLGPUVolumeRayCastMapper shows of the input, the BlendMode and the property of a
+/// What vtkOpenGLGPUVolumeRayCastMapper shows of the input, the BlendMode, the mask and the property of a
 /// scene's mapper, with its SampleDistance, as ImageScene::Grab has it.
 std::vector<int> GrabOfVTK(ImageScene& scene);
 

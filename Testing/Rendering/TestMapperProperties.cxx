@@ -346,6 +346,8 @@ TEST_F(MapperProperties, NamesAreThoseOfTheEnumerators)
   using Caster = vtkTriangleCasterMapper;
   expect("SliceShape", { { Caster::PLANE_SLICES, "planes" }, { Caster::SHELL_SLICES, "shells" } });
   expect("GradientNorm", { { Caster::EUCLIDEAN_NORM, "euclidean" }, { Caster::SUM_NORM, "sum" } });
+  expect("MaskType",
+    { { Caster::LabelMapMaskType, "label-map" }, { Caster::BinaryMaskType, "binary" } });
   expect("GradientSource",
     { { Caster::ON_THE_FLY_GRADIENTS, "on-the-fly" }, { Caster::BYTE_GRADIENTS, "bytes" } });
   expect("LightSum",
