@@ -33,10 +33,11 @@
  * values, any other value of an enumeration and NaN. Each cause of an error is reported once; the
  * volume is then not drawn.
  *
- * Of up to 4 components, independent ones have functions, weights and shading of their own, and what
- * they show is added up. Of 2 dependent ones, the first one has the colour and the second one the
- * opacity; of 4, the first three are red, green and blue. Blanked points and hidden cells are
- * empty, and so is what a binary mask hides.
+ * Of up to 4 components, independent ones have functions, weights and shading of their own, and
+ * what they show is added up. Of 2 dependent ones, the first one has the colour and the second one
+ * the opacity; of 4, the first three are red, green and blue. Functions and unit distance of
+ * dependent ones are those of component 0. Blanked points and hidden cells are empty, and so is
+ * what a binary mask hides.
  *
  * @warning There are errors for: rectilinear grids, scalars at cells, more than 2^31 - 1 values, 3
  * dependent components; and with several components or labels for any BlendMode but

@@ -16,11 +16,12 @@ class vtkImageData;
 namespace tetralux
 {
 
-/// The scalars of image data as a volume, with the flags of points and cells that are hidden. Arrays
-/// of 8 or 16 bit integers or of floats are read where they are, with all of up to 4 components if
-/// the vector mode is disabled. One component of several of these types is copied, as it is; all
-/// else is brought to floats relative to the middle of the range of all components. Values that are
-/// infinite become not-a-number. A copy is kept until the array or the choice of it changes.
+/// The scalars of image data as a volume, with the flags of points and cells that are hidden.
+/// Arrays of 8 or 16 bit integers or of floats are read where they are, with all of up to 4
+/// components if the vector mode is disabled. One component of several of these types is copied, as
+/// it is; all else is brought to floats relative to the middle of the range of all components.
+/// Values that are infinite become not-a-number. A copy is kept until the array or the choice of it
+/// changes.
 class TETRALUXRENDERING_EXPORT ImageScalars
 {
 public:
