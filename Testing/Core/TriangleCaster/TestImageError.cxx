@@ -211,7 +211,8 @@ TEST(ImageSlabs, AreTheSameBitsForAnyTilesAndThreads)
         scene.Options.Triangles = triangles;
         scene.Options.SkipEmptySpace = space;
         scene.Options.NumberOfThreads = 3;
-        EXPECT_TRUE(IsSame(Cast(caster, scene), expected)) << tile << " " << triangles << " " << space;
+        EXPECT_TRUE(IsSame(Cast(caster, scene), expected))
+          << tile << " " << triangles << " " << space;
       }
     }
   }
