@@ -40,6 +40,34 @@ TETRALUX_INLINE void PlaceSample(
   }
 }
 
+/// Which samples of a vector neither a mask nor a hidden cell hides.
+struct ShownSamples
+{
+  unsigned char Bits[SlabsOfBlock][MostCroppedParts]; ///< one of each ray
+};
+
+/// Finds them in slabs [begin, end) of the block that begins at slab start. Apart from CastBlock,
+/// where calls would take the registers of all volumes.
+TETRALUX_NOINLINE void FindShownSamples(const ImageKernelInput& in, const ImageRays& rays,
+  const BlockPositions& positions, std::int32_t start, std::int32_t begin, std::int32_t end,
+  ShownSamples& shown)
+{
+  for (std::int32_t slab = begin; slab < end; ++slab)
+  {
+    const Int8 n = slab;
+    const Float8 position = static_cast<float>(slab - start);
+    for (int p = 0; p < rays.PartCount; ++p)
+    {
+      const Float8 from =
+        Select(LoadInt8(rays.First[p]) == n, LoadFloat8(rays.Begin[p]), Float8(0.f));
+      const Float8 to = Select(LoadInt8(rays.Last[p]) == n, LoadFloat8(rays.End[p]), Float8(1.f));
+      ImageSample place;
+      PlaceSample(in, positions, position + Float8(0.5f) * (from + to), place);
+      shown.Bits[slab - start][p] = static_cast<unsigned char>(Bits(FindShown(in, place)));
+    }
+  }
+}
+
 /// Casts the rays of a vector through the slabs of one block.
 template <class Value, class Model>
 TETRALUX_NOINLINE void CastBlock(
@@ -51,6 +79,11 @@ TETRALUX_NOINLINE void CastBlock(
   const Mask8 hasPart = LoadInt8(rays.HasPart) == Int8(-1);
   const std::int32_t begin = std::max(start, rays.FirstSlab);
   const std::int32_t end = std::min(start + SlabsOfBlock, rays.LastSlab + 1);
+  ShownSamples shownSamples;
+  if (in.Masked)
+  {
+    FindShownSamples(in, rays, positions, start, begin, end, shownSamples);
+  }
   Model model(in, rays);
   for (std::int32_t slab = begin; slab < end; ++slab)
   {
@@ -91,10 +124,7 @@ TETRALUX_NOINLINE void CastBlock(
       sample.Length = stepLength * sample.Share;
       if (in.Masked)
       {
-        // A sample of its own: what is not masked keeps its sample in registers.
-        ImageSample place;
-        PlaceSample(in, positions, position + middle, place);
-        const Mask8 shown = FindShown(in, place);
+        const Mask8 shown = MaskFromBits(shownSamples.Bits[slab - start][p]);
         if constexpr (Model::JoinsSamples)
         {
           model.Restart(AndNot(sample.Active, shown));
