@@ -59,8 +59,8 @@ public:
   vtkNew<vtkPiecewiseFunction> Opacity;
 };
 
-/// What vtkOpenGLGPUVolumeRayCastMapper shows of the input, the BlendMode, the mask and the property
-/// of a scene's mapper, with its SampleDistance, as ImageScene::Grab has it.
+/// What vtkOpenGLGPUVolumeRayCastMapper shows of the input, the BlendMode, the mask and the
+/// property of a scene's mapper, with its SampleDistance, as ImageScene::Grab has it.
 std::vector<int> GrabOfVTK(ImageScene& scene);
 
 /// Share of the channels of two pictures of 0..255, of which the second one shows something, that
