@@ -12,6 +12,7 @@
 #include "Preparation/IsosurfacesFromProperty.h"
 #include "Preparation/TransferFunctionFromProperty.h"
 
+#include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPiecewiseFunction.h"
@@ -46,6 +47,22 @@ double FindLongestPath(const ImageVolume& volume, const double steps[3])
     squares += edge * edge;
   }
   return std::exp2(std::ceil(std::log2(std::sqrt(squares))));
+}
+
+/// The largest absolute value of red, green and blue that are components.
+double FindLargestChannel(vtkDataArray* array, const double scale[3])
+{
+  double largest = 0;
+  for (int c = 0; c < 3; ++c)
+  {
+    double range[2];
+    array->GetFiniteRange(range, c);
+    if (range[0] <= range[1])
+    {
+      largest = std::max({ largest, scale[c] * std::abs(range[0]), scale[c] * std::abs(range[1]) });
+    }
+  }
+  return largest;
 }
 
 /// Whether opacities are those of points, not of lengths.
@@ -149,9 +166,13 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
   {
     exactKey.Add(input.LabelShare);
   }
+  double largestChannel = 0;
   if (components > 1 && !independent)
   {
+    SetDependentComponents(this->Scalars.GetValueType(), optics);
+    largestChannel = components == 4 ? FindLargestChannel(selected.Array, optics.ColorScale) : 0;
     exactKey.Add(this->Scalars.GetValueType());
+    exactKey.Add(largestChannel);
   }
   if (hasGradients || hasTable || independent || hasLabels)
   {
@@ -200,16 +221,13 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
   {
     SetIndependentComponents(input.Property, components, rules, optics);
   }
-  else if (components > 1)
-  {
-    SetDependentComponents(this->Scalars.GetValueType(), optics);
-  }
   if (hasLabels)
   {
     SetLabels(input.Property, rules, optics);
     optics.LabelShare = input.LabelShare;
   }
   this->FunctionError = rules.Error;
+  this->LargestChannel = largestChannel;
   optics.Table =
     TransferTableFromProperty(input.Property, { optics.GreyRange[0], optics.GreyRange[1] });
   this->Caster.SetOptics(optics);
@@ -221,7 +239,7 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
 
 double ImagePreparation::GetLargestColor() const
 {
-  double largest = tetralux::GetLargestColor(this->Optics.Function);
+  double largest = std::max(this->LargestChannel, tetralux::GetLargestColor(this->Optics.Function));
   for (const ComponentOptics& other : this->Optics.OtherComponents)
   {
     largest = std::max(largest, tetralux::GetLargestColor(other.Function));

@@ -64,7 +64,8 @@ public:
     return this->Optics.OtherComponents;
   }
 
-  /// The largest channel of a colour of any function, or the table, absolute.
+  /// The largest channel of a colour of any function, of the table or of components that are
+  /// colours, absolute.
   double GetLargestColor() const;
 
   /// Whether opacities depend on gradients.
@@ -94,6 +95,7 @@ private:
   ImageOptics Optics;
   CacheStamp Function;
   double FunctionError = 0;
+  double LargestChannel = 0; ///< of components that are colours, absolute
   OnceWarning UnusedWarning;
   std::vector<std::string> Rebuilt;
   double ScalarsSeconds = 0;

@@ -105,3 +105,25 @@ volume_property.GetScalarOpacity().AddPoint(0, 0)
 volume_property.GetScalarOpacity().AddPoint(1, 0.5)
 rgba, _, _ = scene.render()
 assert (numpy.diff(rgba[22:58, 60, 3]) > 0).all()
+
+# Two independent components, of which a label map and a mask know nothing.
+both = numpy.column_stack([numpy.full(64, 2.5), numpy.full(64, 7.5)]).astype(numpy.float32)
+set_scalars(cube, "Both", both)
+mapper.SetInputData(cube)
+volume_property.SetComponentWeight(1, 0)
+rgba, _, statistics = scene.render()
+assert statistics["input"]["components"] == 2
+first = rgba[40, 60].copy()
+volume_property.SetComponentWeight(1, 1)
+rgba, _, _ = scene.render()
+assert abs(rgba[40, 60] - first).max() > 0.05
+
+# A mask hides the half of the cube that is not marked.
+mask = make_unit_cube()
+set_scalars(mask, "Mask", (get_points(mask)[:, 0] > 0.5).astype(numpy.uint8))
+mapper.SetVectorModeToComponent()
+mapper.SetMaskInput(mask)
+mapper.SetMaskTypeToBinary()
+rgba, _, _ = scene.render()
+assert (rgba[22:58, 42:56, 3] == 0).all() and (rgba[22:58, 64:78, 3] > 0).all()
+assert mapper.GetMaskInput() is mask and mapper.GetMaskTypeAsString() == "binary"
