@@ -43,6 +43,20 @@ Accessors MakeAccessors(NumberT (MapperT::*get)(), void (MapperT::*set)(NumberT)
 #name, MakeAccessors(&mapper::Get##name, &mapper::Set##name)                                   \
   }
 
+/// Of a property with several numbers, which are set as an array.
+template <class MapperT>
+Accessors MakeArrayAccessors(
+  std::size_t size, double* (MapperT::*get)(), void (MapperT::*set)(const double*))
+{
+  return { [size, get](vtkAbstractVolumeMapper* mapper)
+    {
+      const double* values = (static_cast<MapperT*>(mapper)->*get)();
+      return std::vector<double>(values, values + size);
+    },
+    [set](vtkAbstractVolumeMapper* mapper, const std::vector<double>& values)
+    { (static_cast<MapperT*>(mapper)->*set)(values.data()); } };
+}
+
 /// What the base class of mappers of cells and the mapper of image data have, each on its own.
 template <class MapperT>
 AccessorMap MakeCommonAccessors()
@@ -54,13 +68,8 @@ AccessorMap MakeCommonAccessors()
         [](vtkAbstractVolumeMapper* mapper, const std::vector<double>& values)
         { static_cast<MapperT*>(mapper)->SetBlendMode(static_cast<int>(values.front())); } } },
     { "CroppingRegionPlanes",
-      { [](vtkAbstractVolumeMapper* mapper)
-        {
-          const double* planes = static_cast<MapperT*>(mapper)->GetCroppingRegionPlanes();
-          return std::vector<double>(planes, planes + 6);
-        },
-        [](vtkAbstractVolumeMapper* mapper, const std::vector<double>& values)
-        { static_cast<MapperT*>(mapper)->SetCroppingRegionPlanes(values.data()); } } },
+      MakeArrayAccessors<MapperT>(
+        6, &MapperT::GetCroppingRegionPlanes, &MapperT::SetCroppingRegionPlanes) },
     ACCESSORS(MapperT, MaximumError),
     ACCESSORS(MapperT, VectorMode),
     ACCESSORS(MapperT, VectorComponent),
@@ -87,7 +96,15 @@ AccessorMap MakeCasterAccessors()
 {
   using Caster = vtkTriangleCasterMapper;
   AccessorMap accessors = {
+    { "AverageIPScalarRange",
+      MakeArrayAccessors<Caster>(
+        2, &Caster::GetAverageIPScalarRange, &Caster::SetAverageIPScalarRange) },
+    { "NearColor", MakeArrayAccessors<Caster>(3, &Caster::GetNearColor, &Caster::SetNearColor) },
+    { "FarColor", MakeArrayAccessors<Caster>(3, &Caster::GetFarColor, &Caster::SetFarColor) },
+    ACCESSORS(Caster, GradientSource),
+    ACCESSORS(Caster, LightSum),
     ACCESSORS(Caster, SampleDistance),
+    ACCESSORS(Caster, SampleDistanceByError),
     ACCESSORS(Caster, InteractiveSampleDistance),
     ACCESSORS(Caster, SliceShape),
     ACCESSORS(Caster, OpacityModel),

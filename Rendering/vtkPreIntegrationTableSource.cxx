@@ -105,7 +105,8 @@ void SetTexels(vtkImageData* image, const tetralux::PreIntegrationTable& table)
 /// The values of a property of the mappers, without the one that leaves the choice to them.
 std::vector<tetralux::NamedValue> GetDefiniteValues(const char* property)
 {
-  std::vector<tetralux::NamedValue> values = tetralux::GetMapperProperty(property).Values;
+  std::vector<tetralux::NamedValue> values =
+    GetNamedValues(tetralux::GetMapperProperty(property), tetralux::VolumeKinds);
   values.erase(
     std::remove_if(values.begin(), values.end(),
       [](const tetralux::NamedValue& value) { return std::string(value.Name) == "automatic"; }),

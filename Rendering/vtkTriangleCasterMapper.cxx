@@ -6,6 +6,7 @@
 #include "Frame/FrameRecord.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
+#include "ImagePreparation/ImageBlends.h"
 #include "ImagePreparation/ImageObstacles.h"
 #include "ImagePreparation/ImagePreparation.h"
 #include "Integral/ErrorBudget.h"
@@ -78,6 +79,35 @@ PixelRectangle FindCovered(const tetralux::CPUPicture& picture)
                    : PixelRectangle{ left, lower, right + 1 - left, upper + 1 - lower };
 }
 
+tetralux::LightSum ToLightSum(int sum)
+{
+  switch (sum)
+  {
+    case vtkTriangleCasterMapper::NEAREST_ENTRY_SUM:
+      return tetralux::LightSum::NearestEntry;
+    case vtkTriangleCasterMapper::INTERPOLATED_SUM:
+      return tetralux::LightSum::Interpolated;
+    default: // SetLightSum refuses all others
+      return tetralux::LightSum::Direct;
+  }
+}
+
+/// Sets a colour; refuses numbers that are not finite.
+void SetFactors(
+  vtkTriangleCasterMapper* self, const char* name, double color[3], const double factors[3])
+{
+  if (!std::all_of(factors, factors + 3, [](double factor) { return std::isfinite(factor); }))
+  {
+    vtkErrorWithObjectMacro(self, << name << ": factors of colours are finite");
+    return;
+  }
+  if (!std::equal(factors, factors + 3, color))
+  {
+    std::copy_n(factors, 3, color);
+    self->Modified();
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -145,6 +175,8 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVol
   input.Property = volume->GetProperty();
   input.Matrix = volume->GetMatrix();
   input.Scalars = this->SelectScalars();
+  input.Blend = tetralux::GetImageBlend(this->Self->BlendMode);
+  std::copy_n(this->Self->AverageIPScalarRange, 2, input.AverageRange);
   input.Opacity = this->Self->OpacityModel == POWER_OPACITY ? tetralux::StepOpacity::Power
                                                             : tetralux::StepOpacity::Attenuation;
   input.Norm = this->Self->GradientNorm == EUCLIDEAN_NORM ? tetralux::GradientNorm::Euclidean
@@ -173,7 +205,7 @@ void vtkTriangleCasterMapper::Internals::SetUp(MapperFrame& frame) const
   frame.Method = "triangle-caster";
   frame.MaximumError = this->Self->MaximumError;
   vtkVolumeProperty* property = frame.Volume->GetProperty();
-  if (property->GetShade(0) != 0)
+  if (property->GetShade(0) != 0 && this->Self->BlendMode == COMPOSITE_BLEND)
   {
     frame.Shaded = true;
     frame.Lights = tetralux::GetRendererLights(frame.Renderer);
@@ -235,7 +267,9 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
   tetralux::ErrorSpending spending;
   spending.Approximated = this->Preparation.GetFunctionError() > 0;
   spending.Sliced = this->Self->SampleDistanceByError != 0;
-  spending.EndsEarly = this->Self->EndTriangles != 0 || this->Self->SkipPixels != 0;
+  const bool composites =
+    this->Self->BlendMode == COMPOSITE_BLEND || this->Self->BlendMode == ISOSURFACE_BLEND;
+  spending.EndsEarly = composites && (this->Self->EndTriangles != 0 || this->Self->SkipPixels != 0);
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError, spending);
   frame.Brightness = this->FindBrightness(grid, frame);
 
@@ -247,6 +281,15 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
   options.Shaded = frame.Shaded;
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
+  options.Gradients = this->Self->GradientSource == ON_THE_FLY_GRADIENTS
+    ? tetralux::GradientSource::OnTheFly
+    : tetralux::GradientSource::Bytes;
+  options.SumOfLights = ToLightSum(this->Self->LightSum);
+  for (int c = 0; c < 3; ++c)
+  {
+    options.NearColor[c] = static_cast<float>(this->Self->NearColor[c]);
+    options.FarColor[c] = static_cast<float>(this->Self->FarColor[c]);
+  }
   options.Threshold = frame.Budget.Termination / frame.Brightness;
   options.EndTriangles = this->Self->EndTriangles != 0;
   options.SkipPixels = this->Self->SkipPixels != 0;
@@ -262,7 +305,12 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
 double vtkTriangleCasterMapper::Internals::FindBrightness(
   const tetralux::RayGrid& grid, const MapperFrame& frame) const
 {
-  const double colors = std::max(1., tetralux::GetLargestColor(this->Preparation.GetFunction()));
+  double cue = 1;
+  for (int c = 0; c < 3; ++c)
+  {
+    cue = std::max({ cue, std::abs(this->Self->NearColor[c]), std::abs(this->Self->FarColor[c]) });
+  }
+  const double colors = cue * std::max(1., this->Preparation.GetLargestColor());
   if (!frame.Shaded)
   {
     return colors;
@@ -346,8 +394,11 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
 
   Json slices;
   slices["shape"] = this->Self->GetSliceShapeAsString();
+  slices["blend_mode"] = this->Self->GetBlendModeAsString();
+  slices["gradient_source"] = this->Self->GetGradientSourceAsString();
+  slices["light_sum"] = this->Self->GetLightSumAsString();
   slices["opacity_model"] = this->Self->GetOpacityModelAsString();
-  slices["pre_integration"] = options.PreIntegrated;
+  slices["pre_integration"] = options.PreIntegrated && this->Self->BlendMode == COMPOSITE_BLEND;
   slices["distance"] = options.SampleDistance;
   slices["slices"] = statistics.Slices;
   slices["tile_size"] = options.TileSize;
@@ -362,12 +413,15 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
   frame.Errors = { { "early_termination", frame.Brightness * statistics.TerminationError },
     { "summation", frame.Brightness * samples * HalfRounding },
     { "transfer_function", this->Preparation.GetFunctionError() } };
-  frame.ReportOmission(options.Threshold == 0, "early termination", "MaximumError allows none");
+  frame.ReportOmission(
+    options.Threshold == 0, "early termination", "MaximumError and BlendMode allow none");
   frame.ReportOmission(
     !options.SkipEmptySpace, "empty space", "SkipEmptySpace is off, so all of it is sampled");
-  frame.ReportOmission(!frame.Shaded, "shading", "Shade is off");
-  frame.ReportOmission(
-    !this->Preparation.HasGradientOpacity(), "gradient opacity", "the property has none");
+  const bool composite = this->Self->BlendMode == COMPOSITE_BLEND;
+  constexpr const char* CompositeOnly = "composite blending has it only";
+  frame.ReportOmission(!frame.Shaded, "shading", composite ? "Shade is off" : CompositeOnly);
+  frame.ReportOmission(!this->Preparation.HasGradientOpacity(), "gradient opacity",
+    composite ? "the property has none" : CompositeOnly);
   frame.ReportOmission(this->Preparation.GetFunctionError() == 0, "subdivided transfer function",
     "it is piecewise linear");
   frame.ReportOmission(this->Preparation.GetScalars().GetNumberOfCopiedBytes() == 0,
@@ -442,6 +496,8 @@ tetraluxSetNumberMacro(vtkTriangleCasterMapper, InteractiveSampleDistance, doubl
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, SliceShape);
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, OpacityModel);
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, GradientNorm);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, GradientSource);
+tetraluxEnumerationMacro(vtkTriangleCasterMapper, LightSum);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, TileSize, int);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, NumberOfThreads, int);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, ImageSampleDistance, float);
@@ -449,6 +505,49 @@ tetraluxSetNumberMacro(vtkTriangleCasterMapper, MinimumImageSampleDistance, floa
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, MaximumImageSampleDistance, float);
 tetraluxEnumerationMacro(vtkTriangleCasterMapper, VectorMode);
 tetraluxSetNumberMacro(vtkTriangleCasterMapper, VectorComponent, int);
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetAverageIPScalarRange(double least, double largest)
+{
+  if (std::isnan(least) || std::isnan(largest))
+  {
+    vtkErrorMacro("AverageIPScalarRange: nan is not a scalar");
+    return;
+  }
+  this->Superclass::SetAverageIPScalarRange(least, largest);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetAverageIPScalarRange(const double range[2])
+{
+  this->SetAverageIPScalarRange(range[0], range[1]);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetNearColor(double red, double green, double blue)
+{
+  const double color[3] = { red, green, blue };
+  this->SetNearColor(color);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetNearColor(const double color[3])
+{
+  SetFactors(this, "NearColor", this->NearColor, color);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetFarColor(double red, double green, double blue)
+{
+  const double color[3] = { red, green, blue };
+  this->SetFarColor(color);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::SetFarColor(const double color[3])
+{
+  SetFactors(this, "FarColor", this->FarColor, color);
+}
 
 //------------------------------------------------------------------------------------------------
 void vtkTriangleCasterMapper::SetCroppingRegionPlanes(
@@ -478,6 +577,8 @@ void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->vtkAbstractVolumeMapper::PrintSelf(os, indent);
   tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("BlendMode", this->BlendMode);
+  printer.Print(
+    "AverageIPScalarRange", this->AverageIPScalarRange[0], this->AverageIPScalarRange[1]);
   printer.Print("MaximumError", this->MaximumError);
   printer.Print("SampleDistance", this->SampleDistance);
   printer.Print("SampleDistanceByError", this->SampleDistanceByError);
@@ -485,6 +586,10 @@ void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
   printer.Print("SliceShape", this->SliceShape);
   printer.Print("OpacityModel", this->OpacityModel);
   printer.Print("GradientNorm", this->GradientNorm);
+  printer.Print("GradientSource", this->GradientSource);
+  printer.Print("LightSum", this->LightSum);
+  printer.Print("NearColor", this->NearColor[0], this->NearColor[1], this->NearColor[2]);
+  printer.Print("FarColor", this->FarColor[0], this->FarColor[1], this->FarColor[2]);
   printer.Print("PreIntegration", this->PreIntegration);
   printer.Print("CorrectOpacity", this->CorrectOpacity);
   printer.Print("EndTriangles", this->EndTriangles);

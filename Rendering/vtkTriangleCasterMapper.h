@@ -21,7 +21,8 @@
  *
  * If the property's Shade is on, lights of the renderer shine on the samples, by gradients as
  * normals, from the side of the viewer: ambient, diffuse and specular (Blinn). Gradient opacity is
- * a factor of the scalar opacity.
+ * a factor of the scalar opacity. A TransferFunction2D of the property takes the place of all its
+ * functions if its TransferFunctionMode is TF_2D; its opacities are those of the unit distance.
  *
  * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
  * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper
@@ -33,9 +34,8 @@
  * volume is then not drawn.
  *
  * @warning There are errors for: rectilinear grids, scalars at cells, ghost, hidden and blanked
- * points and cells, two-dimensional transfer functions, more than 2^31 - 1 points. Any BlendMode
- * but COMPOSITE_BLEND is refused. Warnings say that functions of labels, and components but the
- * first one, are not used.
+ * points and cells, TF_2D with another BlendMode than COMPOSITE_BLEND, more than 2^31 - 1 points.
+ * Warnings say that functions of labels, and components but the first one, are not used.
  *
  * @sa vtkFixedPointVolumeRayCastMapper, vtkTetrahedraRayCastMapper
  */
@@ -59,10 +59,33 @@ public:
 
   ///@{
   /**
-   * Set what rays gather. Default COMPOSITE_BLEND, the only one.
+   * Set what rays gather, as vtkGPUVolumeRayCastMapper shows it. Default COMPOSITE_BLEND.
+   *
+   * - COMPOSITE_BLEND (0): what emits and absorbs.
+   * - MAXIMUM_INTENSITY_BLEND (1), MINIMUM_INTENSITY_BLEND (2): colour and scalar opacity of the
+   *   largest or smallest scalar.
+   * - AVERAGE_INTENSITY_BLEND (3): mean of scalar opacity times grey of what has its scalar in
+   *   AverageIPScalarRange. Grey is 0 at the least scalar of the volume and 1 at the largest one.
+   * - ADDITIVE_BLEND (4): sum of scalar opacity times grey times length over
+   *   ScalarOpacityUnitDistance, at most 1.
+   * - ISOSURFACE_BLEND (5): the surfaces of the property's IsoSurfaceValues. In VTK they are lit.
+   * - SLICE_BLEND (6): colour and scalar opacity on the plane of the property's SliceFunction, in
+   *   world coordinates. A frame fails with an error if that is no vtkPlane.
+   *
+   * @warning Light, gradient opacity and PreIntegration are of COMPOSITE_BLEND only. A warning says
+   * that others do not use Shade and gradient opacity.
    */
   void SetBlendMode(int mode) override;
   const char* GetBlendModeAsString();
+  ///@}
+
+  ///@{
+  /**
+   * As in the superclass: the scalars that AVERAGE_INTENSITY_BLEND averages, both ends included.
+   * Default -1e38 and 1e38. NaN is refused with an error.
+   */
+  void SetAverageIPScalarRange(double least, double largest) override;
+  void SetAverageIPScalarRange(const double range[2]);
   ///@}
 
   ///@{
@@ -176,13 +199,79 @@ public:
   void SetGradientNormToSum() { this->SetGradientNorm(SUM_NORM); }
   ///@}
 
+  enum GradientSourceType
+  {
+    ON_THE_FLY_GRADIENTS,
+    BYTE_GRADIENTS
+  };
+
+  ///@{
+  /**
+   * Set where gradients of light and gradient opacity come from (Knittel 1999, section 7). Default
+   * ON_THE_FLY_GRADIENTS.
+   *
+   * - ON_THE_FLY_GRADIENTS (0): differences of values, for each sample.
+   * - BYTE_GRADIENTS (1): central differences at the points, stored in 8 bits a component, and 4
+   *   bytes a point. What that rounds is in no error estimate.
+   */
+  virtual void SetGradientSource(int source);
+  vtkGetMacro(GradientSource, int);
+  const char* GetGradientSourceAsString();
+  void SetGradientSourceToOnTheFly() { this->SetGradientSource(ON_THE_FLY_GRADIENTS); }
+  void SetGradientSourceToBytes() { this->SetGradientSource(BYTE_GRADIENTS); }
+  ///@}
+
+  enum LightSumType
+  {
+    DIRECT_SUM,
+    NEAREST_ENTRY_SUM,
+    INTERPOLATED_SUM
+  };
+
+  ///@{
+  /**
+   * Set how the lights of Shade are summed up (Knittel 1999, section 7). Default DIRECT_SUM.
+   *
+   * - DIRECT_SUM (0): for each sample.
+   * - NEAREST_ENTRY_SUM (1): once for each direction of a map of 5 bits, from the viewing direction
+   *   of the picture's centre. What that rounds is in no error estimate.
+   * - INTERPOLATED_SUM (2): between four directions of that map.
+   *
+   * @warning A frame fails with an error if a map is to be made with a positional light.
+   */
+  virtual void SetLightSum(int sum);
+  vtkGetMacro(LightSum, int);
+  const char* GetLightSumAsString();
+  void SetLightSumToDirect() { this->SetLightSum(DIRECT_SUM); }
+  void SetLightSumToNearestEntry() { this->SetLightSum(NEAREST_ENTRY_SUM); }
+  void SetLightSumToInterpolated() { this->SetLightSum(INTERPOLATED_SUM); }
+  ///@}
+
+  ///@{
+  /**
+   * Set factors of the colours, red, green and blue, at the front and at the back of the volume, or
+   * at the camera where that is inside: depth cueing (Knittel 1999, section 2.2). They are linear
+   * in the depth of the slices, and for COMPOSITE_BLEND. Default 1, 1, 1, each. Numbers that are
+   * not finite are refused with an error.
+   *
+   * @warning A frame fails with an error if another color is set with PreIntegration.
+   */
+  void SetNearColor(double red, double green, double blue);
+  void SetNearColor(const double color[3]);
+  vtkGetVector3Macro(NearColor, double);
+  void SetFarColor(double red, double green, double blue);
+  void SetFarColor(const double color[3]);
+  vtkGetVector3Macro(FarColor, double);
+  ///@}
+
   ///@{
   /**
    * Set whether what is between two slices is looked up in a table over the scalars at both, so
    * that thin features of the transfer function are not missed (Knittel 1999, section 7). Default
    * off.
    *
-   * @warning A frame fails with an error if it is on with Shade or gradient opacity.
+   * @warning A frame of COMPOSITE_BLEND fails with an error if it is on with Shade, gradient
+   * opacity, TF_2D or depth cueing.
    */
   vtkSetMacro(PreIntegration, vtkTypeBool);
   vtkGetMacro(PreIntegration, vtkTypeBool);
@@ -393,6 +482,10 @@ protected:
   int SliceShape = PLANE_SLICES;
   int OpacityModel = POWER_OPACITY;
   int GradientNorm = EUCLIDEAN_NORM;
+  int GradientSource = ON_THE_FLY_GRADIENTS;
+  int LightSum = DIRECT_SUM;
+  double NearColor[3] = { 1, 1, 1 };
+  double FarColor[3] = { 1, 1, 1 };
   vtkTypeBool PreIntegration = 0;
   vtkTypeBool CorrectOpacity = 1;
   vtkTypeBool EndTriangles = 1;

@@ -29,6 +29,7 @@
 #include "vtkDataArrayRange.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
+#include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -62,26 +63,12 @@ void CheckOptions(const RenderOptions& options)
 
 constexpr const char* ImageMethod = "triangle-caster";
 
-vtkSmartPointer<vtkAbstractVolumeMapper> MakeConfiguredMapper(
-  const std::string& method, const RenderOptions& options)
+/// Makes a mapper show isosurfaces if there are isovalues. Throws UsageError if other options do
+/// not allow it, or ask for isosurfaces without values.
+template <class MapperT>
+void SetBlendMode(const std::string& method, const RenderOptions& options, MapperT* mapper)
 {
-  vtkSmartPointer<vtkAbstractVolumeMapper> made =
-    MakeMapper(method, options.Scene.NumberOfThreads, options.Settings);
-  if (options.MaximumError)
-  {
-    VisitMapper(made, [&](auto* mapper) { mapper->SetMaximumError(*options.MaximumError); });
-  }
-  auto* mapper = vtkTetrahedraVolumeMapper::SafeDownCast(made);
-  if (!mapper)
-  {
-    if (!options.Isovalues.empty() || !options.ColorArray.empty())
-    {
-      throw UsageError(std::string(options.Isovalues.empty() ? "--color-array" : "--isovalues") +
-        ": the method '" + method + "' has no isosurfaces");
-    }
-    return made;
-  }
-  const bool isosurfaces = mapper->GetBlendMode() == vtkTetrahedraVolumeMapper::ISOSURFACE_BLEND;
+  const bool isosurfaces = mapper->GetBlendMode() == MapperT::ISOSURFACE_BLEND;
   if (isosurfaces && options.Isovalues.empty())
   {
     throw UsageError((method == "isosurface" ? "--method isosurface" : "BlendMode=isosurface") +
@@ -93,12 +80,36 @@ vtkSmartPointer<vtkAbstractVolumeMapper> MakeConfiguredMapper(
   }
   if (!isosurfaces && !options.Isovalues.empty())
   {
-    if (mapper->GetBlendMode() != vtkTetrahedraVolumeMapper::COMPOSITE_BLEND)
+    if (mapper->GetBlendMode() != MapperT::COMPOSITE_BLEND)
     {
       throw UsageError("--isovalues A,B,... and BlendMode=isosurface belong together");
     }
     mapper->SetBlendModeToIsoSurface();
   }
+}
+
+/// Throws UsageError if there is a plane without slices, or the other way round.
+void CheckSlicePlane(const RenderOptions& options, vtkAbstractVolumeMapper* mapper)
+{
+  auto* caster = vtkTriangleCasterMapper::SafeDownCast(mapper);
+  const bool slices = caster && caster->GetBlendMode() == vtkTriangleCasterMapper::SLICE_BLEND;
+  if (slices != !options.SlicePlane.empty())
+  {
+    throw UsageError("--slice-plane X,Y,Z,NX,NY,NZ and BlendMode=slice belong together");
+  }
+}
+
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeConfiguredMapper(
+  const std::string& method, const RenderOptions& options)
+{
+  vtkSmartPointer<vtkAbstractVolumeMapper> made =
+    MakeMapper(method, options.Scene.NumberOfThreads, options.Settings);
+  if (options.MaximumError)
+  {
+    VisitMapper(made, [&](auto* mapper) { mapper->SetMaximumError(*options.MaximumError); });
+  }
+  VisitMapper(made, [&](auto* mapper) { SetBlendMode(method, options, mapper); });
+  CheckSlicePlane(options, made);
   return made;
 }
 
@@ -201,8 +212,9 @@ bool IsImage(const RenderInput& input)
   return mapper->GetObstacle().empty();
 }
 
+/// lit: whether isosurfaces are.
 vtkSmartPointer<vtkVolumeProperty> MakeProperty(
-  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6])
+  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6], bool lit)
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetColor(functions.Color);
@@ -213,8 +225,15 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   {
     property->GetIsoSurfaceValues()->SetValue(static_cast<int>(i), options.Isovalues[i]);
   }
+  if (!options.SlicePlane.empty())
+  {
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(options.SlicePlane.data());
+    plane->SetNormal(options.SlicePlane.data() + 3);
+    property->SetSliceFunction(plane);
+  }
   // Without light, surfaces show no shape.
-  property->SetShade(options.Shade || !options.Isovalues.empty());
+  property->SetShade(options.Shade || (lit && !options.Isovalues.empty()));
   return property;
 }
 
@@ -228,7 +247,8 @@ void ShowVolume(const RenderOptions& options, const RenderInput& input, vtkVolum
   {
     throw WorkError("'" + options.Scene.Input.Name + "': it has no points");
   }
-  volume->SetProperty(MakeProperty(options, input.Functions, bounds));
+  const bool lit = !vtkTriangleCasterMapper::SafeDownCast(volume->GetMapper());
+  volume->SetProperty(MakeProperty(options, input.Functions, bounds, lit));
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(options.Background.data());
   renderer->AddVolume(volume);

@@ -14,9 +14,10 @@ struct RenderOptions
   SceneOptions Scene;
 
   std::string Method = "auto";
-  std::vector<double> Isovalues;                 ///< empty: a volume, not surfaces
-  std::string ColorArray;                        ///< empty: a surface has the colour of its value
-  bool Shade = false;                            ///< lights the volume; surfaces are always lit
+  std::vector<double> SlicePlane; ///< a point and the normal of BlendMode=slice; may be empty
+  std::vector<double> Isovalues;  ///< empty: a volume, not surfaces
+  std::string ColorArray;         ///< empty: a surface has the colour of its value
+  bool Shade = false;             ///< lights the volume; surfaces are always lit
   SceneOptions::Vector Background = { 0, 0, 0 }; ///< red, green, blue, 0..1
   std::optional<double> MaximumError;            ///< of a colour channel, 0..1
   std::vector<std::string> Settings;             ///< "Property=Value"

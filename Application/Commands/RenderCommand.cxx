@@ -47,6 +47,11 @@ void AddPictureOptions(CLI::App* command, RenderOptions& options)
     [&options](const std::string& option, const std::string& text)
     { options.Isovalues = ParseNumbers(option, text); })
     ->type_name("A,B,...");
+  AddOption(command, "--slice-plane",
+    "A point and the normal of the plane that --set BlendMode=slice shows of image data",
+    [&options](const std::string& option, const std::string& text)
+    { options.SlicePlane = ParseNumbers(option, text, 6, "X,Y,Z,NX,NY,NZ"); })
+    ->type_name("X,Y,Z,NX,NY,NZ");
   command
     ->add_option("--color-array", options.ColorArray,
       "Colour surfaces by this point array, with --method isosurface or auto; of several "

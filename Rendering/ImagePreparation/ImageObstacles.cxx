@@ -64,12 +64,12 @@ std::string FindObstacle(vtkDataObject* data, const ScalarSelection& selection)
   return "";
 }
 
-std::string FindObstacle(vtkVolumeProperty* property)
+std::string FindObstacle(vtkVolumeProperty* property, ImageBlend blend)
 {
-  if (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D)
+  if (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D &&
+    blend != ImageBlend::Composite)
   {
-    return "the triangle caster has no two-dimensional transfer functions; the property's "
-           "TransferFunctionMode is one";
+    return "the property's TransferFunctionMode is TF_2D, which composite blending has only";
   }
   return "";
 }
@@ -93,11 +93,16 @@ bool HasGradientOpacity(vtkVolumeProperty* property)
   return false;
 }
 
-std::string DescribeUnused(vtkVolumeProperty* property, int numberOfComponents, int vectorMode)
+std::string DescribeUnused(
+  vtkVolumeProperty* property, ImageBlend blend, int numberOfComponents, int vectorMode)
 {
   std::string unused;
   const auto add = [&unused](bool isUnused, const char* text)
   { unused += isUnused ? (unused.empty() ? "" : "; ") + std::string(text) : ""; };
+  add(blend != ImageBlend::Composite && property->GetShade(0) != 0,
+    "Shade is not used: there is light with composite blending only");
+  add(blend != ImageBlend::Composite && HasGradientOpacity(property),
+    "gradient opacity is not used: composite blending has it only");
   add(property->GetNumberOfLabels() > 0, "functions of labels are not used");
   add(numberOfComponents > 1 && vectorMode == DisabledVectorMode,
     property->GetIndependentComponents() != 0

@@ -4,6 +4,7 @@
 
 #include "Intake/ScalarExtraction.h"
 #include "TetraluxRenderingModule.h"
+#include "TriangleCaster/ImageOptics.h"
 
 #include <string>
 
@@ -18,7 +19,7 @@ TETRALUXRENDERING_EXPORT std::string FindObstacle(
   vtkDataObject* data, const ScalarSelection& selection);
 
 /// Why it can't use a property; empty if it can.
-TETRALUXRENDERING_EXPORT std::string FindObstacle(vtkVolumeProperty* property);
+TETRALUXRENDERING_EXPORT std::string FindObstacle(vtkVolumeProperty* property, ImageBlend blend);
 
 /// Whether a property has a function of gradients that changes opacities: VTK's mappers make one
 /// that does not.
@@ -27,7 +28,7 @@ bool HasGradientOpacity(vtkVolumeProperty* property);
 /// What of a property it does not use, in one line; empty if nothing. numberOfComponents: of the
 /// array.
 TETRALUXRENDERING_EXPORT std::string DescribeUnused(
-  vtkVolumeProperty* property, int numberOfComponents, int vectorMode);
+  vtkVolumeProperty* property, ImageBlend blend, int numberOfComponents, int vectorMode);
 
 } // namespace tetralux
 

@@ -2,9 +2,13 @@
 #include "ImagePreparation/ImagePreparation.h"
 
 #include "Base/Stopwatch.h"
+#include "ImagePreparation/ImageBlends.h"
 #include "ImagePreparation/ImageObstacles.h"
+#include "ImagePreparation/ScalarRange.h"
+#include "ImagePreparation/TransferTableFromProperty.h"
 #include "Integral/ErrorBudget.h"
 #include "Preparation/InputSignature.h"
+#include "Preparation/IsosurfacesFromProperty.h"
 #include "Preparation/TransferFunctionFromProperty.h"
 
 #include "vtkImageData.h"
@@ -14,6 +18,7 @@
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -53,6 +58,27 @@ void ClampOpacities(TransferFunction& function)
   }
 }
 
+/// Whether opacities are those of points, not of lengths.
+bool IsOpacityOfPoints(ImageBlend blend)
+{
+  return blend != ImageBlend::Composite && blend != ImageBlend::Additive;
+}
+
+/// What blend modes take from elsewhere than functions.
+void AddBlend(const ImageOptics& optics, CacheKey& key)
+{
+  key.Add(optics.Blend);
+  for (int side = 0; side < 2; ++side)
+  {
+    key.Add(optics.AverageRange[side]);
+    key.Add(optics.GreyRange[side]);
+  }
+  for (const double coefficient : optics.SlicePlane)
+  {
+    key.Add(coefficient);
+  }
+}
+
 /// The gradient opacity of a property, in the place of attenuation; error: receives what
 /// approximating it adds.
 TransferFunction MakeGradientOpacity(
@@ -83,7 +109,7 @@ void ImagePreparation::Update(const ImageInput& input)
   {
     throw std::invalid_argument(FindObstacle(input.Data, input.Scalars));
   }
-  Check(FindObstacle(input.Property));
+  Check(FindObstacle(input.Property, input.Blend));
   const Stopwatch stopwatch;
   if (this->Scalars.Update(image, input.Scalars))
   {
@@ -92,14 +118,28 @@ void ImagePreparation::Update(const ImageInput& input)
     this->Rebuilt.emplace_back("scalars");
   }
   this->Placement = PlaceImage(image);
-  this->PrepareFunction(input);
+  this->PrepareFunction(input, FindSelectedArray(image, input.Scalars));
   this->UnusedWarning.Update(this->Source,
-    DescribeUnused(
-      input.Property, this->Scalars.GetNumberOfComponents(), input.Scalars.VectorMode));
+    DescribeUnused(input.Property, input.Blend, this->Scalars.GetNumberOfComponents(),
+      input.Scalars.VectorMode));
 }
 
-void ImagePreparation::PrepareFunction(const ImageInput& input)
+void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedArray& selected)
 {
+  ImageOptics optics;
+  optics.Blend = input.Blend;
+  std::copy_n(input.AverageRange, 2, optics.AverageRange);
+  if (input.Blend == ImageBlend::Slice)
+  {
+    optics.SlicePlane = GetSlicePlane(input.Property);
+  }
+  const bool hasTable = input.Property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
+  if (hasTable || input.Blend == ImageBlend::AverageIntensity ||
+    input.Blend == ImageBlend::Additive)
+  {
+    const std::array<double, 2> range = FindScalarRange(selected);
+    std::copy_n(range.begin(), 2, optics.GreyRange);
+  }
   double steps[3];
   MeasureSteps(this->Placement, input.Matrix, steps);
   const double longestPath = FindLongestPath(this->Scalars.GetVolume(), steps);
@@ -110,12 +150,26 @@ void ImagePreparation::PrepareFunction(const ImageInput& input)
     std::max(MakeErrorBudget(input.MaximumError, spending).Functions, SmallestFunctionError);
   CacheKey exactKey = GetPropertyKey(input.Property);
   exactKey.Add(input.Opacity);
-  const bool hasGradients = tetralux::HasGradientOpacity(input.Property);
+  AddBlend(optics, exactKey);
+  const bool hasGradients = input.Blend == ImageBlend::Composite && !hasTable &&
+    tetralux::HasGradientOpacity(input.Property);
   exactKey.Add(hasGradients);
-  if (hasGradients)
+  exactKey.Add(hasTable);
+  if (hasGradients || hasTable)
   {
     exactKey.Add(input.Norm);
     exactKey.Add(gradientLength);
+    optics.GradientLength = gradientLength;
+    optics.Norm = input.Norm;
+  }
+  if (hasTable)
+  {
+    vtkImageData* table = input.Property->GetTransferFunction2D();
+    exactKey.Add(table);
+    exactKey.Add(table ? table->GetMTime() : 0);
+  }
+  if (hasGradients)
+  {
     exactKey.Add(input.Property->GetGradientOpacity(0));
     exactKey.Add(input.Property->GetGradientOpacity(0)->GetMTime());
   }
@@ -131,29 +185,45 @@ void ImagePreparation::PrepareFunction(const ImageInput& input)
   this->Function.Reset();
   PropertyTransferFunction function =
     TransferFunctionFromProperty(input.Property, maximumError, longestPath);
-  this->Optics.UnitDistance = input.Property->GetScalarOpacityUnitDistance(0);
-  RemoveUnitDistance(function.Function, this->Optics.UnitDistance);
-  if (input.Opacity == StepOpacity::Power)
+  optics.UnitDistance = input.Property->GetScalarOpacityUnitDistance(0);
+  RemoveUnitDistance(function.Function, optics.UnitDistance);
+  if (input.Opacity == StepOpacity::Power || IsOpacityOfPoints(input.Blend))
   {
     ClampOpacities(function.Function);
   }
-  this->Optics.Function = std::move(function.Function);
-  this->Optics.Opacity = input.Opacity;
+  if (input.Blend == ImageBlend::Isosurfaces)
+  {
+    optics.Surfaces = IsosurfacesFromProperty(input.Property, function.Function);
+  }
+  optics.Function = std::move(function.Function);
+  optics.Opacity = input.Opacity;
   this->FunctionError = function.Error;
-  this->Optics.GradientOpacity = TransferFunction();
   if (hasGradients)
   {
     double error;
-    this->Optics.GradientOpacity =
-      MakeGradientOpacity(input.Property, maximumError, longestPath, error);
-    this->Optics.GradientLength = gradientLength;
-    this->Optics.Norm = input.Norm;
+    optics.GradientOpacity = MakeGradientOpacity(input.Property, maximumError, longestPath, error);
     this->FunctionError += error;
   }
-  this->Caster.SetOptics(this->Optics);
+  optics.Table =
+    TransferTableFromProperty(input.Property, { optics.GreyRange[0], optics.GreyRange[1] });
+  this->Caster.SetOptics(optics);
+  this->Optics = std::move(optics);
   this->Function.Set(this->FunctionError == 0 ? exactKey : key);
   this->FunctionSeconds = stopwatch.GetSeconds();
   this->Rebuilt.emplace_back("transfer function");
+}
+
+double ImagePreparation::GetLargestColor() const
+{
+  double largest = tetralux::GetLargestColor(this->Optics.Function);
+  for (const TransferTable::Entry& entry : this->Optics.Table.Entries)
+  {
+    for (const float channel : entry.Color)
+    {
+      largest = std::max(largest, std::abs(static_cast<double>(channel)));
+    }
+  }
+  return largest;
 }
 
 Json ImagePreparation::DescribeSeconds() const

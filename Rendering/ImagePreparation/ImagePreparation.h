@@ -30,6 +30,8 @@ struct ImageInput
   vtkVolumeProperty* Property = nullptr;
   vtkMatrix4x4* Matrix = nullptr; ///< of the volume: world from data
   ScalarSelection Scalars;
+  ImageBlend Blend = ImageBlend::Composite;
+  double AverageRange[2] = { 0, 0 }; ///< of ImageBlend::AverageIntensity
   StepOpacity Opacity = StepOpacity::Power;
   GradientNorm Norm = GradientNorm::Euclidean;
   double MaximumError = 1e-4; ///< of a channel, 0..1
@@ -50,10 +52,15 @@ public:
 
   const ImagePlacement& GetPlacement() const { return this->Placement; }
   const ImageScalars& GetScalars() const { return this->Scalars; }
-  const TransferFunction& GetFunction() const { return this->Optics.Function; }
+
+  /// The largest channel of a colour of the function or the table, absolute.
+  double GetLargestColor() const;
 
   /// Whether opacities depend on gradients.
-  bool HasGradientOpacity() const { return !this->Optics.GradientOpacity.Nodes.empty(); }
+  bool HasGradientOpacity() const
+  {
+    return !this->Optics.GradientOpacity.Nodes.empty() || !this->Optics.Table.Entries.empty();
+  }
 
   /// Error of a channel by functions that are not piecewise linear.
   double GetFunctionError() const { return this->FunctionError; }
@@ -67,7 +74,7 @@ public:
   Json DescribeInput() const;
 
 private:
-  void PrepareFunction(const ImageInput& input);
+  void PrepareFunction(const ImageInput& input, const SelectedArray& selected);
 
   vtkObject* Source;
   ImagePlacement Placement;

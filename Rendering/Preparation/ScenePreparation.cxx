@@ -6,10 +6,10 @@
 #include "Intake/PointExtraction.h"
 #include "Intake/ScalarExtraction.h"
 #include "Integral/ErrorBudget.h"
+#include "Preparation/IsosurfacesFromProperty.h"
 #include "Preparation/TransferFunctionFromProperty.h"
 #include "View/MeshToWorld.h"
 
-#include "vtkContourValues.h"
 #include "vtkMatrix4x4.h"
 #include "vtkVolumeProperty.h"
 
@@ -28,32 +28,6 @@ double GetLargestScale(const vtkMatrix4x4* worldFromMesh)
   double rows[3][4];
   std::copy_n(worldFromMesh->GetData(), 12, &rows[0][0]);
   return MeasureStretch(rows).Largest;
-}
-
-/// The surfaces of a property, each with colour and opacity at its value.
-std::vector<Isosurface> GetIsosurfaces(
-  vtkVolumeProperty* property, const TransferFunction& opacities)
-{
-  vtkContourValues* values = property->GetIsoSurfaceValues();
-  if (values->GetNumberOfContours() == 0)
-  {
-    throw std::invalid_argument(
-      "the volume property has no IsoSurfaceValues, which the isosurface BlendMode shows");
-  }
-  std::vector<Isosurface> surfaces;
-  for (int i = 0; i < values->GetNumberOfContours(); ++i)
-  {
-    const TransferFunction::Value value = Evaluate(opacities, values->GetValue(i));
-    Isosurface surface;
-    surface.Value = values->GetValue(i);
-    surface.Opacity = static_cast<float>(std::min(value.Attenuation, 1.));
-    for (int c = 0; c < 3; ++c)
-    {
-      surface.Color[c] = static_cast<float>(value.Color[c]);
-    }
-    surfaces.push_back(surface);
-  }
-  return surfaces;
 }
 
 } // namespace
@@ -343,7 +317,7 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   }
   if (settings.Model == OpticalModel::Isosurfaces)
   {
-    this->Scene.Optics.SetIsosurfaces(GetIsosurfaces(input.Property, function.Function));
+    this->Scene.Optics.SetIsosurfaces(IsosurfacesFromProperty(input.Property, function.Function));
   }
   this->Scene.Optics.SetTransferFunction(function.Function, function.Error);
   this->FunctionIsExact = function.Error == 0;

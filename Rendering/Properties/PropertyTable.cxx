@@ -30,6 +30,9 @@ constexpr double SmallestRayBytes = 4096;
 constexpr double LargestRayBytes = 1099511627776;
 constexpr double DefaultRayBytes = 1073741824;
 
+/// The ends of AverageIPScalarRange, VTK_FLOAT_MAX.
+constexpr double LargestAveraged = 1e38F;
+
 constexpr const char* Quality = "Quality";
 constexpr const char* Model = "Optical model";
 constexpr const char* Table = "Pre-integration table";
@@ -71,15 +74,26 @@ MapperProperty MakeSampleDistance(const char* name, double value, const char* me
     "pixels", meaning };
 }
 
+MapperProperty MakeColorFactors(const char* name, const char* meaning)
+{
+  return { name, PropertyType::Real, TriangleCasterKind, Model, true, {}, -Unbounded, Unbounded,
+    { 1, 1, 1 }, "RED,GREEN,BLUE", "", meaning };
+}
+
 std::vector<MapperProperty> MakeProperties()
 {
   return {
     MakeEnumeration("BlendMode", VolumeKinds | TriangleCasterKind, Model, false,
       { { "composite", 0, "emission and absorption" },
-        { "maximum-intensity", 1, "colour and opacity of the largest scalar along a ray",
-          VolumeKinds },
-        { "additive", 4, "emission without absorption", VolumeKinds },
-        { "isosurface", 5, "the surfaces of the property's IsoSurfaceValues", VolumeKinds },
+        { "maximum-intensity", 1, "colour and opacity of the largest scalar along a ray" },
+        { "minimum-intensity", 2, "colour and opacity of the smallest scalar along a ray",
+          TriangleCasterKind },
+        { "average-intensity", 3, "mean of opacity times grey, over AverageIPScalarRange",
+          TriangleCasterKind },
+        { "additive", 4, "emission without absorption; of image data, of opacity times grey" },
+        { "isosurface", 5, "the surfaces of the property's IsoSurfaceValues" },
+        { "slice", 6, "colour and opacity on the plane of the property's SliceFunction",
+          TriangleCasterKind },
         { "absorption", 16, "absorption without emission", VolumeKinds } },
       "What rays gather."),
     { "MaximumError", PropertyType::Real, AllKinds, Quality, false, {}, 0, 1, { 1e-4 }, "", "",
@@ -229,6 +243,21 @@ std::vector<MapperProperty> MakeProperties()
       { { "euclidean", 0, "the Euclidean norm" },
         { "sum", 1, "the sum of its components (Knittel 1999, section 7)" } },
       "Length of a gradient, for gradient opacity."),
+    MakeEnumeration("GradientSource", TriangleCasterKind, Quality, true,
+      { { "on-the-fly", 0, "differences of values, for each sample" },
+        { "bytes", 1, "stored at the points, 8 bits a component (Knittel 1999, section 7)" } },
+      "Where gradients come from."),
+    MakeEnumeration("LightSum", TriangleCasterKind, Quality, true,
+      { { "direct", 0, "for each sample" },
+        { "nearest-entry", 1, "for each direction of a map (Knittel 1999, section 7)" },
+        { "interpolated", 2, "between four directions of that map" } },
+      "How lights are summed up."),
+    MakeColorFactors(
+      "NearColor", "Factors of the colours at the front (Knittel 1999, section 2.2)."),
+    MakeColorFactors("FarColor", "Factors of the colours at the back (Knittel 1999, section 2.2)."),
+    { "AverageIPScalarRange", PropertyType::Real, TriangleCasterKind, Model, false, {}, -Unbounded,
+      Unbounded, { -LargestAveraged, LargestAveraged }, "LEAST,LARGEST", "units of the scalars",
+      "The scalars that BlendMode average-intensity averages." },
     MakeBoolean("PreIntegration", TriangleCasterKind, Quality, true, false,
       "Look up what is between two slices in a table over the scalars at both."),
     MakeBoolean("CorrectOpacity", TriangleCasterKind, Quality, true, true,

@@ -265,14 +265,20 @@ class FailedWork(ToolTest):
             2, "render", "ball.vtu", "--output", "out.png", "--set", "SliceShape=shells",
             says="no property 'SliceShape'",
         )
-        self.expect_failure(
-            2, "render", "ball.vtu", "--output", "out.png", "--method", "triangle-caster",
-            "--isovalues", "0.5", says=["--isovalues", "triangle-caster"],
-        )
-        self.expect_failure(
-            2, "render", "ball.vtu", "--output", "out.png", "--method", "triangle-caster",
-            "--set", "BlendMode=additive", says="not composite (0)",
-        )
+        for arguments, says in [
+            (["--set", "BlendMode=absorption"], "not composite (0)"),
+            (["--set", "BlendMode=isosurface"], "--isovalues"),
+            (["--isovalues", "0.5", "--color-array", "Field"], "--method isosurface"),
+            (["--isovalues", "0.5", "--set", "BlendMode=additive"], "belong together"),
+            (["--set", "BlendMode=slice"], "--slice-plane X,Y,Z,NX,NY,NZ"),
+            (["--slice-plane", "0,0,0,0,0,1"], "BlendMode=slice"),
+            (["--slice-plane", "0,0,0"], "X,Y,Z,NX,NY,NZ"),
+        ]:
+            with self.subTest(arguments=arguments):
+                self.expect_failure(
+                    2, "render", "ball.vtu", "--output", "out.png", "--method", "triangle-caster",
+                    *arguments, says=says,
+                )
         self.expect_failure(
             2, "bench", "ball.vtu", "--setting", "triangle-caster TileSize=8", "--output", "bench",
             says=["--setting", "triangle-caster"],

@@ -134,12 +134,37 @@ class Commands(ToolTest):
         self.assertIn("x 1 .. 7.5", rows["bounds"])
         self.assertIn("unsigned char", rows["point array Field"])
 
+    def test_blend_modes_of_image_data(self):
+        z, y, x = numpy.mgrid[0:9, 0:11, 0:14]
+        self.write_image("image.vti", (7.0 * x + y + z).astype(numpy.float32))
+        named = ["--method", "triangle-caster"]
+        pictures = [self.render_image(*named)[0]]
+        for blend in (
+            ["BlendMode=maximum-intensity"], ["BlendMode=minimum-intensity"],
+            ["BlendMode=average-intensity"], ["BlendMode=additive"],
+            ["BlendMode=average-intensity", "--set", "AverageIPScalarRange=20,50"],
+            ["BlendMode=isosurface", "--isovalues", "30,70"],
+            ["BlendMode=slice", "--slice-plane", "4,4,4,0,0.2,1"],
+        ):
+            with self.subTest(blend=blend):
+                picture, statistics = self.render_image(*named, "--set", *blend)
+                self.assertEqual(statistics["slices"]["blend_mode"], blend[0].split("=")[1])
+                self.assertTrue(all(abs(picture - other).max() > 0.05 for other in pictures))
+                pictures.append(picture)
+        # Isovalues mean isosurfaces, by cells and lit if no method is named.
+        surfaces, statistics = self.render_image(*named, "--isovalues", "30,70")
+        self.assertTrue((surfaces == pictures[-2]).all())
+        _, statistics = self.render_image("--isovalues", "30,70")
+        self.assertEqual(statistics["method"], "isosurface")
+        _, statistics = self.render_image("--set", "BlendMode=average-intensity")
+        self.assertEqual(statistics["method"], "triangle-caster")
+
     def test_image_data_by_cells_where_the_caster_lacks_something(self):
         values = numpy.arange(60, dtype=numpy.float32).reshape(3, 4, 5)
         self.write_image("image.vti", values)
         self.assertEqual(self.render_image()[1]["method"], "triangle-caster")
         for arguments in (
-            ["--isovalues", "20"], ["--set", "BlendMode=additive"], ["--set", "MergePoints=off"],
+            ["--isovalues", "20"], ["--set", "BlendMode=absorption"], ["--set", "MergePoints=off"],
         ):
             with self.subTest(arguments=arguments):
                 _, statistics = self.render_image(*arguments)

@@ -100,7 +100,7 @@ TEST(Methods, TakeTheirSettings)
   EXPECT_FALSE(TakesSettings("ray-cast", 2, { "SliceShape=shells" }));
   // A property that it has, with a value that it has not.
   EXPECT_TRUE(TakesSettings("ray-cast", 0, { "BlendMode=additive" }));
-  EXPECT_FALSE(TakesSettings("triangle-caster", 0, { "BlendMode=additive" }));
+  EXPECT_FALSE(TakesSettings("triangle-caster", 0, { "BlendMode=absorption" }));
   // No threads to set.
   EXPECT_FALSE(TakesSettings("projection", 2, {}));
 }

@@ -27,7 +27,8 @@ CLASSES = {
     ],
     tetralux.vtkTetrahedraIsosurfaceMapper: ["MergePoints", "VectorMode"],
     tetralux.vtkTriangleCasterMapper: [
-        "BlendMode", "GradientNorm", "OpacityModel", "SliceShape", "VectorMode",
+        "BlendMode", "GradientNorm", "GradientSource", "LightSum", "OpacityModel", "SliceShape",
+        "VectorMode",
     ],
     tetralux.vtkPreIntegrationTableSource: ["BlendMode", "Format", "LengthScale", "ScalarAxis"],
     tetralux.vtkMeshedPolyhedraVisibilitySort: ["Order"],
@@ -77,9 +78,7 @@ def test_enumerations():
         for name in names:
             thing = cls()
             accepted = find_accepted(thing, name)
-            # The triangle caster has one BlendMode.
-            least = 1 if (cls, name) == (tetralux.vtkTriangleCasterMapper, "BlendMode") else 2
-            assert len(set(accepted.values())) == len(accepted) >= least, (name, accepted)
+            assert len(set(accepted.values())) == len(accepted) >= 2, (name, accepted)
             for number, text in accepted.items():
                 setter = f"Set{name}To" + text.replace("-", "")
                 matching = [method for method in dir(cls) if method.lower() == setter.lower()]

@@ -6,6 +6,7 @@
 #include "vtkActor.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
+#include "vtkOpenGLGPUVolumeRayCastMapper.h"
 #include "vtkPointData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkSphereSource.h"
@@ -108,6 +109,34 @@ void ImageScene::AddSphere(double x, double y, double z, double radius)
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   this->Renderer->AddActor(actor);
+}
+
+std::vector<int> GrabOfVTK(ImageScene& scene)
+{
+  vtkNew<vtkOpenGLGPUVolumeRayCastMapper> other;
+  other->SetInputDataObject(scene.Mapper->GetDataObjectInput());
+  other->AutoAdjustSampleDistancesOff();
+  other->SetSampleDistance(static_cast<float>(scene.Mapper->GetSampleDistance()));
+  other->SetBlendMode(scene.Mapper->GetBlendMode());
+  other->SetAverageIPScalarRange(scene.Mapper->GetAverageIPScalarRange());
+  scene.Volume->SetMapper(other);
+  scene.Window->Render();
+  std::vector<int> picture = scene.Grab();
+  scene.Volume->SetMapper(scene.Mapper);
+  return picture;
+}
+
+double FindShareAbove(
+  const std::vector<int>& picture, const std::vector<int>& expected, int tolerance)
+{
+  EXPECT_EQ(picture.size(), expected.size());
+  EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 100);
+  double count = 0;
+  for (std::size_t i = 0; i < std::min(picture.size(), expected.size()); ++i)
+  {
+    count += std::abs(picture[i] - expected[i]) > tolerance ? 1 : 0;
+  }
+  return count / static_cast<double>(picture.size());
 }
 
 double FindDifference(const std::vector<float>& picture, const std::vector<float>& expected)

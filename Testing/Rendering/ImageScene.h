@@ -59,6 +59,15 @@ public:
   vtkNew<vtkPiecewiseFunction> Opacity;
 };
 
+/// What vtkOpenGLGPUVolumeRayCastMapper shows of the input, the BlendMode and the property of a
+/// scene's mapper, with its SampleDistance, as ImageScene::Grab has it.
+std::vector<int> GrabOfVTK(ImageScene& scene);
+
+/// Share of the channels of two pictures of 0..255, of which the second one shows something, that
+/// differ by more than a tolerance.
+double FindShareAbove(
+  const std::vector<int>& picture, const std::vector<int>& expected, int tolerance);
+
 /// The largest difference of two pictures, of which the second one shows something.
 double FindDifference(const std::vector<float>& picture, const std::vector<float>& expected);
 

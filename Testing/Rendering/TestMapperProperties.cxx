@@ -100,7 +100,9 @@ std::vector<double> ChooseOther(const MapperProperty& property, unsigned kind)
 {
   if (property.Default.size() > 1)
   {
-    return { -1, 2.5, 3, 4, 5, 6 };
+    std::vector<double> values = { -1, 2.5, 3, 4, 5, 6 };
+    values.resize(property.Default.size());
+    return values;
   }
   const double value = property.Default.front();
   if (property.Type == PropertyType::Enumeration)
@@ -316,8 +318,10 @@ TEST_F(MapperProperties, NamesAreThoseOfTheEnumerators)
   expect("BlendMode",
     { { Mapper::COMPOSITE_BLEND, "composite" },
       { Mapper::MAXIMUM_INTENSITY_BLEND, "maximum-intensity" },
+      { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, "minimum-intensity" },
+      { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, "average-intensity" },
       { Mapper::ADDITIVE_BLEND, "additive" }, { Mapper::ISOSURFACE_BLEND, "isosurface" },
-      { Mapper::ABSORPTION_BLEND, "absorption" } });
+      { vtkVolumeMapper::SLICE_BLEND, "slice" }, { Mapper::ABSORPTION_BLEND, "absorption" } });
   expect("Integration",
     { { Mapper::AUTOMATIC_INTEGRATION, "automatic" },
       { Mapper::CLOSED_FORM_INTEGRATION, "closed-form" }, { Mapper::TABLE_INTEGRATION, "table" } });
@@ -342,6 +346,11 @@ TEST_F(MapperProperties, NamesAreThoseOfTheEnumerators)
   using Caster = vtkTriangleCasterMapper;
   expect("SliceShape", { { Caster::PLANE_SLICES, "planes" }, { Caster::SHELL_SLICES, "shells" } });
   expect("GradientNorm", { { Caster::EUCLIDEAN_NORM, "euclidean" }, { Caster::SUM_NORM, "sum" } });
+  expect("GradientSource",
+    { { Caster::ON_THE_FLY_GRADIENTS, "on-the-fly" }, { Caster::BYTE_GRADIENTS, "bytes" } });
+  expect("LightSum",
+    { { Caster::DIRECT_SUM, "direct" }, { Caster::NEAREST_ENTRY_SUM, "nearest-entry" },
+      { Caster::INTERPOLATED_SUM, "interpolated" } });
   expect("OpacityModel",
     { { Caster::POWER_OPACITY, "power" }, { Caster::ATTENUATION_OPACITY, "attenuation" } });
   EXPECT_EQ(static_cast<int>(Caster::MAGNITUDE_MODE), static_cast<int>(Mapper::MAGNITUDE_MODE));
@@ -437,16 +446,44 @@ TEST_F(MapperProperties, IsosurfacesHaveNoneOfVolumes)
   }
 }
 
-// Of the blend modes of vtkVolumeMapper there is one.
-TEST_F(MapperProperties, CasterRefusesOtherBlendModes)
+// Image data have the blend modes of vtkVolumeMapper, and cells some of them and one more.
+TEST_F(MapperProperties, BlendModesOfOtherMappersAreRefused)
 {
   Errors errors(this->Caster);
-  this->Caster->SetBlendModeToMaximumIntensity();
+  this->Caster->SetBlendMode(Mapper::ABSORPTION_BLEND);
   EXPECT_EQ(this->Caster->GetBlendMode(), vtkVolumeMapper::COMPOSITE_BLEND);
   ASSERT_EQ(errors.Texts.size(), 1u);
-  EXPECT_NE(errors.Texts[0].find("BlendMode: 1 is not composite (0)"), std::string::npos)
+  EXPECT_NE(errors.Texts[0].find("BlendMode: 16 is not composite (0)"), std::string::npos)
     << errors.Texts[0];
   EXPECT_STREQ(this->Caster->GetBlendModeAsString(), "composite");
+
+  Errors others(this->RayCast);
+  this->RayCast->SetBlendMode(vtkVolumeMapper::SLICE_BLEND);
+  EXPECT_EQ(this->RayCast->GetBlendMode(), Mapper::COMPOSITE_BLEND);
+  ASSERT_EQ(others.Texts.size(), 1u);
+  EXPECT_NE(others.Texts[0].find("BlendMode: 6 is not composite (0)"), std::string::npos)
+    << others.Texts[0];
+}
+
+TEST_F(MapperProperties, DepthCuesRefuseWhatIsNotFinite)
+{
+  Errors errors(this->Caster);
+  this->Caster->SetNearColor(1, NaN, 1);
+  this->Caster->SetFarColor(1, 1, std::numeric_limits<double>::infinity());
+  ASSERT_EQ(errors.Texts.size(), 2u);
+  EXPECT_NE(errors.Texts[0].find("NearColor"), std::string::npos) << errors.Texts[0];
+  EXPECT_NE(errors.Texts[1].find("FarColor"), std::string::npos) << errors.Texts[1];
+  EXPECT_EQ(FindPrinted(this->Caster, "FarColor"), "1, 1, 1");
+}
+
+TEST_F(MapperProperties, AverageIPScalarRangeRefusesNaN)
+{
+  Errors errors(this->Caster);
+  this->Caster->SetAverageIPScalarRange(2, NaN);
+  ASSERT_EQ(errors.Texts.size(), 1u);
+  EXPECT_NE(errors.Texts[0].find("AverageIPScalarRange: nan"), std::string::npos);
+  this->Caster->SetAverageIPScalarRange(2, 3);
+  EXPECT_EQ(FindPrinted(this->Caster, "AverageIPScalarRange"), "2, 3");
 }
 
 TEST(PropertiesOfOthers, TheTableSourceRefusesWhatItCannotTabulate)
