@@ -369,8 +369,7 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
 template <class ChooseT>
 ImageKernel ChooseType(const ImageKernelInput& in, const ChooseT& choose)
 {
-  // Branches differ by the type of a zero.
-  // NOLINTNEXTLINE(bugprone-branch-clone)
+  // Branches differ by the type of a zero. NOLINTBEGIN(bugprone-branch-clone)
   switch (in.Type)
   {
     case ImageScalar::Int8:
@@ -384,6 +383,7 @@ ImageKernel ChooseType(const ImageKernelInput& in, const ChooseT& choose)
     default:
       return choose(float());
   }
+  // NOLINTEND(bugprone-branch-clone)
 }
 
 } // namespace
