@@ -207,15 +207,15 @@ struct BoundedBlock
 {
   float Bound;
   std::int32_t Block;
-};
 
-/// The largest bound first.
-TETRALUX_NOINLINE void SortByBound(std::vector<BoundedBlock>& blocks)
-{
-  std::sort(blocks.begin(), blocks.end(),
-    [](const BoundedBlock& a, const BoundedBlock& b)
-    { return a.Bound > b.Bound || (a.Bound == b.Bound && a.Block < b.Block); });
-}
+  /// The largest bound first.
+  static TETRALUX_NOINLINE void Sort(std::vector<BoundedBlock>& blocks)
+  {
+    std::sort(blocks.begin(), blocks.end(),
+      [](const BoundedBlock& a, const BoundedBlock& b)
+      { return a.Bound > b.Bound || (a.Bound == b.Bound && a.Block < b.Block); });
+  }
+};
 
 /// As CastTriangle, for models that do not depend on the order of slabs: blocks that may have the
 /// best samples come first, so that others need not be cast.
@@ -236,7 +236,7 @@ void CastBestFirst(const ImageKernelInput& in, const TileBeam& beam,
     }
     order.push_back({ bound, block });
   }
-  SortByBound(order);
+  BoundedBlock::Sort(order);
   for (const BoundedBlock& next : order)
   {
     bool settled = true;
@@ -369,6 +369,7 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
 template <class ChooseT>
 ImageKernel ChooseType(const ImageKernelInput& in, const ChooseT& choose)
 {
+  // Branches differ by the type of a zero. NOLINTBEGIN(bugprone-branch-clone)
   switch (in.Type)
   {
     case ImageScalar::Int8:
@@ -382,6 +383,7 @@ ImageKernel ChooseType(const ImageKernelInput& in, const ChooseT& choose)
     default:
       return choose(float());
   }
+  // NOLINTEND(bugprone-branch-clone)
 }
 
 } // namespace
