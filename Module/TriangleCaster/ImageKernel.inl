@@ -42,19 +42,25 @@ void CastSlice(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& 
   }
 }
 
-/// The kernel of a model, with the fastest lookup for the transfer function.
+/// The kernel of a model that does more than look samples up, so that the fastest lookup of few
+/// intervals is not worth a kernel.
 template <class Value, template <class, class> class Model>
 ImageKernel ChooseLookup(const ImageKernelInput& in)
+{
+  return in.Transfer.Count <= TransferLookup::MostFew
+    ? &CastTile<Value, Model<Value, FewIntervals<TransferLookup::MostFew>>>
+    : &CastTile<Value, Model<Value, ManyIntervals>>;
+}
+
+/// The kernel of a model, with the fastest lookup for the transfer function.
+template <class Value, template <class, class> class Model>
+ImageKernel ChooseFastestLookup(const ImageKernelInput& in)
 {
   if (in.Transfer.Count <= LaneCount)
   {
     return &CastTile<Value, Model<Value, FewIntervals<LaneCount>>>;
   }
-  if (in.Transfer.Count <= TransferLookup::MostFew)
-  {
-    return &CastTile<Value, Model<Value, FewIntervals<TransferLookup::MostFew>>>;
-  }
-  return &CastTile<Value, Model<Value, ManyIntervals>>;
+  return ChooseLookup<Value, Model>(in);
 }
 
 template <class Value>
@@ -84,8 +90,8 @@ ImageKernel ChooseModel(const ImageKernelInput& in)
         return ChooseLookup<Value, PreparedComposite>(in);
       }
       return in.Lighting || in.GradientTransfer.Count > 0
-        ? ChooseLookup<Value, GradientComposite>(in)
-        : ChooseLookup<Value, PlainComposite>(in);
+        ? ChooseFastestLookup<Value, GradientComposite>(in)
+        : ChooseFastestLookup<Value, PlainComposite>(in);
   }
 }
 
