@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # All tests, from a fresh machine: installs what is missing, builds, runs every test, the core tests
 # once more under the sanitizers but for those of numbers alone, and the checks of format, text and
-# static analysis. Warnings of
-# the compiler are errors.
+# static analysis. Warnings of the compiler are errors.
 # TETRALUX_DATA: a folder with the data sets that some tests need; without it they are skipped.
 # Ends with "N passed, N failed"; the exit status is 0 where none failed.
 set -uo pipefail
