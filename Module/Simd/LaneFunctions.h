@@ -49,7 +49,7 @@ TETRALUX_INLINE Float8 MinusLogOfRest(Float8 x)
   // As MinusLog of 1 - x. Near 0 the difference is rounded, but 1 - m is not there.
   constexpr float Mantissa = 8388608.f; // 2^23
   const Float8 one = 1.f;
-  const Float8 rest = one - x;
+  const Float8 rest = Max(one - x, Float8(1e-30f)); // a normal number, whatever x is
   const Int8 bits = ToBits(rest);
   const Int8 n = RoundToInt(ToFloat(bits - ToBits(one)) * Float8(1 / Mantissa));
   const Float8 m = FromBits(bits - ShiftLeft(n, 23));

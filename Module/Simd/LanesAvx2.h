@@ -348,9 +348,14 @@ TETRALUX_INLINE void GatherNeighbors(const float* base, Int8 index, Float8& firs
   alignas(32) std::uint32_t i[LaneCount];
   Store(reinterpret_cast<std::int32_t*>(i), index);
   KeepInMemory(i);
-  const auto at = [&](int lane) { return reinterpret_cast<const double*>(base + i[lane]); };
-  const auto two = [&](int a, int b)
-  { return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(at(a)), at(b))); };
+  // Pairs are aligned as one float is.
+  const auto at = [&](int lane)
+  {
+    double pair;
+    std::memcpy(&pair, base + i[lane], sizeof(pair));
+    return pair;
+  };
+  const auto two = [&](int a, int b) { return _mm_castpd_ps(_mm_set_pd(at(b), at(a))); };
   const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
   const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
   first.v = _mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0));
