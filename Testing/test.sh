@@ -91,7 +91,8 @@ check_text() {
 # The build's -Werror is taken back, since it makes errors of warnings in VTK's own headers, too.
 check_statically() {
   sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' build/compile_commands.json | grep -v "^$PWD/build" |
-    grep -v 'KernelAvx[0-9]*\.cxx$' | sort -u | xargs -P 2 -n 1 clang-tidy -p build --quiet --extra-arg=-Wno-error
+    grep -v 'KernelAvx[0-9]*\.cxx$' | sort -u |
+    xargs -P 2 -n 1 clang-tidy -p build --quiet --extra-arg=-Wno-error
 }
 
 require "setup" Examples/setup.sh test

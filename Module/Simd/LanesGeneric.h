@@ -183,8 +183,7 @@ TETRALUX_INLINE Int8 ShiftLeft(Int8 a, int bits)
 }
 TETRALUX_INLINE Int8 ShiftLeft(Int8 a, Int8 bits)
 {
-  return Int8::Each(
-    [&](int i)
+  return Int8::Each([&](int i)
     { return static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v[i]) << bits.v[i]); });
 }
 TETRALUX_INLINE Int8 ShiftRight(Int8 a, int bits)
