@@ -84,7 +84,8 @@ void GpuSegmentTable::Update(vtkOpenGLRenderWindow* window, const PreIntegration
   const int filter = this->HardwareFiltering ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
   this->Texture->SetMinificationFilter(filter);
   this->Texture->SetMagnificationFilter(filter);
-  if (this->Bytes > 0 && version == this->Version)
+  // Of a window that has gone nothing is left.
+  if (this->Bytes > 0 && this->Texture->GetContext() && version == this->Version)
   {
     return;
   }

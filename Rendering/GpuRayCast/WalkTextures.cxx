@@ -3,7 +3,6 @@
 
 #include "OpenGL/GraphicsCard.h"
 
-#include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
 
 #include <utility>

@@ -9,11 +9,13 @@
 #include "Walk/WalkMesh.h"
 #include "Walk/WalkTexels.h"
 
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkWeakPointer.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
-class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 class vtkWindow;
 
@@ -80,7 +82,7 @@ private:
   std::size_t NumberOfPoints = 0;
   int NumberOfNodes = 0;
   int NumberOfEntries = 0;
-  vtkOpenGLRenderWindow* Window = nullptr; ///< only compared
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< that has the tables
   CacheStamp FacesStamp;
   CacheStamp BoundaryStamp;
   CacheStamp PointsStamp;

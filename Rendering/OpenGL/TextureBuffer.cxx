@@ -46,6 +46,8 @@ TextureBuffer::TextureBuffer()
 {
 }
 
+bool TextureBuffer::IsEmpty() const { return this->Bytes == 0 || !this->Texture->GetContext(); }
+
 TextureBuffer::~TextureBuffer() { this->ReleaseBuffer(); }
 
 void TextureBuffer::ReleaseBuffer()

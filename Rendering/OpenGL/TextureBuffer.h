@@ -40,7 +40,8 @@ public:
     int components, const std::string& what);
   ///@}
 
-  bool IsEmpty() const { return this->Bytes == 0; }
+  /// Also once its window has gone, and all that was in its context.
+  bool IsEmpty() const;
   std::size_t GetNumberOfBytes() const { return this->Bytes; }
 
   /// Binds the array to a texture unit and the program's sampler to that; Deactivate gives the unit
