@@ -129,8 +129,12 @@ ImageError EstimateImageError(ImageCaster& caster, const RayGrid& grid, const Ra
   const ImageCasterOptions& options, Span<const float> colors)
 {
   const RayLattice lattice(grid, limits);
+  // Samples and slabs come to the same, and a table of other slabs would take the place of the one
+  // that the next picture needs.
+  ImageCasterOptions samples = options;
+  samples.PreIntegrated = false;
   const std::vector<float> fine =
-    CastLattice(caster, lattice, options, options.SampleDistance / Refinement, 0);
+    CastLattice(caster, lattice, samples, options.SampleDistance / Refinement, 0);
   const int width = lattice.Grid.Width;
   return Compare(
     lattice.GetNumberOfRays(),

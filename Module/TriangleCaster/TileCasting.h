@@ -298,8 +298,9 @@ inline int TakePixels(const Tile& box, int triangle, ImageRays* rays)
       {
         const int px = x + l % Columns;
         const int py = y + l / Columns;
-        const int side = px - box.X0 < py - box.Y0 ? 1 : 0;
-        if (px < box.X1 && py < box.Y1 && (triangle < 0 || side == triangle))
+        const bool inside = px < box.X1 && py < box.Y1;
+        const int side = GetTriangleOfPixel(px - box.X0, py - box.Y0);
+        if (inside && (triangle < 0 || side == triangle))
         {
           rays[pixels / LaneCount].X[pixels % LaneCount] = px;
           rays[pixels / LaneCount].Y[pixels % LaneCount] = py;
