@@ -8,7 +8,8 @@ def picture(mapper):
     rgba has the shape (height, width, 4): premultiplied colours and opacity, without a background.
     depth has the shape (height, width): world units along the ray to its first contribution, -1 if
     it has none. The first row is the bottom one. Both are copies, which the next frame leaves as
-    they are. They are empty before the first frame and after one that failed. Needs numpy.
+    they are. They are empty before the first frame, after one that failed or was aborted, and once
+    the mapper's window was closed. Needs numpy.
     """
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy

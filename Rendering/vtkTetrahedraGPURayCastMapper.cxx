@@ -14,6 +14,7 @@
 #include "GpuRayCast/PixelProjection.h"
 #include "GpuRayCast/WalkTextures.h"
 #include "Integral/SegmentWeightError.h"
+#include "OpenGL/ContextResources.h"
 #include "OpenGL/GraphicsCard.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
@@ -27,7 +28,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +56,15 @@ class vtkTetrahedraGPURayCastMapper::Internals
 public:
   explicit Internals(vtkTetrahedraGPURayCastMapper* self)
     : Self(self)
+    , Context(
+        [this](vtkOpenGLRenderWindow* window)
+        {
+          this->Mesh.ReleaseGraphicsResources(window);
+          this->Integral.ReleaseGraphicsResources(window);
+          this->Limits.ReleaseGraphicsResources(window);
+          this->Caster.ReleaseGraphicsResources(window);
+          this->Compositor.ReleaseGraphicsResources(window);
+        })
   {
   }
 
@@ -63,7 +72,7 @@ public:
 
   bool IsSupported(vtkRenderWindow* window);
 
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
   std::string SupportReason;
 
@@ -78,7 +87,6 @@ private:
     const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
 
   vtkTetrahedraGPURayCastMapper* Self;
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< that has the resources
   tetralux::WalkTextures Mesh;
   tetralux::GpuSegmentIntegral Integral;
   tetralux::GpuRayLimits Limits;
@@ -87,6 +95,7 @@ private:
   tetralux::ImageCompositor Compositor;
 
   tetralux::Cached<std::vector<std::uint8_t>> Positive; ///< orientation of the mesh's cells
+  tetralux::ContextResources Context;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -108,12 +117,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   const double geometryError =
     scene.EstimateGeometryError(worldRadius, tetralux::RayShaderRounding);
 
-  if (this->Window && this->Window != frame.Window)
-  {
-    this->ReleaseGraphicsResources(this->Window);
-    frame.Window->MakeCurrent(); // releasing may have made the other one current
-  }
-  this->Window = frame.Window;
+  this->Context.Set(frame.Window);
 
   const tetralux::Stopwatch uploadStopwatch;
   GpuReentry reentry = GpuReentry::Boundary;
@@ -180,15 +184,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   {
     frame.ReportProgress(1); // too late to abort
     this->Composite(frame.Window, rays.GetVisible());
-    frame.ReadPicture = [this, window = vtkWeakPointer<vtkOpenGLRenderWindow>(frame.Window)](
-                          vtkImageData* image)
+    frame.ReadPicture = [this](vtkImageData* image)
     {
-      if (!window || this->Window != window)
-      {
-        image->Initialize(); // it went with its window
-        return;
-      }
-      window->MakeCurrent();
+      this->Context.Get()->MakeCurrent();
       this->Read(image);
     };
   }
@@ -426,17 +424,6 @@ void vtkTetrahedraGPURayCastMapper::Internals::Composite(
     this->Compositor.Composite(
       window, rectangle, picture.GetBand(band).GetTexture(tetralux::RayPicture::Colors));
   }
-}
-
-//------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::Internals::ReleaseGraphicsResources(vtkWindow* window)
-{
-  this->Mesh.ReleaseGraphicsResources(window);
-  this->Integral.ReleaseGraphicsResources(window);
-  this->Limits.ReleaseGraphicsResources(window);
-  this->Caster.ReleaseGraphicsResources(window);
-  this->Compositor.ReleaseGraphicsResources(window);
-  this->Window = nullptr;
 }
 
 //------------------------------------------------------------------------------------------------

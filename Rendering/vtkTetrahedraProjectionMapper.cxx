@@ -23,7 +23,6 @@
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -210,14 +209,8 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
     this->Compositor.Composite(frame.Window, rays.GetVisible(), this->Picture.GetTexture());
     frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
   }
-  frame.ReadPicture = [this, window = vtkWeakPointer<vtkOpenGLRenderWindow>(frame.Window)](
-                        vtkImageData* image)
+  frame.ReadPicture = [this, window = frame.Window](vtkImageData* image)
   {
-    if (!window || !this->Picture.IsOf(window))
-    {
-      image->Initialize(); // it went with its window
-      return;
-    }
     window->MakeCurrent();
     Span<float> colors, depths;
     MapperFrame::PrepareImage(

@@ -476,9 +476,10 @@ public:
    * each ray, bottom row first, over the viewport, or the part of it in the window. Point arrays
    * RGBA, the scalars: four floats, premultiplied, without any background; Depth: a float, distance
    * along the ray in world units, from the camera or in a parallel projection from the plane
-   * through it, to the near end of the first slab that contributes, -1 where there is none. Empty
-   * before the first frame and after one that failed; incomplete after one that was aborted.
-   * Belongs to the mapper, which overwrites it in the next frame.
+   * through it, to the near end of the first slab that contributes, -1 where there is none. Belongs
+   * to the mapper, which overwrites it in the next frame. Empty before the first frame, after one
+   * that failed or was aborted, and once its window was closed or the volume was removed from the
+   * renderer.
    */
   vtkImageData* GetOutputImage();
 

@@ -43,6 +43,7 @@ Json Describe(const ErrorBudget& budget)
 
 FrameRecord::FrameRecord(vtkAbstractVolumeMapper* mapper)
   : Mapper(mapper)
+  , Context([this](vtkOpenGLRenderWindow*) { this->ClearPicture(); })
 {
 }
 
@@ -81,10 +82,15 @@ void FrameRecord::Render(const std::function<void()>& draw, double& seconds)
   this->Mapper->InvokeEvent(vtkCommand::VolumeMapperRenderEndEvent);
 }
 
-void FrameRecord::Clear()
+void FrameRecord::ClearPicture()
 {
   this->ReadPicture = nullptr;
   this->Image->Initialize();
+}
+
+void FrameRecord::Clear()
+{
+  this->ClearPicture();
   this->ErrorEstimate = 0;
   this->Statistics = "{}";
 }
@@ -99,6 +105,7 @@ MapperFrame FrameRecord::Begin(vtkRenderer* renderer, vtkVolume* volume)
   {
     throw std::invalid_argument("the renderer has no OpenGL render window");
   }
+  this->Context.Set(frame.Window);
   frame.Image = this->Image;
   frame.Progress = [this, window = frame.Window](double fraction)
   { return this->ReportProgress(window, vtkCommand::VolumeMapperRenderProgressEvent, fraction); };
@@ -114,7 +121,14 @@ bool FrameRecord::ReportProgress(vtkRenderWindow* window, unsigned long event, d
 void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebuilt, Json seconds,
   double frameSeconds, const Json& sections)
 {
-  this->ReadPicture = frame.ReadPicture;
+  if (frame.Aborted)
+  {
+    this->ClearPicture(); // of which rays were not cast
+  }
+  else
+  {
+    this->ReadPicture = frame.ReadPicture;
+  }
   for (const auto& [name, value] : frame.Seconds)
   {
     seconds[name] = value;

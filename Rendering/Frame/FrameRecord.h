@@ -2,6 +2,7 @@
 #ifndef tetralux_FrameRecord_h
 #define tetralux_FrameRecord_h
 
+#include "OpenGL/ContextResources.h"
 #include "Report/Json.h"
 #include "Report/OnceWarning.h"
 #include "TetraluxRenderingModule.h"
@@ -19,6 +20,7 @@ class vtkImageData;
 class vtkRenderWindow;
 class vtkRenderer;
 class vtkVolume;
+class vtkWindow;
 
 namespace tetralux
 {
@@ -26,7 +28,9 @@ namespace tetralux
 struct MapperFrame;
 
 /// What a mapper's last frame left behind, whatever the mapper renders: picture, statistics and the
-/// estimated error. Invokes the events of frames, and gives each error and warning of them once.
+/// estimated error. A picture that is on the graphics card goes with its window, and so does one
+/// that was made on the processor. Invokes the events of frames, and gives each error and warning
+/// of them once.
 class TETRALUXRENDERING_EXPORT FrameRecord
 {
 public:
@@ -58,10 +62,14 @@ public:
   void Write(MapperFrame& frame, const std::vector<std::string>& rebuilt, Json seconds,
     double frameSeconds, const Json& sections);
 
-  /// Of the last frame; empty before the first one and after one that failed.
+  /// Of the last frame; empty before the first one, after one that failed or was aborted, and once
+  /// the window's context has ended or its resources were released.
   vtkImageData* GetPicture();
   const std::string& GetStatistics() const { return this->Statistics; }
   double GetErrorEstimate() const { return this->ErrorEstimate; }
+
+  /// window: the one that goes away, with the picture.
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
   /// For PrintSelf.
   void PrintStatistics(std::ostream& os, vtkIndent indent) const;
@@ -72,6 +80,7 @@ public:
 
 private:
   void Clear();
+  void ClearPicture();
   void WarnOfError(const MapperFrame& frame);
 
   vtkAbstractVolumeMapper* Mapper;
@@ -81,6 +90,7 @@ private:
   std::string Statistics = "{}";
   std::string LastError;
   OnceWarning ErrorWarning;
+  ContextResources Context; ///< of the window that the picture is of
 };
 
 } // namespace tetralux

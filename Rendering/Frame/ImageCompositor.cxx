@@ -20,14 +20,26 @@
 namespace tetralux
 {
 
-ImageCompositor::ImageCompositor() = default;
+ImageCompositor::ImageCompositor()
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        this->Texture->ReleaseGraphicsResources(window);
+        this->ByteTexture->ReleaseGraphicsResources(window);
+        this->DepthTexture->ReleaseGraphicsResources(window);
+        this->Quad.reset();
+        this->DepthQuad.reset();
+        this->OpaqueQuad.reset();
+      })
+{
+}
 
-ImageCompositor::~ImageCompositor() { this->ReleaseGraphicsResources(this->Window); }
+ImageCompositor::~ImageCompositor() = default;
 
 void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
   const float* colors, int width, int height, const PixelRectangle& covered)
 {
-  this->SetWindow(window);
+  this->Context.Set(window);
   const PixelRectangle target =
     this->Upload(rectangle, { colors, VTK_FLOAT, 4, width, height }, covered, this->Texture);
   this->Composite(window, target, this->Texture);
@@ -36,7 +48,7 @@ void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectan
 void ImageCompositor::WriteDepth(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
   const float* depths, int width, int height, const PixelRectangle& covered)
 {
-  this->SetWindow(window);
+  this->Context.Set(window);
   const PixelRectangle target =
     this->Upload(rectangle, { depths, VTK_FLOAT, 1, width, height }, covered, this->DepthTexture);
   this->DrawDepth(target, this->DepthQuad, CompositeDepthFS, nullptr);
@@ -46,7 +58,7 @@ void ImageCompositor::CompositeOpaque(vtkOpenGLRenderWindow* window,
   const PixelRectangle& rectangle, const std::uint8_t* colors, const float* depths, int width,
   int height, const PixelRectangle& covered)
 {
-  this->SetWindow(window);
+  this->Context.Set(window);
   this->Upload(rectangle, { depths, VTK_FLOAT, 1, width, height }, covered, this->DepthTexture);
   const PixelRectangle target = this->Upload(
     rectangle, { colors, VTK_UNSIGNED_CHAR, 4, width, height }, covered, this->ByteTexture);
@@ -59,7 +71,7 @@ void ImageCompositor::CompositeOpaque(vtkOpenGLRenderWindow* window,
 void ImageCompositor::DrawDepth(const PixelRectangle& target,
   std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader, vtkTextureObject* colors)
 {
-  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState* state = this->Context.Get()->GetState();
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   const vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
@@ -92,8 +104,8 @@ PixelRectangle ImageCompositor::Upload(const PixelRectangle& rectangle, const Me
   const bool sameSize = memory.Width == rectangle.Width && memory.Height == rectangle.Height;
   const PixelRectangle part =
     sameSize ? covered : PixelRectangle{ 0, 0, memory.Width, memory.Height };
-  const vtkOpenGLState::ScopedglActiveTexture unit(this->Window->GetState());
-  texture->SetContext(this->Window);
+  const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
+  texture->SetContext(this->Context.Get());
   texture->SetWrapS(vtkTextureObject::ClampToEdge);
   texture->SetWrapT(vtkTextureObject::ClampToEdge);
   const std::size_t bytes = memory.Components * (memory.Type == VTK_FLOAT ? sizeof(float) : 1);
@@ -114,23 +126,10 @@ PixelRectangle ImageCompositor::Upload(const PixelRectangle& rectangle, const Me
     : rectangle;
 }
 
-void ImageCompositor::SetWindow(vtkOpenGLRenderWindow* window)
-{
-  if (this->Window != window)
-  {
-    this->ReleaseGraphicsResources(this->Window);
-    // Also where the last window is no more.
-    this->Quad.reset();
-    this->DepthQuad.reset();
-    this->OpaqueQuad.reset();
-    this->Window = window;
-  }
-}
-
 void ImageCompositor::Composite(
   vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle, vtkTextureObject* picture)
 {
-  this->SetWindow(window);
+  this->Context.Set(window);
   vtkOpenGLState* state = window->GetState();
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
@@ -161,7 +160,7 @@ void ImageCompositor::Composite(
 void ImageCompositor::Draw(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader,
   vtkTextureObject* picture, vtkTextureObject* depths)
 {
-  vtkOpenGLRenderWindow* window = this->Window;
+  vtkOpenGLRenderWindow* window = this->Context.Get();
   if (!quad)
   {
     quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, shader, "");
@@ -189,21 +188,6 @@ void ImageCompositor::Draw(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const cha
       texture->Deactivate();
     }
   }
-}
-
-void ImageCompositor::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (!this->Window || window != this->Window)
-  {
-    return;
-  }
-  this->Texture->ReleaseGraphicsResources(window);
-  this->ByteTexture->ReleaseGraphicsResources(window);
-  this->DepthTexture->ReleaseGraphicsResources(window);
-  this->Quad.reset();
-  this->DepthQuad.reset();
-  this->OpaqueQuad.reset();
-  this->Window = nullptr;
 }
 
 } // namespace tetralux

@@ -3,10 +3,10 @@
 #define tetralux_ImageCompositor_h
 
 #include "Frame/CameraRays.h"
+#include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"
-#include "vtkWeakPointer.h"
 
 #include <cstdint>
 #include <memory>
@@ -55,7 +55,7 @@ public:
     const PixelRectangle& covered);
 
   /// window: the one that goes away.
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
   /// A picture, lower row first.
@@ -68,7 +68,6 @@ private:
     int Height;
   };
 
-  void SetWindow(vtkOpenGLRenderWindow* window);
   PixelRectangle Upload(const PixelRectangle& rectangle, const Memory& memory,
     const PixelRectangle& covered, vtkTextureObject* texture);
   void DrawDepth(const PixelRectangle& target, std::unique_ptr<vtkOpenGLQuadHelper>& quad,
@@ -76,7 +75,6 @@ private:
   void Draw(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader,
     vtkTextureObject* picture, vtkTextureObject* depths);
 
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   // One for each type: a texture object keeps the first one that it is made of.
   vtkNew<vtkTextureObject> Texture;
   vtkNew<vtkTextureObject> ByteTexture;
@@ -84,6 +82,7 @@ private:
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   std::unique_ptr<vtkOpenGLQuadHelper> DepthQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> OpaqueQuad;
+  ContextResources Context;
 };
 
 } // namespace tetralux

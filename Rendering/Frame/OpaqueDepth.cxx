@@ -65,17 +65,22 @@ DepthFormat FindDepthFormat(bool windowsOwn)
 
 } // namespace
 
-OpaqueDepth::OpaqueDepth() = default;
+OpaqueDepth::OpaqueDepth()
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        this->Framebuffer->ReleaseGraphicsResources(window);
+        this->Texture->ReleaseGraphicsResources(window);
+        this->Bytes = 0;
+      })
+{
+}
 
 OpaqueDepth::~OpaqueDepth() = default;
 
 void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle)
 {
-  if (this->Framebuffer->GetContext() && this->Framebuffer->GetContext() != window)
-  {
-    this->ReleaseGraphicsResources(this->Framebuffer->GetContext());
-    window->MakeCurrent();
-  }
+  this->Context.Set(window);
   while (glGetError() != GL_NO_ERROR) // of others
   {
   }
@@ -132,16 +137,6 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
     throw std::runtime_error("the depth buffer could not be copied");
   }
   this->Bytes = format.Bytes * width * height;
-}
-
-void OpaqueDepth::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (this->Framebuffer->GetContext() == window)
-  {
-    this->Framebuffer->ReleaseGraphicsResources(window);
-    this->Texture->ReleaseGraphicsResources(window);
-    this->Bytes = 0;
-  }
 }
 
 } // namespace tetralux

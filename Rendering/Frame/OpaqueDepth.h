@@ -3,6 +3,7 @@
 #define tetralux_OpaqueDepth_h
 
 #include "Frame/CameraRays.h"
+#include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"
@@ -37,13 +38,14 @@ public:
 
   std::size_t GetNumberOfBytes() const { return this->Bytes; }
 
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
   vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
   vtkNew<vtkTextureObject> Texture;
   unsigned int Format = 0;
   std::size_t Bytes = 0;
+  ContextResources Context;
 };
 
 } // namespace tetralux

@@ -58,7 +58,18 @@ double GetLastPlace(TexelFormat format)
 
 } // namespace
 
-GpuSegmentTable::GpuSegmentTable() = default;
+GpuSegmentTable::GpuSegmentTable()
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        this->Texture->ReleaseGraphicsResources(window);
+        std::fill_n(this->FilterErrors, 4, -1.);
+        this->Axis.ReleaseGraphicsResources(window);
+        this->Buckets.ReleaseGraphicsResources(window);
+        this->Bytes = 0;
+      })
+{
+}
 
 GpuSegmentTable::~GpuSegmentTable() = default;
 
@@ -75,17 +86,12 @@ bool GpuSegmentTable::IsFilterExact(vtkOpenGLRenderWindow* window, TexelFormat f
 void GpuSegmentTable::Update(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table,
   std::uint64_t version, bool inShader)
 {
-  if (this->Texture->GetContext() && this->Texture->GetContext() != window)
-  {
-    this->ReleaseGraphicsResources(this->Texture->GetContext());
-    window->MakeCurrent();
-  }
+  this->Context.Set(window);
   this->HardwareFiltering = !inShader && this->IsFilterExact(window, table.Settings.Format);
   const int filter = this->HardwareFiltering ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
   this->Texture->SetMinificationFilter(filter);
   this->Texture->SetMagnificationFilter(filter);
-  // Of a window that has gone nothing is left.
-  if (this->Bytes > 0 && this->Texture->GetContext() && version == this->Version)
+  if (this->Bytes > 0 && version == this->Version)
   {
     return;
   }
@@ -176,7 +182,7 @@ std::string GpuSegmentTable::GetDeclarations() const
 
 void GpuSegmentTable::Activate(vtkShaderProgram* program)
 {
-  const vtkOpenGLState::ScopedglActiveTexture unit(this->Texture->GetContext()->GetState());
+  const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
   this->Texture->Activate();
   program->SetUniformi("segmentTable", this->Texture->GetTextureUnit());
   program->SetUniform3f("tableSize", this->Size);
@@ -200,24 +206,12 @@ void GpuSegmentTable::Activate(vtkShaderProgram* program)
 
 void GpuSegmentTable::Deactivate()
 {
-  if (this->Texture->GetContext())
+  if (this->Context.Get())
   {
-    const vtkOpenGLState::ScopedglActiveTexture unit(this->Texture->GetContext()->GetState());
+    const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
     this->Texture->Deactivate();
     this->Axis.Deactivate();
     this->Buckets.Deactivate();
-  }
-}
-
-void GpuSegmentTable::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (this->Texture->GetContext() == window)
-  {
-    this->Texture->ReleaseGraphicsResources(window);
-    std::fill_n(this->FilterErrors, 4, -1.);
-    this->Axis.ReleaseGraphicsResources(window);
-    this->Buckets.ReleaseGraphicsResources(window);
-    this->Bytes = 0;
   }
 }
 

@@ -2,6 +2,7 @@
 #ifndef tetralux_GpuSegmentTable_h
 #define tetralux_GpuSegmentTable_h
 
+#include "OpenGL/ContextResources.h"
 #include "OpenGL/TextureBuffer.h"
 #include "PreIntegration/PreIntegrationTable.h"
 
@@ -44,7 +45,7 @@ public:
     return this->Bytes + this->Axis.GetNumberOfBytes() + this->Buckets.GetNumberOfBytes();
   }
 
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
   bool IsFilterExact(vtkOpenGLRenderWindow* window, TexelFormat format);
@@ -64,6 +65,7 @@ private:
   float Size[3] = { 0, 0, 0 };
   float InverseDelta = 1;
   float StepsPerDoubling = 1;
+  ContextResources Context;
 };
 
 } // namespace tetralux

@@ -96,17 +96,27 @@ bool Send(const std::vector<Cell>& cells, const Attribute (&attributes)[Size],
 
 } // namespace
 
-ProjectedCellDrawer::ProjectedCellDrawer() = default;
+ProjectedCellDrawer::ProjectedCellDrawer()
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        this->Attributes->ReleaseGraphicsResources();
+        this->Corners->ReleaseGraphicsResources();
+        this->Gradients->ReleaseGraphicsResources();
+        this->Triangles->ReleaseGraphicsResources();
+        this->FaceScalars.ReleaseGraphicsResources(window);
+        this->Program = nullptr;
+        this->Source.clear();
+        this->LargestBatch = 0;
+      })
+{
+}
 
 ProjectedCellDrawer::~ProjectedCellDrawer() = default;
 
 vtkShaderProgram* ProjectedCellDrawer::Use(vtkOpenGLRenderWindow* window, const Shader& shader)
 {
-  if (this->Window != window)
-  {
-    this->ReleaseGraphicsResources(this->Window);
-    this->Window = window;
-  }
+  this->Context.Set(window);
   std::string vertex = ProjectedCellVS;
   vtkShaderProgram::Substitute(vertex, "//VTK::Projection::Dec", shader.Projection);
   std::string fragment = ProjectedCellFS;
@@ -154,7 +164,8 @@ void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
   if (!cells.FaceScalars.empty())
   {
     constexpr std::size_t TexelsOfFace = 3;
-    this->FaceScalars.Upload(this->Window, reinterpret_cast<const float*>(cells.FaceScalars.data()),
+    this->FaceScalars.Upload(this->Context.Get(),
+      reinterpret_cast<const float*>(cells.FaceScalars.data()),
       TexelsOfFace * cells.FaceScalars.size(), 4, "scalars of faces");
   }
   this->Attributes->Bind();
@@ -180,23 +191,6 @@ void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
   {
     this->FaceScalars.Deactivate();
   }
-}
-
-void ProjectedCellDrawer::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (!this->Window || window != this->Window)
-  {
-    return;
-  }
-  this->Attributes->ReleaseGraphicsResources();
-  this->Corners->ReleaseGraphicsResources();
-  this->Gradients->ReleaseGraphicsResources();
-  this->Triangles->ReleaseGraphicsResources();
-  this->FaceScalars.ReleaseGraphicsResources(window);
-  this->Program = nullptr;
-  this->Source.clear();
-  this->Window = nullptr;
-  this->LargestBatch = 0;
 }
 
 } // namespace tetralux

@@ -2,11 +2,11 @@
 #ifndef tetralux_ProjectedCellDrawer_h
 #define tetralux_ProjectedCellDrawer_h
 
+#include "OpenGL/ContextResources.h"
 #include "OpenGL/TextureBuffer.h"
 #include "Projection/ProjectedCells.h"
 
 #include "vtkNew.h"
-#include "vtkWeakPointer.h"
 
 #include <cstddef>
 #include <string>
@@ -51,10 +51,9 @@ public:
   std::size_t GetNumberOfBytes() const { return this->LargestBatch; }
 
   /// window: the one that goes away.
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkNew<vtkOpenGLVertexArrayObject> Attributes;
   vtkNew<vtkOpenGLBufferObject> Corners;
   vtkNew<vtkOpenGLBufferObject> Gradients;
@@ -63,6 +62,7 @@ private:
   vtkShaderProgram* Program = nullptr; ///< the cache's
   std::string Source;                  ///< of the fragment shader that was found to compile
   std::size_t LargestBatch = 0;
+  ContextResources Context;
 };
 
 } // namespace tetralux

@@ -96,26 +96,27 @@ FloatTarget::Settings MakeSettings(const RayGrid& grid, int components, ChannelF
 
 } // namespace
 
-ProjectionPicture::ProjectionPicture() = default;
+ProjectionPicture::ProjectionPicture()
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        this->Colors.ReleaseGraphicsResources(window);
+        this->Scalars.ReleaseGraphicsResources(window);
+        this->Distances.ReleaseGraphicsResources(window);
+        this->Drawer.ReleaseGraphicsResources(window);
+        this->Integral.ReleaseGraphicsResources(window);
+        this->Pieces.ReleaseGraphicsResources(window);
+        this->Classifier.ReleaseGraphicsResources(window);
+      })
+{
+}
 
 ProjectionPicture::~ProjectionPicture() = default;
 
 ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
   const ProjectionScene& scene, const std::function<bool(double)>& progress)
 {
-  if (this->Window != window)
-  {
-    if (this->Window)
-    {
-      // Of the other window's context.
-      vtkOpenGLRenderWindow* const last = this->Window;
-      last->PushContext();
-      this->ReleaseGraphicsResources(last);
-      last->PopContext();
-      window->MakeCurrent();
-    }
-    this->Window = window;
-  }
+  this->Context.Set(window);
   SegmentSource source = MakeSegmentSource(*scene.Volume, scene.Lighting);
   source.LongestSegment = scene.Volume->Mesh.GetLongestEdge() *
     MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest; // no segment is longer
@@ -145,7 +146,7 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
 ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& target,
   const ProjectionScene& scene, const std::function<bool(double)>& progress)
 {
-  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState* state = this->Context.Get()->GetState();
   const DrawingState drawing(state);
   const FloatTarget::Use use(target);
   switch (pass)
@@ -175,7 +176,7 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   }
   state->vtkglClear(GL_COLOR_BUFFER_BIT);
 
-  vtkShaderProgram* program = this->Drawer.Use(this->Window, this->MakeShader(pass, scene));
+  vtkShaderProgram* program = this->Drawer.Use(this->Context.Get(), this->MakeShader(pass, scene));
   this->SetUniforms(program, scene);
   GpuSegmentIntegral& integral = pass == Pass::FirstDistances ? this->Pieces : this->Integral;
   integral.Activate(program);
@@ -388,14 +389,15 @@ void ProjectionPicture::SetUniforms(vtkShaderProgram* program, const ProjectionS
 
 void ProjectionPicture::ClassifyLargest()
 {
-  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState* state = this->Context.Get()->GetState();
   const DrawingState drawing(state);
   const FloatTarget::Use use(this->Colors);
   state->vtkglDisable(GL_BLEND);
   std::string fragment = LargestPictureFS;
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Dec", this->Integral.GetDeclarations());
   vtkShaderProgram::Substitute(fragment, "//VTK::System::Dec", "#version 150\n");
-  vtkShaderProgram* program = this->Classifier.Use(this->Window, "LargestPictureFS", fragment);
+  vtkShaderProgram* program =
+    this->Classifier.Use(this->Context.Get(), "LargestPictureFS", fragment);
   this->Integral.Activate(program);
   this->Scalars.GetTexture(0)->Activate();
   program->SetUniformi("largestScalars", this->Scalars.GetTexture(0)->GetTextureUnit());
@@ -409,12 +411,12 @@ vtkTextureObject* ProjectionPicture::GetTexture() const { return this->Colors.Ge
 void ProjectionPicture::Read(const ProjectionScene& scene, Span<float> colors, Span<float> depths)
 {
   this->Colors.Read(0, colors);
-  const vtkOpenGLState::ScopedglActiveTexture unit(this->Window->GetState());
+  const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
   // A table does not tell where in a segment the function first contributes.
   SegmentSource source = MakeSegmentSource(*scene.Volume, Lighting::None);
   source.Integrator = IsTabulated(source.Integrator) ? Integrator::ClosedForm : source.Integrator;
-  this->Pieces.Update(this->Window, source);
-  this->Distances.Prepare(this->Window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));
+  this->Pieces.Update(this->Context.Get(), source);
+  this->Distances.Prepare(this->Context.Get(), MakeSettings(scene.Grid, 1, ChannelFormat::Float));
   this->DrawCells(Pass::FirstDistances, this->Distances, scene, {});
   this->Distances.Read(0, depths);
   for (float& depth : depths)
@@ -429,22 +431,6 @@ std::size_t ProjectionPicture::GetNumberOfBytes() const
   return this->Colors.GetNumberOfBytes() + this->Scalars.GetNumberOfBytes() +
     this->Distances.GetNumberOfBytes() + this->Drawer.GetNumberOfBytes() +
     this->Integral.GetNumberOfBytes() + this->Pieces.GetNumberOfBytes();
-}
-
-void ProjectionPicture::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (!this->Window || window != this->Window)
-  {
-    return;
-  }
-  this->Colors.ReleaseGraphicsResources(window);
-  this->Scalars.ReleaseGraphicsResources(window);
-  this->Distances.ReleaseGraphicsResources(window);
-  this->Drawer.ReleaseGraphicsResources(window);
-  this->Integral.ReleaseGraphicsResources(window);
-  this->Pieces.ReleaseGraphicsResources(window);
-  this->Classifier.ReleaseGraphicsResources(window);
-  this->Window = nullptr;
 }
 
 } // namespace tetralux

@@ -7,13 +7,12 @@
 #include "GpuIntegral/GpuSegmentIntegral.h"
 #include "GpuIntegral/RayGridUniforms.h"
 #include "GpuProjection/ProjectedCellDrawer.h"
+#include "OpenGL/ContextResources.h"
 #include "OpenGL/FloatTarget.h"
 #include "OpenGL/ScreenProgram.h"
 #include "Projection/ProjectedCells.h"
 #include "Projection/ScreenFrame.h"
 #include "View/RayGrid.h"
-
-#include "vtkWeakPointer.h"
 
 #include <cstdint>
 #include <functional>
@@ -96,17 +95,15 @@ public:
   /// How segments were integrated.
   Integrator GetIntegrator() const { return this->Integral.GetIntegrator(); }
 
-  /// Whether the last picture was drawn in that window, whose resources are still there.
-  bool IsOf(vtkOpenGLRenderWindow* window) const { return this->Window && this->Window == window; }
-
   /// The picture's colours, and the distances along the rays to the first contribution, -1 where
-  /// there is none: those are drawn for that. scene: that of the last Draw.
+  /// there is none: those are drawn for that. scene: that of the last Draw, whose window's context
+  /// is current.
   void Read(const ProjectionScene& scene, Span<float> colors, Span<float> depths);
 
   std::size_t GetNumberOfBytes() const; ///< on the graphics card
 
   /// window: the one that goes away.
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
   enum class Pass
@@ -121,7 +118,6 @@ private:
   void SetUniforms(vtkShaderProgram* program, const ProjectionScene& scene) const;
   void ClassifyLargest();
 
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   FloatTarget Colors;
   FloatTarget Scalars; ///< the largest ones along rays
   FloatTarget Distances;
@@ -133,6 +129,7 @@ private:
   ScreenProgram Classifier;
   ProjectedCells Cells;
   Result Last;
+  ContextResources Context;
 };
 
 } // namespace tetralux

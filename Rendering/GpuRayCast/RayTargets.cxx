@@ -115,9 +115,28 @@ void AllocateDepth(
 
 } // namespace
 
-RayTargets::RayTargets() = default;
+RayTargets::RayTargets()
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        glDeleteFramebuffers(NumberOfFramebuffers, this->Framebuffers);
+        std::fill_n(this->Framebuffers, static_cast<int>(NumberOfFramebuffers), 0u);
+        for (auto& set : this->Textures)
+        {
+          for (auto& texture : set)
+          {
+            texture->ReleaseGraphicsResources(window);
+          }
+        }
+        this->NextEntries->ReleaseGraphicsResources(window);
+        this->Depth->ReleaseGraphicsResources(window);
+        this->LayerDepth->ReleaseGraphicsResources(window);
+        this->Size[0] = this->Size[1] = 0;
+      })
+{
+}
 
-RayTargets::~RayTargets() { this->ReleaseGraphicsResources(this->Window); }
+RayTargets::~RayTargets() = default;
 
 std::string RayTargets::FindObstacle(std::int64_t tetrahedra)
 {
@@ -134,20 +153,20 @@ std::size_t RayTargets::GetPixelSize(bool layers)
 
 void RayTargets::Prepare(vtkOpenGLRenderWindow* window, int width, int rows, bool layers)
 {
-  if (this->Window == window && this->Size[0] == width && this->Size[1] == rows &&
+  if (this->Context.Get() == window && this->Size[0] == width && this->Size[1] == rows &&
     this->Layers == layers)
   {
     return;
   }
-  this->ReleaseGraphicsResources(this->Window);
-  this->Window = window;
+  this->Context.Release(this->Context.Get());
+  this->Context.Set(window);
   try
   {
     this->Allocate(window, width, rows, layers);
   }
   catch (...)
   {
-    this->ReleaseGraphicsResources(window);
+    this->Context.Release(window);
     throw;
   }
   this->Size[0] = width;
@@ -204,7 +223,7 @@ void RayTargets::Allocate(vtkOpenGLRenderWindow* window, int width, int rows, bo
 
 void RayTargets::SetBand(const FloatTarget& band)
 {
-  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState* state = this->Context.Get()->GetState();
   this->NumberOfPictures = static_cast<int>(band.GetSettings().Pictures.size());
   for (const int k : { OfSet0, OfSet1, OfColors })
   {
@@ -223,21 +242,21 @@ void RayTargets::SetBand(const FloatTarget& band)
 
 void RayTargets::BeginDrawing()
 {
-  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState* state = this->Context.Get()->GetState();
   state->PushFramebufferBindings();
   state->vtkglGetIntegerv(GL_VIEWPORT, this->Viewport);
 }
 
 void RayTargets::EndDrawing()
 {
-  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState* state = this->Context.Get()->GetState();
   state->vtkglViewport(this->Viewport[0], this->Viewport[1], this->Viewport[2], this->Viewport[3]);
   state->PopFramebufferBindings();
 }
 
 void RayTargets::DrawInto(int framebuffer)
 {
-  this->Window->GetState()->vtkglBindFramebuffer(
+  this->Context.Get()->GetState()->vtkglBindFramebuffer(
     GL_DRAW_FRAMEBUFFER, this->Framebuffers[framebuffer]);
 }
 
@@ -271,7 +290,7 @@ void RayTargets::Clear(bool largest)
 void RayTargets::BeginAdding()
 {
   // The opacity of colours is written where a ray is done.
-  this->Window->GetState()->vtkglBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
+  this->Context.Get()->GetState()->vtkglBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
   for (int picture = 0; picture < this->NumberOfPictures; ++picture)
   {
     glEnablei(GL_BLEND, static_cast<GLuint>(NumberOfTextures + picture));
@@ -290,30 +309,6 @@ std::size_t RayTargets::GetNumberOfBytes() const
 {
   return GetPixelSize(this->Layers) * static_cast<std::size_t>(this->Size[0]) *
     static_cast<std::size_t>(this->Size[1]);
-}
-
-void RayTargets::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (!this->Window || window != this->Window)
-  {
-    return;
-  }
-  this->Window->PushContext();
-  glDeleteFramebuffers(NumberOfFramebuffers, this->Framebuffers);
-  this->Window->PopContext();
-  std::fill_n(this->Framebuffers, static_cast<int>(NumberOfFramebuffers), 0u);
-  for (auto& set : this->Textures)
-  {
-    for (auto& texture : set)
-    {
-      texture->ReleaseGraphicsResources(window);
-    }
-  }
-  this->NextEntries->ReleaseGraphicsResources(window);
-  this->Depth->ReleaseGraphicsResources(window);
-  this->LayerDepth->ReleaseGraphicsResources(window);
-  this->Size[0] = this->Size[1] = 0;
-  this->Window = nullptr;
 }
 
 } // namespace tetralux

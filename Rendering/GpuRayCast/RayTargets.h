@@ -2,10 +2,10 @@
 #ifndef tetralux_RayTargets_h
 #define tetralux_RayTargets_h
 
+#include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"
-#include "vtkWeakPointer.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -103,12 +103,11 @@ public:
 
   std::size_t GetNumberOfBytes() const;
 
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
   void Allocate(vtkOpenGLRenderWindow* window, int width, int rows, bool layers);
 
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   unsigned int Framebuffers[NumberOfFramebuffers] = { 0, 0, 0, 0, 0 };
   int NumberOfPictures = 0; ///< of the band
   vtkNew<vtkTextureObject> Textures[2][NumberOfTextures];
@@ -118,6 +117,7 @@ private:
   int Size[2] = { 0, 0 };
   bool Layers = false;
   int Viewport[4] = { 0, 0, 0, 0 }; ///< of others
+  ContextResources Context;
 };
 
 } // namespace tetralux

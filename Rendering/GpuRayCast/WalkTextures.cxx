@@ -3,6 +3,7 @@
 
 #include "OpenGL/GraphicsCard.h"
 
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
 
 #include <utility>
@@ -11,6 +12,26 @@
 namespace tetralux
 {
 
+WalkTextures::WalkTextures()
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        for (TextureBuffer* buffer : { &this->Points, &this->Faces, &this->Entries, &this->Boxes,
+               &this->Links, &this->Gradients })
+        {
+          buffer->ReleaseGraphicsResources(window);
+        }
+        for (CacheStamp* stamp :
+          { &this->FacesStamp, &this->BoundaryStamp, &this->PointsStamp, &this->GradientsStamp })
+        {
+          stamp->Reset();
+        }
+      })
+{
+}
+
+WalkTextures::~WalkTextures() = default;
+
 void WalkTextures::UpdateFaces(
   vtkOpenGLRenderWindow* window, const WalkTables& tables, CacheKey key)
 {
@@ -18,14 +39,8 @@ void WalkTextures::UpdateFaces(
   {
     return;
   }
+  this->Context.Set(window);
   this->FacesStamp.Reset();
-  if (this->Window != window)
-  {
-    this->BoundaryStamp.Reset();
-    this->PointsStamp.Reset();
-    this->GradientsStamp.Reset();
-    this->Window = window;
-  }
   this->Faces.Upload(window, reinterpret_cast<const std::int32_t*>(tables.Faces.data()),
     tables.Faces.size(), 2, "the table of faces");
   this->UploadedBytes += this->Faces.GetNumberOfBytes();
@@ -57,7 +72,7 @@ void WalkTextures::UpdateBoundary(vtkOpenGLRenderWindow* window, const WalkTable
 void WalkTextures::UpdatePoints(
   vtkOpenGLRenderWindow* window, Span<const WalkPoint<float>> points, CacheKey key)
 {
-  if (this->Window == window && this->PointsStamp.Has(key))
+  if (this->PointsStamp.Has(key))
   {
     return;
   }
@@ -130,24 +145,6 @@ std::size_t WalkTextures::GetNumberOfBytes() const
   return this->Points.GetNumberOfBytes() + this->Faces.GetNumberOfBytes() +
     this->Entries.GetNumberOfBytes() + this->Boxes.GetNumberOfBytes() +
     this->Links.GetNumberOfBytes() + this->Gradients.GetNumberOfBytes();
-}
-
-void WalkTextures::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (window != this->Window)
-  {
-    return;
-  }
-  for (TextureBuffer* buffer :
-    { &this->Points, &this->Faces, &this->Entries, &this->Boxes, &this->Links, &this->Gradients })
-  {
-    buffer->ReleaseGraphicsResources(window);
-  }
-  this->Window = nullptr;
-  this->FacesStamp.Reset();
-  this->BoundaryStamp.Reset();
-  this->PointsStamp.Reset();
-  this->GradientsStamp.Reset();
 }
 
 } // namespace tetralux

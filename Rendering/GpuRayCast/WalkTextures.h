@@ -4,18 +4,17 @@
 
 #include "Base/Cached.h"
 #include "Mesh/Gradients.h"
+#include "OpenGL/ContextResources.h"
 #include "OpenGL/TextureBuffer.h"
 #include "TetraluxRenderingModule.h"
 #include "Walk/WalkMesh.h"
 #include "Walk/WalkTexels.h"
 
-#include "vtkOpenGLRenderWindow.h"
-#include "vtkWeakPointer.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
+class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 class vtkWindow;
 
@@ -27,9 +26,12 @@ namespace tetralux
 class TETRALUXRENDERING_EXPORT WalkTextures
 {
 public:
+  WalkTextures();
+  ~WalkTextures();
+
   bool HasFaces(vtkOpenGLRenderWindow* window, const CacheKey& key) const
   {
-    return this->Window == window && this->FacesStamp.Has(key);
+    return this->Context.Get() == window && this->FacesStamp.Has(key);
   }
 
   /// Sends what lies behind each face of the cells, unless it is there by this key.
@@ -75,19 +77,19 @@ public:
   std::size_t GetUploadedBytes() const { return this->UploadedBytes; }
   void ResetUploadedBytes() { this->UploadedBytes = 0; }
 
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
   TextureBuffer Faces, Entries, Boxes, Links, Points, Gradients;
   std::size_t NumberOfPoints = 0;
   int NumberOfNodes = 0;
   int NumberOfEntries = 0;
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< that has the tables
   CacheStamp FacesStamp;
   CacheStamp BoundaryStamp;
   CacheStamp PointsStamp;
   CacheStamp GradientsStamp;
   std::size_t UploadedBytes = 0;
+  ContextResources Context;
 };
 
 } // namespace tetralux

@@ -50,29 +50,43 @@ constexpr std::size_t DepthStencilSize = 4;
 
 } // namespace
 
-FloatTarget::FloatTarget() = default;
+FloatTarget::FloatTarget()
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        this->Framebuffer->ReleaseGraphicsResources(window);
+        for (const auto& texture : this->Textures)
+        {
+          texture->ReleaseGraphicsResources(window);
+        }
+        this->Textures.clear();
+        if (this->DepthTexture)
+        {
+          this->DepthTexture->ReleaseGraphicsResources(window);
+          this->DepthTexture = nullptr;
+        }
+        this->Made = Settings();
+      })
+{
+}
 
 FloatTarget::~FloatTarget() = default;
 
 void FloatTarget::Prepare(vtkOpenGLRenderWindow* window, const Settings& settings)
 {
-  const bool sameWindow = this->Framebuffer->GetContext() == window;
-  if (sameWindow && !this->Textures.empty() && settings == this->Made)
+  if (this->Context.Get() == window && settings == this->Made)
   {
     return;
   }
-  if (this->Framebuffer->GetContext())
-  {
-    this->ReleaseGraphicsResources(this->Framebuffer->GetContext());
-    window->MakeCurrent();
-  }
+  this->Context.Release(this->Context.Get());
+  this->Context.Set(window);
   try
   {
     this->Allocate(window, settings);
   }
   catch (...)
   {
-    this->ReleaseGraphicsResources(window);
+    this->Context.Release(window);
     throw;
   }
   this->Made = settings;
@@ -154,7 +168,7 @@ vtkTextureObject* FloatTarget::GetTexture(int picture) const { return this->Text
 FloatTarget::Use::Use(FloatTarget& target)
   : Target(target)
 {
-  vtkOpenGLState* state = target.Framebuffer->GetContext()->GetState();
+  vtkOpenGLState* state = target.Context.Get()->GetState();
   state->PushFramebufferBindings();
   state->vtkglGetIntegerv(GL_VIEWPORT, this->Viewport);
   target.Framebuffer->Bind();
@@ -164,7 +178,7 @@ FloatTarget::Use::Use(FloatTarget& target)
 
 FloatTarget::Use::~Use()
 {
-  vtkOpenGLState* state = this->Target.Framebuffer->GetContext()->GetState();
+  vtkOpenGLState* state = this->Target.Context.Get()->GetState();
   state->vtkglViewport(this->Viewport[0], this->Viewport[1], this->Viewport[2], this->Viewport[3]);
   state->PopFramebufferBindings();
 }
@@ -177,14 +191,14 @@ void FloatTarget::Use::DrawInto(int numberOfPictures)
   {
     buffers[k] = GL_COLOR_ATTACHMENT0 + k;
   }
-  this->Target.Framebuffer->GetContext()->GetState()->vtkglDrawBuffers(
+  this->Target.Context.Get()->GetState()->vtkglDrawBuffers(
     static_cast<unsigned int>(buffers.size()), buffers.data());
 }
 
 void FloatTarget::Read(int picture, Span<float> values)
 {
   const Use use(*this);
-  vtkOpenGLState* state = this->Framebuffer->GetContext()->GetState();
+  vtkOpenGLState* state = this->Context.Get()->GetState();
   int alignment = 0;
   glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, 4);
@@ -193,25 +207,6 @@ void FloatTarget::Read(int picture, Span<float> values)
   glReadPixels(0, 0, this->Made.Width, this->Made.Height, GetFormat(this->Made.Pictures[picture]),
     GL_FLOAT, values.data());
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, alignment);
-}
-
-void FloatTarget::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (this->Framebuffer->GetContext() == window)
-  {
-    this->Framebuffer->ReleaseGraphicsResources(window);
-  }
-  for (const auto& texture : this->Textures)
-  {
-    texture->ReleaseGraphicsResources(window);
-  }
-  this->Textures.clear();
-  if (this->DepthTexture)
-  {
-    this->DepthTexture->ReleaseGraphicsResources(window);
-    this->DepthTexture = nullptr;
-  }
-  this->Made = Settings();
 }
 
 } // namespace tetralux

@@ -3,6 +3,7 @@
 #define tetralux_FloatTarget_h
 
 #include "Base/Span.h"
+#include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"
@@ -95,7 +96,7 @@ public:
   /// state as it was.
   void Read(int picture, Span<float> values);
 
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
   void Allocate(vtkOpenGLRenderWindow* window, const Settings& settings);
@@ -104,6 +105,7 @@ private:
   std::vector<vtkSmartPointer<vtkTextureObject>> Textures;
   vtkSmartPointer<vtkTextureObject> DepthTexture;
   Settings Made;
+  ContextResources Context;
 };
 
 } // namespace tetralux

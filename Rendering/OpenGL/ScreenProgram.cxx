@@ -30,22 +30,30 @@ void CheckShader(const std::string& name, const std::string& source, bool ofVert
   }
 }
 
-ScreenProgram::ScreenProgram() = default;
+ScreenProgram::ScreenProgram()
+  : Context(
+      [this](vtkOpenGLRenderWindow*)
+      {
+        this->Empty->ReleaseGraphicsResources();
+        this->Program = nullptr;
+        this->Source.clear();
+      })
+{
+}
 
-ScreenProgram::~ScreenProgram() { this->ReleaseGraphicsResources(this->Window); }
+ScreenProgram::~ScreenProgram() = default;
 
 vtkShaderProgram* ScreenProgram::Use(vtkOpenGLRenderWindow* window, const std::string& name,
   const std::string& source, const std::string& vertexSource)
 {
-  if (this->Window != window || source != this->Source)
+  this->Context.Set(window);
+  if (source != this->Source)
   {
-    this->ReleaseGraphicsResources(this->Window);
     CheckShader(name, source, false);
     if (!vertexSource.empty())
     {
       CheckShader(name, vertexSource, true);
     }
-    this->Window = window;
     this->Source = source;
     this->Program = window->GetShaderCache()->ReadyShaderProgram(
       vertexSource.empty() ? CoverScreenVS : vertexSource.c_str(), source.c_str(), "");
@@ -63,18 +71,6 @@ void ScreenProgram::Draw(int numberOfVertices)
   this->Empty->Bind();
   glDrawArrays(GL_TRIANGLES, 0, numberOfVertices);
   this->Empty->Release();
-}
-
-void ScreenProgram::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (!this->Window || window != this->Window)
-  {
-    return;
-  }
-  this->Empty->ReleaseGraphicsResources();
-  this->Program = nullptr;
-  this->Source.clear();
-  this->Window = nullptr;
 }
 
 } // namespace tetralux

@@ -2,10 +2,10 @@
 #ifndef tetralux_ScreenProgram_h
 #define tetralux_ScreenProgram_h
 
+#include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"
-#include "vtkWeakPointer.h"
 
 #include <string>
 
@@ -45,13 +45,13 @@ public:
   /// Runs it, for all pixels of the viewport, whose depth is 1, or for a number of vertices.
   void Draw(int numberOfVertices = 3);
 
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   std::string Source;
   vtkShaderProgram* Program = nullptr; ///< belongs to the window's cache
   vtkNew<vtkOpenGLVertexArrayObject> Empty;
+  ContextResources Context;
 };
 
 } // namespace tetralux

@@ -42,34 +42,17 @@ GLenum GetFormat(int type, int components)
 } // namespace
 
 TextureBuffer::TextureBuffer()
-  : Buffer(vtkSmartPointer<vtkOpenGLBufferObject>::New())
+  : Context(
+      [this](vtkOpenGLRenderWindow* window)
+      {
+        this->Buffer->ReleaseGraphicsResources();
+        this->Texture->ReleaseGraphicsResources(window);
+        this->Bytes = 0;
+      })
 {
 }
 
-bool TextureBuffer::IsEmpty() const { return this->Bytes == 0 || !this->Texture->GetContext(); }
-
-TextureBuffer::~TextureBuffer() { this->ReleaseBuffer(); }
-
-void TextureBuffer::ReleaseBuffer()
-{
-  vtkOpenGLRenderWindow* const window = this->Texture->GetContext();
-  if (window)
-  {
-    // Names of buffers are those of a context, and another one may be current.
-    window->PushContext();
-    this->Buffer->ReleaseGraphicsResources();
-    this->Texture->ReleaseGraphicsResources(window);
-    window->PopContext();
-  }
-  else if (this->Bytes > 0)
-  {
-    // The window went away, and its context with all that it had. The buffer's name may be that of
-    // another one in another context, so it must not be deleted: its object is given up.
-    this->Buffer->Register(nullptr);
-    this->Buffer = vtkSmartPointer<vtkOpenGLBufferObject>::New();
-  }
-  this->Bytes = 0;
-}
+TextureBuffer::~TextureBuffer() = default;
 
 void TextureBuffer::Upload(vtkOpenGLRenderWindow* window, const float* texels,
   std::size_t numberOfTexels, int components, const std::string& what)
@@ -86,11 +69,7 @@ void TextureBuffer::Upload(vtkOpenGLRenderWindow* window, const std::int32_t* te
 void TextureBuffer::UploadBytes(vtkOpenGLRenderWindow* window, const void* texels,
   std::size_t numberOfTexels, int components, int type, const std::string& what)
 {
-  if (this->Texture->GetContext() != window)
-  {
-    this->ReleaseBuffer();
-    window->MakeCurrent(); // not all windows have a way back to the context before
-  }
+  this->Context.Set(window);
   if (numberOfTexels == 0)
   {
     texels = EmptyTexel;
@@ -134,25 +113,17 @@ void TextureBuffer::UploadBytes(vtkOpenGLRenderWindow* window, const void* texel
 
 void TextureBuffer::Activate(vtkShaderProgram* program, const char* sampler)
 {
-  const vtkOpenGLState::ScopedglActiveTexture unit(this->Texture->GetContext()->GetState());
+  const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
   this->Texture->Activate();
   program->SetUniformi(sampler, this->Texture->GetTextureUnit());
 }
 
 void TextureBuffer::Deactivate()
 {
-  if (this->Texture->GetContext())
+  if (this->Context.Get())
   {
-    const vtkOpenGLState::ScopedglActiveTexture unit(this->Texture->GetContext()->GetState());
+    const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
     this->Texture->Deactivate();
-  }
-}
-
-void TextureBuffer::ReleaseGraphicsResources(vtkWindow* window)
-{
-  if (this->Texture->GetContext() == window)
-  {
-    this->ReleaseBuffer();
   }
 }
 

@@ -2,10 +2,10 @@
 #ifndef tetralux_TextureBuffer_h
 #define tetralux_TextureBuffer_h
 
+#include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkNew.h"
-#include "vtkSmartPointer.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -40,8 +40,8 @@ public:
     int components, const std::string& what);
   ///@}
 
-  /// Also once its window has gone, and all that was in its context.
-  bool IsEmpty() const;
+  /// Also once its context has ended.
+  bool IsEmpty() const { return this->Bytes == 0; }
   std::size_t GetNumberOfBytes() const { return this->Bytes; }
 
   /// Binds the array to a texture unit and the program's sampler to that; Deactivate gives the unit
@@ -51,17 +51,16 @@ public:
   void Deactivate();
   ///@}
 
-  void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
 
 private:
   void UploadBytes(vtkOpenGLRenderWindow* window, const void* texels, std::size_t numberOfTexels,
     int components, int type, const std::string& what);
 
-  void ReleaseBuffer();
-
   vtkNew<vtkTextureObject> Texture;
-  vtkSmartPointer<vtkOpenGLBufferObject> Buffer; ///< of the texture
+  vtkNew<vtkOpenGLBufferObject> Buffer; ///< of the texture
   std::size_t Bytes = 0;
+  ContextResources Context;
 };
 
 } // namespace tetralux
