@@ -150,6 +150,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     options.Layers = &projection;
   }
   options.NumberOfCells = scene.Mesh.GetMesh()->GetNumberOfCells();
+  options.NumberOfAllCells = static_cast<std::int64_t>(tables->Faces.size() / 4);
   options.CellData = scene.Mesh.HasCellScalars();
   options.LargestScalar = integrator == Integrator::Maximum;
   const double brightness = IsLit(integrator)

@@ -4,6 +4,7 @@
 
 #include "Frame/CPUPicture.h"
 #include "Frame/ImageCompositor.h"
+#include "Frame/OpaqueDepth.h"
 #include "TetraluxRenderingModule.h"
 
 #include <functional>
@@ -47,6 +48,7 @@ private:
     const PixelRectangle& covered);
 
   ImageCompositor Compositor;
+  OpaqueDepth Opaque;
   double SecondsPerRay = 0; ///< of the last picture; 0: none yet
 };
 

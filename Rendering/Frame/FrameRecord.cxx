@@ -6,7 +6,11 @@
 
 #include "vtkAbstractVolumeMapper.h"
 #include "vtkCommand.h"
+#include "vtkDualDepthPeelingPass.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationObjectBaseVectorKey.h"
+#include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -37,6 +41,21 @@ Json Describe(const ErrorBudget& budget)
   section["light"] = budget.Light;
   section["slices"] = budget.Slices;
   return section;
+}
+
+/// Whether a pass is under way that peels the volume layer by layer.
+bool IsPeeled(vtkVolume* volume)
+{
+  vtkInformation* keys = volume->GetPropertyKeys();
+  vtkInformationObjectBaseVectorKey* passes = vtkOpenGLRenderPass::RenderPasses();
+  for (int k = 0; keys && k < keys->Length(passes); ++k)
+  {
+    if (vtkDualDepthPeelingPass::SafeDownCast(keys->Get(passes, k)))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 } // namespace
@@ -104,6 +123,13 @@ MapperFrame FrameRecord::Begin(vtkRenderer* renderer, vtkVolume* volume)
   if (!frame.Window)
   {
     throw std::invalid_argument("the renderer has no OpenGL render window");
+  }
+  if (IsPeeled(volume))
+  {
+    throw std::invalid_argument("vtkDualDepthPeelingPass peels volumes through shaders that this "
+                                "mapper does not have: set the renderer's "
+                                "UseDepthPeelingForVolumes off, and give the pass no "
+                                "VolumetricPass");
   }
   this->Context.Set(frame.Window);
   frame.Image = this->Image;

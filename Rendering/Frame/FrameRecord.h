@@ -48,7 +48,7 @@ public:
 
   /// A frame into the window of a renderer, with this picture, and with progress by
   /// VolumeMapperRenderProgressEvent. Throws std::invalid_argument, with one line, if the window is
-  /// not one of OpenGL.
+  /// not one of OpenGL, or if a render pass peels volumes.
   MapperFrame Begin(vtkRenderer* renderer, vtkVolume* volume);
 
   /// Invokes an event with a share of what is done, 0..1. Returns whether to go on: the window may
