@@ -279,10 +279,6 @@ class FailedWork(ToolTest):
                     2, "render", "ball.vtu", "--output", "out.png", "--method", "triangle-caster",
                     *arguments, says=says,
                 )
-        self.expect_failure(
-            2, "bench", "ball.vtu", "--setting", "triangle-caster TileSize=8", "--output", "bench",
-            says=["--setting", "triangle-caster"],
-        )
 
     def test_transfer_functions(self):
         self.render_fails("--transfer", "missing.json", says="'missing.json'")
