@@ -259,7 +259,9 @@ void AddFlags(vtkImageData* image, ImageVolume& volume)
 
 bool ImageScalars::Update(vtkImageData* image, const ScalarSelection& selection)
 {
-  CacheKey array = GetScalarsKey({ { image, 0, 0 } }, selection);
+  const std::vector<DataSetBlock> blocks = { { image, 0, 0 } };
+  CacheKey array = GetScalarsKey(blocks, selection);
+  array.Add(GetInputTime(image, blocks));
   const SelectedArray selected = FindSelectedArray(image, selection);
   if (selected.Array && selected.Array->HasStandardMemoryLayout())
   {
@@ -267,7 +269,7 @@ bool ImageScalars::Update(vtkImageData* image, const ScalarSelection& selection)
     array.Add(selected.Array->GetVoidPointer(0));
     array.Add(selected.Array->GetNumberOfValues());
   }
-  CacheKey grid = GetCellsKey({ { image, 0, 0 } });
+  CacheKey grid = GetCellsKey(blocks);
   if (this->Array.Has(array) && this->Grid.Has(grid))
   {
     return false;

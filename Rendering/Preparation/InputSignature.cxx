@@ -9,6 +9,8 @@
 #include "vtkCellData.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
@@ -18,6 +20,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -95,7 +98,33 @@ void Add(Digester& digester, vtkDataArray* array)
   }
 }
 
+/// When an object was modified, whatever it holds.
+vtkMTimeType GetOwnTime(vtkObject* object)
+{
+  return object->vtkObject::GetMTime(); // NOLINT(bugprone-parent-virtual-call)
+}
+
 } // namespace
+
+vtkMTimeType GetInputTime(vtkDataObject* input, const std::vector<DataSetBlock>& blocks)
+{
+  vtkMTimeType time = GetOwnTime(input);
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(input))
+  {
+    auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+    iterator->VisitOnlyLeavesOff();
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      time = std::max(time, GetOwnTime(iterator->GetCurrentDataObject()));
+    }
+  }
+  for (const DataSetBlock& block : blocks)
+  {
+    time = std::max({ time, GetOwnTime(block.DataSet), GetOwnTime(block.DataSet->GetPointData()),
+      GetOwnTime(block.DataSet->GetCellData()) });
+  }
+  return time;
+}
 
 CacheKey GetCellsKey(const std::vector<DataSetBlock>& blocks)
 {
@@ -180,6 +209,7 @@ CacheKey GetScalarsKey(const std::vector<DataSetBlock>& blocks, const ScalarSele
   key.Add(selection.ScalarMode);
   key.Add(selection.VectorMode);
   key.Add(selection.VectorComponent);
+  key.Add(selection.VectorSize);
   for (const DataSetBlock& block : blocks)
   {
     int ofCells = 0;
