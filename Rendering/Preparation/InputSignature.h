@@ -38,8 +38,14 @@ CacheKey GetPointsKey(const std::vector<DataSetBlock>& blocks);
 /// milliseconds a million tetrahedra.
 Digest DigestCells(const std::vector<DataSetBlock>& blocks);
 
+/// Of what GetPointsKey is of, by content.
+Digest DigestPoints(const std::vector<DataSetBlock>& blocks);
+
 /// Of all that scalars depend on beside the mesh: the selected array of each data set.
 CacheKey GetScalarsKey(const std::vector<DataSetBlock>& blocks, const ScalarSelection& selection);
+
+/// The selected array of each data set, by content, with ghost flags.
+Digest DigestScalars(const std::vector<DataSetBlock>& blocks, const ScalarSelection& selection);
 
 /// Of all that TransferFunctionFromProperty reads, and of the values of isosurfaces.
 CacheKey GetPropertyKey(vtkVolumeProperty* property);

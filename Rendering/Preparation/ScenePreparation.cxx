@@ -142,17 +142,21 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   CacheKey cellsKey = GetCellsKey(blocks);
   CacheKey pointsKey = GetPointsKey(blocks);
   const bool hasMesh = this->Scene.Mesh.GetMesh() != nullptr;
-  const bool sameCells = hasMesh && !this->Touched && cellsKey == this->CellsKey;
-  if (sameCells && pointsKey == this->PointsKey)
+  const bool isKnown = hasMesh && !this->Touched;
+  const bool sameCells = isKnown && cellsKey == this->CellsKey;
+  const bool samePoints = isKnown && pointsKey == this->PointsKey;
+  if (sameCells && samePoints)
   {
     return true;
   }
   const Stopwatch intakeStopwatch;
-  const Digest digest = sameCells ? this->Cells : DigestCells(blocks);
-  if (hasMesh && digest == this->Cells && this->MovePoints(input))
+  const Digest cells = sameCells ? this->Cells : DigestCells(blocks);
+  const Digest points = samePoints ? this->Points : DigestPoints(blocks);
+  if (hasMesh && cells == this->Cells && (points == this->Points || this->MovePoints(input)))
   {
     this->CellsKey = std::move(cellsKey);
     this->PointsKey = std::move(pointsKey);
+    this->Points = points;
     this->Last.MeshSeconds = intakeStopwatch.GetSeconds();
     return true;
   }
@@ -171,7 +175,7 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   // What is found belongs to this input: if it is aborted, the mesh of the last one is of no use.
   this->CellsKey = CacheKey();
   this->PointsKey = CacheKey();
-  this->Cells = Digest();
+  this->Cells = this->Points = Digest();
   this->Merger.Start(settings.Merging, input, intake.Mesh);
   this->Merging.Reset();
   const CoincidentPoints merged = this->ChooseMerged(settings, input);
@@ -190,7 +194,8 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   }
   this->CellsKey = std::move(cellsKey);
   this->PointsKey = std::move(pointsKey);
-  this->Cells = digest;
+  this->Cells = cells;
+  this->Points = points;
   this->Last.MeshSeconds = meshStopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("mesh");
   return true;

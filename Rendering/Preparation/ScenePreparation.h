@@ -113,6 +113,7 @@ private:
   ComponentUse Components;
   CacheKey CellsKey;
   Digest Cells{};
+  Digest Points{};
   CacheKey PointsKey;
   CacheStamp Merging;
   PointMerger Merger;

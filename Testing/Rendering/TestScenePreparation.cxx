@@ -233,6 +233,8 @@ TEST_F(ScenePreparationTest, CellsThatDependOnPointsAreTakenInAnew)
     }
     ASSERT_GT(step->GetNumberOfCells(), 0);
     this->Update(step);
+    step->Modified();
+    EXPECT_EQ(this->Update(step), Stages()) << "nothing changed";
     step = CopyAll(step.Get());
     double x[3];
     step->GetPoint(0, x);
