@@ -13,6 +13,7 @@
 #include "GpuRayCast/GpuRayLimits.h"
 #include "GpuRayCast/PixelProjection.h"
 #include "GpuRayCast/WalkTextures.h"
+#include "Intake/DataSetBlocks.h"
 #include "Integral/SegmentWeightError.h"
 #include "OpenGL/ContextResources.h"
 #include "OpenGL/GraphicsCard.h"
@@ -70,11 +71,7 @@ public:
 
   void DrawFrame(MapperFrame& frame);
 
-  bool IsSupported(vtkRenderWindow* window);
-
   void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
-
-  std::string SupportReason;
 
 private:
   const tetralux::WalkTables* ChooseTables(MapperFrame& frame, GpuReentry& reentry);
@@ -252,50 +249,6 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
 }
 
 //------------------------------------------------------------------------------------------------
-bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* window)
-{
-  auto* openGL = vtkOpenGLRenderWindow::SafeDownCast(window);
-  if (!openGL)
-  {
-    this->SupportReason = "the window is not one of OpenGL";
-    return false;
-  }
-  openGL->Initialize();
-  openGL->MakeCurrent();
-  const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
-  this->SupportReason = card.Renderer;
-  if (std::make_pair(card.Version[0], card.Version[1]) < std::make_pair(3, 2))
-  {
-    this->SupportReason += " has OpenGL " + std::to_string(card.Version[0]) + '.' +
-      std::to_string(card.Version[1]) + ", and 3.2 is needed";
-    return false;
-  }
-  if (card.Software)
-  {
-    this->SupportReason += " runs on the processor, where rays are cast faster without OpenGL";
-    return false;
-  }
-  // Without making its tetrahedra: a hexahedron becomes five or six of them.
-  constexpr std::int64_t TetrahedraOfCell = 6;
-  if (auto* input = vtkDataSet::SafeDownCast(this->Self->GetDataObjectInput()))
-  {
-    const std::int64_t cells = TetrahedraOfCell * input->GetNumberOfCells();
-    std::string obstacle = tetralux::RayTargets::FindObstacle(cells);
-    if (obstacle.empty())
-    {
-      obstacle = tetralux::FindObstacle(
-        { { "faces", 4 * cells, 8 }, { "points", input->GetNumberOfPoints(), 16 } }, card.Limits);
-    }
-    if (!obstacle.empty())
-    {
-      this->SupportReason += ": there may be no room, " + obstacle;
-      return false;
-    }
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------------------------
 const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTables(
   MapperFrame& frame, GpuReentry& reentry)
 {
@@ -448,13 +401,51 @@ void vtkTetrahedraGPURayCastMapper::DrawFrame(MapperFrame& frame)
 //------------------------------------------------------------------------------------------------
 bool vtkTetrahedraGPURayCastMapper::IsSupported(vtkRenderWindow* window)
 {
-  return this->Private->IsSupported(window);
+  if (!this->Superclass::IsSupported(window))
+  {
+    return false;
+  }
+  // Without making its tetrahedra: a hexahedron becomes five or six of them.
+  constexpr std::int64_t TetrahedraOfCell = 6;
+  std::int64_t cells = 0;
+  std::int64_t points = 0;
+  for (const auto& block : tetralux::CollectDataSets(this->GetDataObjectInput()))
+  {
+    cells += TetrahedraOfCell * block.DataSet->GetNumberOfCells();
+    points += block.DataSet->GetNumberOfPoints();
+  }
+  const tetralux::GraphicsCard card =
+    tetralux::DescribeGraphicsCard(vtkOpenGLRenderWindow::SafeDownCast(window));
+  std::string obstacle = tetralux::RayTargets::FindObstacle(cells);
+  if (obstacle.empty())
+  {
+    obstacle =
+      tetralux::FindObstacle({ { "faces", 4 * cells, 8 }, { "points", points, 16 } }, card.Limits);
+  }
+  if (!obstacle.empty())
+  {
+    this->SetSupportReason(card.Renderer + ": there may be no room, " + obstacle);
+    return false;
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------
-std::string vtkTetrahedraGPURayCastMapper::GetSupportReason()
+bool vtkTetrahedraGPURayCastMapper::IsAccelerated(vtkRenderWindow* window)
 {
-  return this->Private->SupportReason;
+  if (!this->IsSupported(window))
+  {
+    return false;
+  }
+  const tetralux::GraphicsCard card =
+    tetralux::DescribeGraphicsCard(vtkOpenGLRenderWindow::SafeDownCast(window));
+  if (card.Software)
+  {
+    this->SetSupportReason(
+      card.Renderer + " runs on the processor, where rays are cast faster without OpenGL");
+    return false;
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -476,11 +467,4 @@ void vtkTetrahedraGPURayCastMapper::PrintProperties(ostream& os, vtkIndent inden
   printer.Print("StepsPerPass", this->StepsPerPass);
   printer.Print("RayMaximumBytes", this->RayMaximumBytes);
   printer.Print("CountFragments", this->CountFragments);
-}
-
-//------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::PrintResults(ostream& os, vtkIndent indent)
-{
-  os << indent << "SupportReason: " << this->GetSupportReason() << "\n";
-  this->Superclass::PrintResults(os, indent);
 }

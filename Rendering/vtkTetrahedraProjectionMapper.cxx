@@ -20,6 +20,7 @@
 #include "View/MeshToWorld.h"
 #include "Visibility/VisibilityOrder.h"
 
+#include "vtkCellCenterDepthSort.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -514,6 +515,48 @@ void vtkTetrahedraProjectionMapper::ReleaseGraphicsResources(vtkWindow* window)
 //------------------------------------------------------------------------------------------------
 tetraluxEnumerationMacro(vtkTetrahedraProjectionMapper, ColorBuffer);
 tetraluxEnumerationMacro(vtkTetrahedraProjectionMapper, Order);
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::SetVisibilitySort(vtkVisibilitySort* sort)
+{
+  if (this->VisibilitySort != sort)
+  {
+    this->VisibilitySort = sort;
+    this->Modified();
+  }
+  if (auto* meshed = Sort::SafeDownCast(sort))
+  {
+    this->SetOrder(meshed->GetOrder());
+  }
+  else if (!sort)
+  {
+    this->SetOrder(Sort::AUTOMATIC_ORDER);
+  }
+  else if (vtkCellCenterDepthSort::SafeDownCast(sort))
+  {
+    this->SetOrder(Sort::CENTROID_ORDER);
+  }
+  else
+  {
+    this->WarnOfCall(
+      "VisibilitySort", "Order has what " + std::string(sort->GetClassName()) + " may be set for");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+vtkVisibilitySort* vtkTetrahedraProjectionMapper::GetVisibilitySort()
+{
+  return this->VisibilitySort;
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::SetUseFloatingPointFrameBuffer(bool use)
+{
+  if (use != this->GetUseFloatingPointFrameBuffer())
+  {
+    this->SetColorBuffer(use ? AUTOMATIC_BUFFER : UNORM8_BUFFER);
+  }
+}
 
 //------------------------------------------------------------------------------------------------
 int vtkTetrahedraProjectionMapper::GetUsedOrder()

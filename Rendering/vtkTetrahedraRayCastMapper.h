@@ -50,6 +50,7 @@ protected:
 
   tetralux::PixelRectangle MakePicture(
     tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
+  void AddSettings(tetralux::MapperSettings& settings) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
 
   int Precision = AUTOMATIC_PRECISION;

@@ -381,7 +381,8 @@ public:
    * Set what of an array of several components is shown, with the numbers of
    * vtkSmartVolumeMapper. Default DISABLED_MODE.
    *
-   * - DISABLED_MODE (-1): all of up to 4 components, as the property's IndependentComponents says.
+   * - DISABLED_MODE (-1): all of up to 4 components, as the property's IndependentComponents says,
+   *   whatever VectorMode the colour function has, as in VTK's mappers of image data.
    *   Of more it is the first one, and a warning says so.
    * - MAGNITUDE_MODE (0): the Euclidean norm.
    * - COMPONENT_MODE (1): component VectorComponent.
