@@ -212,9 +212,8 @@ bool IsImage(const RenderInput& input)
   return mapper->GetObstacle().empty();
 }
 
-/// lit: whether isosurfaces are.
 vtkSmartPointer<vtkVolumeProperty> MakeProperty(
-  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6], bool lit)
+  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6])
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetColor(functions.Color);
@@ -233,7 +232,7 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
     property->SetSliceFunction(plane);
   }
   // Without light, surfaces show no shape.
-  property->SetShade(options.Shade || (lit && !options.Isovalues.empty()));
+  property->SetShade(options.Shade || !options.Isovalues.empty());
   return property;
 }
 
@@ -247,8 +246,7 @@ void ShowVolume(const RenderOptions& options, const RenderInput& input, vtkVolum
   {
     throw WorkError("'" + options.Scene.Input.Name + "': it has no points");
   }
-  const bool lit = !vtkTriangleCasterMapper::SafeDownCast(volume->GetMapper());
-  volume->SetProperty(MakeProperty(options, input.Functions, bounds, lit));
+  volume->SetProperty(MakeProperty(options, input.Functions, bounds));
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(options.Background.data());
   renderer->AddVolume(volume);

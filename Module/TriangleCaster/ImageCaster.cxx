@@ -272,7 +272,7 @@ void ImageCaster::Internals::PrepareSpace(int threads, ImageKernelInput& in)
     const std::vector<BlockLabels::Set>& sets = this->Labels.GetSets();
     // A surface may be between two samples that have something hidden between them.
     const bool hides = !sets.empty() && in.Blend != ImageBlend::Isosurfaces;
-    this->Space.Build(functions.front().Blocks->GetSize(),
+    this->Space.Build(functions.front().Blocks->GetSize(), threads,
       [&](std::int64_t block)
       {
         const BlockLabels::Set set = hides ? sets[block] : BlockLabels::GetSet(0);
@@ -430,7 +430,8 @@ void ImageCaster::Internals::PrepareGradients(
     in.InterpolateIntensities = options.SumOfLights == LightSum::Interpolated;
   }
   const bool needed = in.Lighting || in.Table.Entries || in.GradientTransfer.Count > 0;
-  if (needed && in.Blend == ImageBlend::Composite && options.Gradients == GradientSource::Bytes)
+  const bool uses = in.Blend == ImageBlend::Composite || in.Blend == ImageBlend::Isosurfaces;
+  if (needed && uses && options.Gradients == GradientSource::Bytes)
   {
     if (!this->GradientsValid)
     {

@@ -42,8 +42,9 @@ struct ImageCasterOptions
   /// with Shaded or depth cueing, nor where opacity depends on gradients.
   bool PreIntegrated = false;
 
-  /// Whether lights shine on samples, from the side of the viewer, by gradients as normals: ambient
-  /// and diffuse light times the colour, and Blinn's highlights. What is lit is not clamped.
+  /// Whether lights shine on samples, or on isosurfaces, from the side of the viewer, by gradients
+  /// as normals: ambient and diffuse light times the colour, and Blinn's highlights. What is lit is
+  /// not clamped. ImageBlend::Composite and Isosurfaces only.
   bool Shaded = false;
   std::vector<Light> Lights;
   Material Surface;

@@ -9,6 +9,7 @@
 #include "TriangleCaster/ImageRays.h"
 #include "TriangleCaster/ImageSample.h"
 #include "TriangleCaster/MaskLanes.h"
+#include "TriangleCaster/SamplePlaces.h"
 #include "TriangleCaster/TileSpace.h"
 
 #include <algorithm>
@@ -22,23 +23,6 @@ namespace TETRALUX_ISA
 {
 namespace
 {
-
-/// Finds the cells of a vector's samples. way: slabs from the start of the block.
-TETRALUX_INLINE void PlaceSample(
-  const ImageKernelInput& in, const BlockPositions& positions, Float8 way, ImageSample& sample)
-{
-  const std::int32_t strides[3] = { 1, in.Row, in.Slice };
-  sample.Index = positions.Index;
-  for (int a = 0; a < 3; ++a)
-  {
-    const Float8 x = Fma(positions.Step[a], way, positions.Base[a]);
-    // The cell, and at its border either of two.
-    const Int8 cell = RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[a]), positions.High[a]));
-    sample.Place[a] = x - ToFloat(cell);
-    sample.Cell[a] = ToFloat(cell) - positions.Low[a];
-    sample.Index = sample.Index + cell * Int8(strides[a]);
-  }
-}
 
 /// Which samples of a vector neither a mask nor a hidden cell hides.
 struct ShownSamples
