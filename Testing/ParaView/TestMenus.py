@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Filters and sources of the plugin do their work and have help texts. For pvbatch."""
 
-from paraview import simple, servermanager
+from paraview import servermanager
 
 import pictures
 
@@ -15,29 +15,29 @@ def get_help(source):
 
 
 disk = pictures.read("disk")
-tetrahedra = simple.TetraluxTetrahedra(Input=disk)
+tetrahedra = pictures.TetraluxTetrahedra(Input=disk)
 tetrahedra.UpdatePipeline()
 count = tetrahedra.GetDataInformation().GetNumberOfCells()
 assert count == pictures.COUNTS["disk"]["tetrahedra"], count
 get_help(tetrahedra)
 
-convex = simple.TetraluxConvexify(Input=tetrahedra)
+convex = pictures.TetraluxConvexify(Input=tetrahedra)
 convex.UpdatePipeline()
 assert convex.GetDataInformation().GetNumberOfCells() > count
 imaginary = convex.CellData.GetArray("Imaginary")
 assert imaginary.GetRange() == (0, 1), imaginary.GetRange()
 get_help(convex)
 
-neighbors = simple.TetraluxNeighbors(Input=tetrahedra)
+neighbors = pictures.TetraluxNeighbors(Input=tetrahedra)
 neighbors.UpdatePipeline()
 assert neighbors.GetDataInformation().GetNumberOfCells() == count
 assert neighbors.CellData.GetArray("Neighbors").GetNumberOfComponents() == 4
-boundary = servermanager.Fetch(simple.OutputPort(neighbors, 1))
+boundary = servermanager.Fetch(neighbors, idx=1)
 # Each tetrahedron has four faces, of which two cells share each inside.
 assert 0 < boundary.GetNumberOfCells() < count
 get_help(neighbors)
 
-table = simple.TetraluxPreIntegrationTable(ScalarSize=8, LengthSize=4)
+table = pictures.TetraluxPreIntegrationTable(ScalarSize=8, LengthSize=4)
 table.Function.OpacityFunction.Opacities = [0, 0, 1, 0.5]
 table.UpdatePipeline()
 image = servermanager.Fetch(table)
