@@ -36,10 +36,10 @@ REPRESENTATIONS = {
 
 
 def get_largest_difference(processes):
-    """Of 255. ParaView composites pictures of 8 bits: each has colours and opacity that are rounded,
-    half a step each, and where two meet the result is cut off, by a step. Half a step is of the
-    reference. The opacity of the last picture covers nothing but the background, whose colours are
-    exact."""
+    """Of 255. ParaView composites pictures of 8 bits: each has colours and opacity that are
+    rounded, half a step each, and where two meet the result is cut off, by a step. Half a step is
+    of the reference. The opacity of the last picture covers nothing but the background, whose
+    colours are exact."""
     return int(0.5 * processes + 0.5 * (processes - 1) + (processes - 1) + 0.5)
 
 
