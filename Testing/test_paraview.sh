@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Tests of the plugin for ParaView, from a fresh machine: installs what is missing, builds the tool
+# and the plugin, installs the plugin, and compares ParaView's pictures with the tool's.
+# TETRALUX_DATA: the folder with the data sets, without which nothing can be compared.
+# Ends with "N passed, N failed"; the exit status is 0 where none failed.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+
+source Testing/steps.sh
+
+prefix="$PWD/build-paraview/install"
+plugin=("$prefix"/lib/*/plugins/Tetralux/Tetralux.so) # expanded anew once it is there
+export TETRALUX_PARAVIEW_FOLDER="$PWD/build-paraview/Testing"
+export PYTHONPATH="$PWD/Testing/ParaView" PYTHONDONTWRITEBYTECODE=1
+# Processes of a parallel run share few cores, and may be the superuser's in a container.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_WAIT_POLICY=passive
+
+# timed COMMAND...: and how long it took.
+timed() {
+  local start=$SECONDS status
+  "$@"
+  status=$?
+  echo "$((SECONDS - start)) s"
+  return $status
+}
+
+# in_paraview PROCESSES SCRIPT ARGUMENTS...: by pvbatch, without a display.
+in_paraview() {
+  local processes=$1
+  shift
+  xvfb-run --auto-servernum mpirun --oversubscribe -np "$processes" \
+    "$paraview/usr/bin/pvbatch" "$@"
+}
+
+# What is installed must not need the build tree.
+check_installed() {
+  local library
+  for library in "$(dirname "$TETRALUX_PLUGIN")"/*.so*; do
+    if readelf --dynamic "$library" | grep -E 'R(UN)?PATH' | grep -q "$PWD/build"; then
+      echo "$library has a path into the build tree"
+      return 1
+    fi
+  done
+}
+
+if [[ -z "${TETRALUX_DATA:-}" ]]; then
+  echo "test_paraview.sh: TETRALUX_DATA must name the folder of the data sets" >&2
+  exit 1
+fi
+require "setup" timed Examples/setup.sh test paraview
+paraview=$(ParaView/prefix.sh) || exit 1
+require "configure the tool" cmake --preset release
+require "build the tool" timed cmake --build --preset release --target tetralux
+require "configure the plugin" cmake --preset paraview -DTETRALUX_WARNINGS_AS_ERRORS=ON
+require "build the plugin" timed cmake --build --preset paraview
+require "install the plugin" cmake --install build-paraview --prefix "$prefix"
+plugin=("$prefix"/lib/*/plugins/Tetralux/Tetralux.so)
+export TETRALUX_PLUGIN="${plugin[0]}"
+
+check "installed" check_installed
+require "pictures of the tool" timed python3 Testing/ParaView/prepare.py build/bin/tetralux \
+  "$TETRALUX_DATA" "$TETRALUX_PARAVIEW_FOLDER"
+check "representations" timed in_paraview 1 Testing/ParaView/TestRepresentations.py
+check "menus" timed in_paraview 1 Testing/ParaView/TestMenus.py
+check "example" timed in_paraview 1 Testing/ParaView/TestExample.py
+require "pictures of one process" timed in_paraview 1 Testing/ParaView/TestParallel.py reference
+for processes in 2 3; do
+  check "$processes processes" timed in_paraview "$processes" \
+    Testing/ParaView/TestParallel.py compare
+done
+finish
