@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 namespace
 {
 
@@ -12,6 +14,12 @@ namespace
 /// what they have read pass over 1e8 cells several times in it. Time in which the process waits,
 /// for a disk or a network, does not count.
 constexpr double LargestStandstill = 10;
+
+/// Memory that a reader may come to need, as a multiple of what it has read and bytes beyond that.
+/// No common compression makes data smaller than this; readers that repeat themselves at the end of
+/// a file need ever more.
+constexpr double LargestExpansion = 1100;
+constexpr double LargestOverhead = 512e6;
 
 } // namespace
 
@@ -29,8 +37,11 @@ bool WorkerVitals::Hangs()
   {
     return false;
   }
-  if (now.ReadBytes > this->AtProgress.ReadBytes ||
-    now.ResidentPages > this->AtProgress.ResidentPages)
+  const bool reads = now.ReadBytes > this->AtProgress.ReadBytes;
+  const bool keeps = now.ResidentBytes > this->AtProgress.ResidentBytes &&
+    static_cast<double>(now.ResidentBytes) <
+      LargestExpansion * static_cast<double>(now.ReadBytes) + LargestOverhead;
+  if (reads || keeps)
   {
     this->AtProgress = now;
   }
@@ -50,7 +61,9 @@ bool WorkerVitals::Look(Signs& signs) const
   const std::string folder = "/proc/" + std::to_string(this->Worker);
   std::string label;
   std::uint64_t size = 0;
+  std::uint64_t resident = 0;
   std::ifstream(folder + "/io") >> label >> signs.ReadBytes; // rchar, its first row
-  std::ifstream(folder + "/statm") >> size >> signs.ResidentPages;
+  std::ifstream(folder + "/statm") >> size >> resident;      // in pages
+  signs.ResidentBytes = resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   return label == "rchar:" && size > 0;
 }

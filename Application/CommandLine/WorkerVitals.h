@@ -7,7 +7,7 @@
 #include <sys/types.h>
 
 /// Tells whether a process that reads a file has stopped to do so without ending: it works, but it
-/// neither reads, nor needs new memory, nor reports progress.
+/// neither reads, nor needs new memory in proportion to what it has read, nor reports progress.
 class WorkerVitals
 {
 public:
@@ -25,7 +25,7 @@ private:
   {
     double ProcessorSeconds = 0;
     std::uint64_t ReadBytes = 0;
-    std::uint64_t ResidentPages = 0;
+    std::uint64_t ResidentBytes = 0;
   };
 
   bool Look(Signs& signs) const;
