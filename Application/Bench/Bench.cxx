@@ -16,11 +16,11 @@
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/ProgressLine.h"
 #include "Files/AtomicOutput.h"
+#include "Files/WriteBytes.h"
 #include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
 
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 
 namespace
@@ -95,13 +95,7 @@ std::string DescribeCommand(const BenchOptions& options)
 
 void WriteText(AtomicOutput& folder, const std::string& file, const std::string& text)
 {
-  std::ofstream stream(folder.AddFile(file), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-  {
-    throw WorkError("cannot write '" + folder.GetName() + "/" + file + "'");
-  }
+  ::WriteText(text, folder.AddFile(file), folder.GetName() + "/" + file);
 }
 
 void PrintRow(const BenchRow& row)

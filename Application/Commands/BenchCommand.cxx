@@ -34,10 +34,12 @@ void AddSceneOptions(CLI::App* command, BenchOptions& options)
       "Folder with bluntfinxyz.bin, bluntfinq.bin and can.vtu of the VTK examples, and engine.vti, "
       "image data, if it is there; default: the variable TETRALUX_DATA, else generated scenes "
       "alone")
+    ->check(MakeNameCheck())
     ->type_name("FOLDER");
   command
     ->add_option("--scene", options.Scenes,
       "Measure this scene alone, and once more for each further one; default: all")
+    ->check(MakeNameCheck())
     ->allow_extra_args(false)
     ->type_name("NAME");
 }
@@ -50,6 +52,7 @@ void AddRunOptions(CLI::App* command, BenchOptions& options)
       "properties as render --set takes them, with blanks between, of ray-cast or of a method "
       "named before them; triangle-caster measures with scenes of image data, all others with "
       "those of cells")
+    ->check(MakeNameCheck())
     ->allow_extra_args(false)
     ->type_name("'[METHOD] Property=Value ...'");
   AddOption(command, "--frames", "Frames timed of each picture, at most; default: 10",
@@ -65,6 +68,7 @@ void AddRunOptions(CLI::App* command, BenchOptions& options)
       "Folder to write: index.html, results.json, results.csv and pictures; one that an earlier "
       "run "
       "wrote is replaced")
+    ->check(MakeNameCheck())
     ->type_name("FOLDER");
 }
 
