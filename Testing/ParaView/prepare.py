@@ -68,6 +68,17 @@ def write_data(name, data, output):
     return path
 
 
+def write_steps(disk, output):
+    """Two time steps of the same cells, whose temperatures differ."""
+    for step in range(2):
+        data = disk.NewInstance()
+        data.DeepCopy(disk)
+        temperatures = data.GetPointData().GetArray("Temp")
+        for i in range(temperatures.GetNumberOfTuples()):
+            temperatures.SetValue(i, temperatures.GetValue(i) * (1 + 0.1 * step))
+        write_data(f"step{step}", data, output)
+
+
 def join(numbers):
     return ",".join(map(str, numbers))
 
@@ -111,6 +122,8 @@ def main():
     for name, data in read_data(data_folder).items():
         write_data(name, data, output)
         counts[name] = {"cells": data.GetNumberOfCells()}
+        if name == "disk":
+            write_steps(data, output)
     for name in scenes.SCENES:
         tetrahedra = render(tool, name, output)
         counts[scenes.SCENES[name][0]]["tetrahedra"] = tetrahedra
