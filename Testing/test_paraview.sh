@@ -66,10 +66,12 @@ require "install the plugin" cmake --install build-paraview --prefix "$prefix"
 TETRALUX_PLUGIN=$(find "$prefix" -name Tetralux.so)
 export TETRALUX_PLUGIN
 
+# The interpreter that VTK was wrapped for, which need not come first.
+python=$(PATH="/usr/bin:$PATH" type -P python3)
 check "installed" check_installed
 require "display" start_display
-require "pictures of the tool" timed python3 Testing/ParaView/prepare.py build/bin/tetralux \
-  "$TETRALUX_DATA" "$TETRALUX_PARAVIEW_FOLDER"
+require "pictures of the tool" timed "$python" Testing/ParaView/prepare.py \
+  build/bin/tetralux "$TETRALUX_DATA" "$TETRALUX_PARAVIEW_FOLDER"
 check "representations" timed in_paraview 1 Testing/ParaView/TestRepresentations.py
 check "what is rebuilt" timed in_paraview 1 Testing/ParaView/TestRebuilt.py
 check "menus" timed in_paraview 1 Testing/ParaView/TestMenus.py
