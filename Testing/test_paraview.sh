@@ -41,6 +41,22 @@ start_display() {
   export DISPLAY=":$DISPLAY"
 }
 
+# A server and its client.
+check_server() {
+  local port status
+  port=$("$python" -c 'import socket as s; t = s.socket(); t.bind(("", 0)); print(t.getsockname()[1])')
+  "$paraview/usr/bin/pvserver" --server-port="$port" >build-paraview/server.log &
+  local server=$!
+  for _ in {1..120}; do
+    grep -q "Accepting connection" build-paraview/server.log && break
+    sleep 0.5
+  done
+  timeout 300 "$paraview/usr/bin/pvpython" Testing/ParaView/TestServer.py "$port"
+  status=$?
+  kill "$server" 2>/dev/null
+  return $status
+}
+
 # What is installed must not need the build tree.
 check_installed() {
   local library
@@ -74,6 +90,7 @@ require "pictures of the tool" timed "$python" Testing/ParaView/prepare.py \
   build/bin/tetralux "$TETRALUX_DATA" "$TETRALUX_PARAVIEW_FOLDER"
 check "representations" timed in_paraview 1 Testing/ParaView/TestRepresentations.py
 check "what is rebuilt" timed in_paraview 1 Testing/ParaView/TestRebuilt.py
+check "server" timed check_server
 check "menus" timed in_paraview 1 Testing/ParaView/TestMenus.py
 check "example" timed in_paraview 1 Testing/ParaView/TestExample.py
 require "pictures of one process" timed in_paraview 1 Testing/ParaView/TestParallel.py reference
