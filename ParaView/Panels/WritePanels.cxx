@@ -229,6 +229,24 @@ void WriteDocumentation(const MapperProperty& property, unsigned kinds, std::ost
   xml << "</Documentation>\n";
 }
 
+/// What a switch of the same group turns on is shown only then.
+void WriteHints(const MapperProperty& property, std::ostream& xml)
+{
+  const std::string group = property.Group;
+  const MapperProperty* groupSwitch = tetralux::FindMapperProperty(group);
+  if (!groupSwitch || groupSwitch == &property)
+  {
+    return;
+  }
+  xml << "        <Hints>\n"
+         "          <PropertyWidgetDecorator type=\"ShowWidgetDecorator\">\n"
+         "            <Property name=\"Tetralux"
+      << group
+      << "\" function=\"boolean\"/>\n"
+         "          </PropertyWidgetDecorator>\n"
+         "        </Hints>\n";
+}
+
 std::string MakeDefinitions(const std::string& group)
 {
   const unsigned kinds = FindKinds(group);
@@ -252,6 +270,7 @@ std::string MakeDefinitions(const std::string& group)
     xml << "\">\n";
     WriteDomain(property, kinds, xml);
     WriteDocumentation(property, kinds, xml);
+    WriteHints(property, xml);
     xml << "      </" << GetElement(property.Type) << ">\n";
   }
   return xml.str();

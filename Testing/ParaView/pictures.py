@@ -39,10 +39,7 @@ def make_view():
 
 def read(data):
     """The reader of a data set's file. All cells must have arrived."""
-    if data == "neghip":
-        reader = simple.XMLImageDataReader(FileName=[str(FOLDER / "neghip.vti")])
-    else:
-        reader = simple.XMLUnstructuredGridReader(FileName=[str(FOLDER / f"{data}.vtu")])
+    reader = simple.OpenDataFile(str(FOLDER / scenes.get_file(data)))
     reader.UpdatePipeline()
     cells = reader.GetDataInformation().GetNumberOfCells()
     expected = COUNTS[data]["cells"]
@@ -72,7 +69,8 @@ def set_up(display, representation, unit_distance, settings):
     display.Ambient, display.Diffuse = 0.1, 0.7
     display.Specular, display.SpecularPower = 0.2, 10
     for name, value in settings.items():
-        setattr(display, name, value)
+        owner, _, property_name = name.rpartition(".")
+        setattr(getattr(display, owner) if owner else display, property_name, value)
 
 
 def place_camera(view, position, focal_point, view_up):

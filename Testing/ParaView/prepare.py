@@ -11,15 +11,19 @@ import pathlib
 import subprocess
 import sys
 
+from vtkmodules.vtkCommonCore import vtkIdList
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
+from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkIOExodus import vtkExodusIIReader
 from vtkmodules.vtkIOImage import vtkSLCReader
 from vtkmodules.vtkIOParallel import vtkMultiBlockPLOT3DReader
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter,
+    vtkXMLMultiBlockDataWriter,
     vtkXMLUnstructuredGridReader,
     vtkXMLUnstructuredGridWriter,
 )
-from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
 import scenes
 
@@ -45,12 +49,26 @@ def read_data(folder):
     can.SetFileName(str(folder / "can.vtu"))
     can.Update()
 
+    disk_block = disk.GetOutput().GetBlock(0).GetBlock(0)
+    halves = vtkMultiBlockDataSet()
+    count = disk_block.GetNumberOfCells()
+    for i, ids in enumerate((range(count // 2), range(count // 2, count))):
+        cells_of_half = vtkIdList()
+        for cell in ids:
+            cells_of_half.InsertNextId(cell)
+        half = vtkExtractCells()
+        half.SetInputData(disk_block)
+        half.SetCellList(cells_of_half)
+        half.Update()
+        halves.SetBlock(i, half.GetOutput())
+
     neghip = vtkSLCReader()
     neghip.SetFileName(str(folder / "neghip.slc"))
     neghip.Update()
     return {
         "fin": cells.GetOutput(),
-        "disk": disk.GetOutput().GetBlock(0).GetBlock(0),
+        "disk": disk_block,
+        "blocks": halves,
         "can": can.GetOutput(),
         "neghip": neghip.GetOutput(),
     }
@@ -58,14 +76,29 @@ def read_data(folder):
 
 def write_data(name, data, output):
     """Writes a data set; returns the file's path."""
-    image = data.IsA("vtkImageData")
-    writer = vtkXMLImageDataWriter() if image else vtkXMLUnstructuredGridWriter()
-    path = output / (name + (".vti" if image else ".vtu"))
+    if data.IsA("vtkImageData"):
+        writer = vtkXMLImageDataWriter()
+    elif data.IsA("vtkMultiBlockDataSet"):
+        writer = vtkXMLMultiBlockDataWriter()
+    else:
+        writer = vtkXMLUnstructuredGridWriter()
+    path = output / scenes.get_file(name)
     writer.SetInputData(data)
     writer.SetFileName(str(path))
     writer.SetDataModeToBinary()  # inline
     assert writer.Write() == 1, path
     return path
+
+
+def write_steps(disk, output):
+    """Two time steps of the same cells, whose temperatures differ."""
+    for step in range(2):
+        data = disk.NewInstance()
+        data.DeepCopy(disk)
+        temperatures = data.GetPointData().GetArray("Temp")
+        for i in range(temperatures.GetNumberOfTuples()):
+            temperatures.SetValue(i, temperatures.GetValue(i) * (1 + 0.1 * step))
+        write_data(f"step{step}", data, output)
 
 
 def join(numbers):
@@ -89,10 +122,9 @@ def render(tool, name, output):
             ]
         )
     )
-    extension = ".vti" if data == "neghip" else ".vtu"
     statistics = output / f"{name}-stats.json"
     command = [
-        *(tool, "render", output / (data + extension), "--array", scene["array"]),
+        *(tool, "render", output / scenes.get_file(data), "--array", scene["array"]),
         *("--transfer", transfer, "--opacity-unit-distance", scene["unit_distance"]),
         *("--camera-position", join(scene["position"])),
         *("--camera-focal-point", join(scene["focal_point"])),
@@ -111,6 +143,8 @@ def main():
     for name, data in read_data(data_folder).items():
         write_data(name, data, output)
         counts[name] = {"cells": data.GetNumberOfCells()}
+        if name == "disk":
+            write_steps(data, output)
     for name in scenes.SCENES:
         tetrahedra = render(tool, name, output)
         counts[scenes.SCENES[name][0]]["tetrahedra"] = tetrahedra

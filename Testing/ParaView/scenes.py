@@ -31,6 +31,16 @@ DATA = {
         "view_up": (0, 0, 1),
         "unit_distance": 2,
     },
+    # The same in two blocks of a composite.
+    "blocks": {
+        "array": "Temp",
+        "of": "POINTS",
+        "range": (293, 913.5),
+        "position": (20, 28, 17),
+        "focal_point": (0, 0, 0.1),
+        "view_up": (0, 0, 1),
+        "unit_distance": 2,
+    },
     "can": {
         "array": "EQPS",
         "of": "CELLS",
@@ -72,6 +82,16 @@ SCENES["disk-automatic"] = (
     {"TetraluxBlendMode": "Maximum intensity"},
     ["--set", "BlendMode=maximum-intensity"],
 )
+SCENES["blocks-ray-cast"] = (
+    "blocks",
+    "Tetralux Volume",
+    {"TetraluxMethod": "Ray casting"},
+    ["--method", "ray-cast"],
+)
+CROPPED = [
+    *("--method", "ray-cast", "--set", "Cropping=on"),
+    *("--set", "CroppingRegionPlanes=-5,5,1,6,0,4"),
+]
 SCENES["fin-cropped"] = (
     "fin",
     "Tetralux Volume",
@@ -80,10 +100,19 @@ SCENES["fin-cropped"] = (
         "TetraluxCropping": 1,
         "TetraluxCroppingRegionPlanes": [-5, 5, 1, 6, 0, 4],
     },
-    [
-        *("--method", "ray-cast", "--set", "Cropping=on"),
-        *("--set", "CroppingRegionPlanes=-5,5,1,6,0,4"),
-    ],
+    CROPPED,
+)
+# A box shows the same as planes that crop.
+SCENES["fin-clipped"] = (
+    "fin",
+    "Tetralux Volume",
+    {
+        "TetraluxMethod": "Ray casting",
+        "TetraluxClip": "Box",
+        "TetraluxClip.Position": [-5, 1, 0],
+        "TetraluxClip.Length": [10, 5, 4],
+    },
+    CROPPED,
 )
 for data, values in (("fin", (1.5, 3)), ("disk", (400, 700))):
     SCENES[f"{data}-isosurface"] = (
@@ -98,6 +127,16 @@ SCENES["neghip-triangle-caster"] = (
     {"TetraluxSampleDistance": 0.5},
     ["--method", "triangle-caster", "--set", "SampleDistance=0.5"],
 )
+
+
+# Scenes whose states are saved and loaded: each representation, and what has a proxy of its own.
+WITH_STATES = ("disk-ray-cast", "fin-clipped", "fin-isosurface", "neghip-triangle-caster")
+
+FILES = {"neghip": "neghip.vti", "blocks": "blocks.vtm"}
+
+
+def get_file(data):
+    return FILES.get(data, f"{data}.vtu")
 
 
 def scale(points, array_range):
