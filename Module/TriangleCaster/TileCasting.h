@@ -27,7 +27,7 @@ namespace
 /// Which samples of a vector neither a mask nor a hidden cell hides.
 struct ShownSamples
 {
-  unsigned char Bits[SlabsOfBlock][MostCroppedParts]; ///< one of each ray
+  std::uint16_t Bits[SlabsOfBlock][MostCroppedParts]; ///< one of each ray, of up to 16
 };
 
 /// Finds them in slabs [begin, end) of the block that begins at slab start. Apart from CastBlock,
@@ -47,7 +47,7 @@ TETRALUX_NOINLINE void FindShownSamples(const ImageKernelInput& in, const ImageR
       const Float8 to = Select(LoadInt8(rays.Last[p]) == n, LoadFloat8(rays.End[p]), Float8(1.f));
       ImageSample place;
       PlaceSample(in, positions, position + Float8(0.5f) * (from + to), place);
-      shown.Bits[slab - start][p] = static_cast<unsigned char>(Bits(FindShown(in, place)));
+      shown.Bits[slab - start][p] = static_cast<std::uint16_t>(Bits(FindShown(in, place)));
     }
   }
 }
