@@ -230,7 +230,7 @@ TransferFunction MakeRandomFunction(std::mt19937& random, double largestAttenuat
 
 TEST(RayCasterComponentsBehavior, ScalarsAtNodesAreInOneInterval)
 {
-  // Scalars are at nodes at all points: in many cells all along, in others where they begin and end.
+  // Scalars are at nodes at all points: in many cells all along, in others at both ends.
   constexpr int Scenes = 24;
   for (int i = 0; i < Scenes; ++i)
   {
