@@ -34,7 +34,7 @@ public:
   /**
    * Set the arithmetic of the geometry along rays. Default AUTOMATIC_PRECISION: single if its
    * estimated error is within a quarter of MaximumError, else double. Double precision takes 32
-   * bytes a point more.
+   * bytes a point more. Several components at once are always cast in double precision.
    */
   virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);

@@ -18,8 +18,8 @@
  * ScalarOpacityUnitDistance. Radiance is the integral of attenuation x colour x exp(-optical
  * depth). VTK's own mappers of unstructured grids have the same model; its mappers of image data
  * have 1 - (1 - a)^(l / d). The property's colour (RGB in any colour space, or grey), scalar
- * opacity and unit distance of component 0 are used at the exact scalars of their nodes.
- * SetBlendMode() has the other models.
+ * opacity and unit distance of component 0 are used at the exact scalars of their nodes; those of
+ * further components where SetVectorMode() says so. SetBlendMode() has the other models.
  *
  * If the property's Shade is on, lights of the renderer shine on composite volumes and isosurfaces
  * of scalars at points, from the side of the viewer: ambient, diffuse and specular (Blinn) as in

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace tetralux
@@ -152,6 +153,13 @@ TransferFunction MakeChannel(int channel, const std::vector<double>& values, dou
   TransferFunction function;
   for (const double scalar : range)
   {
+    if (std::abs(scalar / largest) > LargestColor)
+    {
+      std::ostringstream message;
+      message << "a component that is a colour is " << scalar << ", and at most " << LargestColor
+              << " can be drawn";
+      throw std::invalid_argument(message.str());
+    }
     TransferFunction::Value value{};
     value.Color[channel] = scalar / largest;
     if (function.Nodes.empty() || function.Nodes.back().Scalar < scalar)

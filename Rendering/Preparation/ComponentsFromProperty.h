@@ -54,7 +54,8 @@ ComponentUse FindComponentUse(const std::vector<DataSetBlock>& blocks,
 
 /// Functions of all components that are shown. values: of each component, at all places.
 /// maximumError and longestPath as of TransferFunctionFromProperty; error: receives what
-/// approximating the functions adds. Throws as TransferFunctionFromProperty.
+/// approximating the functions adds. Throws as TransferFunctionFromProperty, and where a component
+/// that is a colour is above LargestColor.
 ComponentFunctions ComponentsFromProperty(vtkVolumeProperty* property, const ComponentUse& use,
   const std::vector<const std::vector<double>*>& values, double maximumError, double longestPath,
   double& error);

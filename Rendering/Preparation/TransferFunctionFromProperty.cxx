@@ -50,9 +50,6 @@ constexpr int SearchedColors = 1024;
 /// within single precision.
 constexpr double LargestOpticalDepth = 1e15;
 
-/// A channel that is larger may leave single precision on its way to the picture.
-constexpr double LargestColor = 1e20;
-
 /// A function with linear intervals that goes through SearchedColors colours of each interval.
 /// Paths begin and end near the colours of the nodes, not at them.
 vtkSmartPointer<vtkColorTransferFunction> SearchOnce(vtkColorTransferFunction* function)

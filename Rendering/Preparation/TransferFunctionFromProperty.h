@@ -14,6 +14,9 @@ namespace tetralux
 /// no less.
 constexpr double SmallestFunctionError = 1e-7;
 
+/// A channel that is larger may leave single precision on its way to the picture.
+constexpr double LargestColor = 1e20;
+
 struct PropertyTransferFunction
 {
   TransferFunction Function;

@@ -297,6 +297,16 @@ TEST(MapperComponents, WhatCanNotBeDrawnIsSaid)
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_NE(warnings[1].find("RGBColors"), std::string::npos) << warnings[1];
   EXPECT_EQ(errors.size(), 2u);
+
+  SeveralScene bright;
+  const Observer onBright(
+    bright.Mapper, vtkCommand::ErrorEvent, [&](const char* text) { errors.emplace_back(text); });
+  bright.Volume->GetProperty()->IndependentComponentsOff();
+  bright.Fields[2][0] = 1e30;
+  bright.Show(4);
+  bright.Window->Render();
+  ASSERT_EQ(errors.size(), 3u);
+  EXPECT_NE(errors[2].find("1e+30"), std::string::npos) << errors[2];
 }
 
 template <class MapperT>

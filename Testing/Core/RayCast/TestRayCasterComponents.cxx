@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,7 +25,13 @@ using namespace tetralux;
 /// Of a channel: half of MaximumError, and what the steps of the reference leave.
 constexpr double ErrorGoal = 1e-4;
 
+/// The same, where rays go on to their ends.
+constexpr double ExactGoal = 1e-5;
+
 constexpr int ImageSize = 20;
+
+/// Of scalars that are whole numbers.
+constexpr int LargestScalar = 4;
 
 struct ComponentScene
 {
@@ -176,6 +183,11 @@ TEST_P(RayCasterComponents, MatchSmallSteps)
   EXPECT_GE(picture.Statistics.ErrorEstimate, 0);
   EXPECT_LE(picture.Statistics.ErrorEstimate, ErrorGoal);
 
+  // Rays that go on to their ends, to the rounding of single precision.
+  RayCastOptions exact;
+  exact.MaximumError = 0;
+  EXPECT_LE(FindLargestError(Cast(volume, scene.Rays, exact).Colors, expected), ExactGoal);
+
   RayCastOptions portable;
   portable.PortableKernels = true;
   EXPECT_LE(FindLargestError(Cast(volume, scene.Rays, portable).Colors, expected), ErrorGoal);
@@ -196,6 +208,59 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RayCasterComponents,
     NamedScene{ "OfCells", [] { return OfCells(MakeScene(3, false, 8)); } },
     NamedScene{ "DependentOfCells", [] { return OfCells(MakeScene(2, true, 8)); } }),
   [](const auto& info) { return info.param.Name; });
+
+/// Nodes at whole numbers, steps at some of them, nothing between others.
+TransferFunction MakeRandomFunction(std::mt19937& random, double largestAttenuation)
+{
+  const auto draw = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
+  const auto make = [&]
+  {
+    TransferFunction::Value value = { { draw(), draw(), draw() }, 0 };
+    value.Attenuation = draw() < 0.4 ? 0 : largestAttenuation * draw();
+    return value;
+  };
+  TransferFunction function;
+  for (int scalar = 0; scalar <= LargestScalar; ++scalar)
+  {
+    const TransferFunction::Value left = make();
+    function.Nodes.push_back({ static_cast<double>(scalar), left, draw() < 0.5 ? left : make() });
+  }
+  return function;
+}
+
+TEST(RayCasterComponentsBehavior, ScalarsAtNodesAreInOneInterval)
+{
+  // Scalars are at nodes at all points: in many cells all along, in others at both ends.
+  constexpr int Scenes = 24;
+  for (int i = 0; i < Scenes; ++i)
+  {
+    SCOPED_TRACE(i);
+    std::mt19937 random(i);
+    ComponentScene scene;
+    scene.Rays.Mesh = MakeBox(3, 3, 3, { 0, 0, 0 }, { 1, 1, 1 }, 0.15, i + 1);
+    scene.Rays.Grid = MakePerspectiveGrid(
+      { 3.1, 2.2, 2.7 }, { 0.5, 0.5, 0.5 }, { 0.1, 1, 0.2 }, 30, ImageSize / 2, ImageSize / 2);
+    scene.Components.Dependent = i % 2 != 0;
+    const int components = 2 + i % 3;
+    const double largestAttenuation = std::pow(10., i % 4);
+    for (int c = 0; c < components; ++c)
+    {
+      scene.Scalars.emplace_back();
+      std::uniform_int_distribution<int> draw(0, i % 5 == 0 ? 1 : LargestScalar);
+      for (std::size_t p = 0; p < scene.Rays.Mesh.GetNumberOfPoints(); ++p)
+      {
+        scene.Scalars.back().push_back(draw(random));
+      }
+      const TransferFunction function = MakeRandomFunction(random, largestAttenuation);
+      scene.Components.Functions.push_back(
+        scene.Components.Dependent ? Keep(function, c + 1 < components) : function);
+    }
+    scene.Rays.Scalars = scene.Scalars[0];
+    scene.Rays.Function = scene.Components.Functions[0];
+    VolumeScene volume = MakeVolume(scene);
+    EXPECT_LE(FindLargestError(Cast(volume, scene.Rays).Colors, RenderReference(scene)), ErrorGoal);
+  }
+}
 
 TEST(RayCasterComponentsBehavior, OneOfThemAloneIsTheScalar)
 {
