@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -135,7 +137,7 @@ private:
 
   int Judge(int status) const
   {
-    if (this->Status) // whatever libraries do at the end of the process
+    if (this->Status)
     {
       return *this->Status;
     }
@@ -212,12 +214,15 @@ int Supervise(const std::function<int()>& work)
     prctl(PR_SET_PDEATHSIG, SIGKILL); // the work does not outlive its supervisor
     if (getppid() != supervisor)
     {
-      return WorkFailed;
+      _exit(WorkFailed);
     }
     WorkerChannel::Open(channel[1]);
     const int status = work();
     WorkerChannel::Send(WorkerChannel::Ended, std::to_string(status));
-    return status;
+    // What libraries do at the end of a process is left out: they have lines of their own for it.
+    std::cout.flush();
+    std::fflush(nullptr);
+    _exit(status);
   }
   close(channel[1]);
   const int signals = signalfd(-1, &watched, SFD_CLOEXEC | SFD_NONBLOCK);
