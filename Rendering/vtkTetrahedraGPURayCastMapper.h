@@ -85,16 +85,12 @@ public:
   std::string GetSupportReason();
   ///@}
 
-  /**
-   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
-   */
-  void ReleaseGraphicsResources(vtkWindow* window) override;
-
 protected:
   vtkTetrahedraGPURayCastMapper();
   ~vtkTetrahedraGPURayCastMapper() override;
 
   void DrawFrame(tetralux::MapperFrame& frame) override;
+  void ReleaseResources(vtkWindow* window) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
   void PrintResults(ostream& os, vtkIndent indent) override;
 

@@ -120,16 +120,12 @@ public:
   const char* GetUsedOrderAsString();
   ///@}
 
-  /**
-   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
-   */
-  void ReleaseGraphicsResources(vtkWindow* window) override;
-
 protected:
   vtkTetrahedraProjectionMapper();
   ~vtkTetrahedraProjectionMapper() override;
 
   void DrawFrame(tetralux::MapperFrame& frame) override;
+  void ReleaseResources(vtkWindow* window) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
   void PrintResults(ostream& os, vtkIndent indent) override;
 

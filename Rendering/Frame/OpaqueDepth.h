@@ -2,6 +2,7 @@
 #ifndef tetralux_OpaqueDepth_h
 #define tetralux_OpaqueDepth_h
 
+#include "Base/Span.h"
 #include "Frame/CameraRays.h"
 #include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
@@ -35,6 +36,14 @@ public:
 
   /// Depths 0..1, lower row first, a texel for each pixel of the rectangle.
   vtkTextureObject* GetTexture() const { return this->Texture; }
+
+  /// Reads the depths of the last copy into one number a pixel. The window's context has to be
+  /// current. Leaves OpenGL's state as it was.
+  void Read(Span<float> depths);
+
+  /// Whether the depth buffer that is bound for drawing holds the depths of the last copy. Throws
+  /// as Copy does.
+  bool IsSame(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle);
 
   std::size_t GetNumberOfBytes() const { return this->Bytes; }
 

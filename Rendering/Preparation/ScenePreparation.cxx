@@ -2,6 +2,7 @@
 #include "Preparation/ScenePreparation.h"
 
 #include "Base/Stopwatch.h"
+#include "Frame/HeldContents.h"
 #include "Intake/LeftOutCells.h"
 #include "Intake/PointExtraction.h"
 #include "Intake/ScalarExtraction.h"
@@ -10,7 +11,9 @@
 #include "Preparation/TransferFunctionFromProperty.h"
 #include "View/MeshToWorld.h"
 
+#include "vtkDataObject.h"
 #include "vtkMatrix4x4.h"
+#include "vtkSmartPointer.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -46,16 +49,24 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
     throw std::invalid_argument("there is no input");
   }
   const std::vector<DataSetBlock> blocks = CollectDataSets(input.Data);
-  if (!this->PrepareMesh(settings, input.Data, blocks, progress))
+  InputKeys keys;
+  keys.Cells = GetCellsKey(blocks);
+  keys.Points = GetPointsKey(blocks);
+  keys.Scalars = GetScalarsKey(blocks, settings.Scalars);
+  keys.Colors = settings.Colors ? GetScalarsKey(blocks, *settings.Colors) : CacheKey();
+  // Who is told of progress may change the input: what it consists of now is read.
+  const vtkSmartPointer<vtkDataObject> data =
+    this->IsOf(keys) ? vtkSmartPointer<vtkDataObject>(input.Data) : HoldContents(input.Data);
+  if (!this->PrepareMesh(settings, data, keys, progress))
   {
     return false;
   }
-  if (!this->MergePoints(settings, input.Data, blocks, progress))
+  if (!this->MergePoints(settings, data, keys.Scalars, progress))
   {
     return false;
   }
-  this->PrepareScalars(input.Data, blocks, settings.Scalars);
-  this->PrepareColors(input.Data, blocks, settings.Colors);
+  this->PrepareScalars(data, keys.Scalars, settings.Scalars);
+  this->PrepareColors(data, keys.Colors, settings.Colors);
   this->PrepareFunction(settings, input);
   this->WarnOfShade(input.Property);
   this->Scene.Prepare({});
@@ -63,23 +74,29 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
   return true;
 }
 
-bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject* input,
-  const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress)
+/// Whether the scene was made of that input.
+bool ScenePreparation::IsOf(const InputKeys& keys) const
 {
-  CacheKey cellsKey = GetCellsKey(blocks);
-  CacheKey pointsKey = GetPointsKey(blocks);
+  return this->Scene.Mesh.GetMesh() && keys.Cells == this->CellsKey &&
+    keys.Points == this->PointsKey && this->Scalars.Has(keys.Scalars) &&
+    (keys.Colors == CacheKey() || this->Colors.Has(keys.Colors));
+}
+
+bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject* input,
+  const InputKeys& keys, const std::function<bool(double)>& progress)
+{
   const bool hasMesh = this->Scene.Mesh.GetMesh() != nullptr;
-  const bool sameCells = hasMesh && cellsKey == this->CellsKey;
-  if (sameCells && pointsKey == this->PointsKey)
+  const bool sameCells = hasMesh && keys.Cells == this->CellsKey;
+  if (sameCells && keys.Points == this->PointsKey)
   {
     return true;
   }
   const Stopwatch intakeStopwatch;
-  const Digest digest = sameCells ? this->Cells : DigestCells(blocks);
+  const Digest digest = sameCells ? this->Cells : DigestCells(CollectDataSets(input));
   if (hasMesh && digest == this->Cells && this->MovePoints(input))
   {
-    this->CellsKey = std::move(cellsKey);
-    this->PointsKey = std::move(pointsKey);
+    this->CellsKey = keys.Cells;
+    this->PointsKey = keys.Points;
     this->Last.MeshSeconds = intakeStopwatch.GetSeconds();
     return true;
   }
@@ -115,8 +132,8 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
       this->Merger.CompareWith(*this->Scene.Mesh.GetMesh());
     }
   }
-  this->CellsKey = std::move(cellsKey);
-  this->PointsKey = std::move(pointsKey);
+  this->CellsKey = keys.Cells;
+  this->PointsKey = keys.Points;
   this->Cells = digest;
   this->Last.MeshSeconds = meshStopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("mesh");
@@ -139,9 +156,9 @@ void ScenePreparation::SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeR
 
 /// Makes the mesh anew where other points are to be taken as one.
 bool ScenePreparation::MergePoints(const MapperSettings& settings, vtkDataObject* input,
-  const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress)
+  const CacheKey& scalars, const std::function<bool(double)>& progress)
 {
-  CacheKey key = GetScalarsKey(blocks, settings.Scalars);
+  CacheKey key = scalars;
   key.Add(settings.Merging);
   const bool isKnown = settings.Merging == PointMerging::Never || this->Merger.HasFound();
   if ((isKnown && this->Merging.Has(key)) || this->Scene.Mesh.GetMesh()->GetNumberOfCells() == 0)
@@ -222,9 +239,8 @@ bool ScenePreparation::MovePoints(vtkDataObject* input)
 }
 
 void ScenePreparation::PrepareScalars(
-  vtkDataObject* input, const std::vector<DataSetBlock>& blocks, const ScalarSelection& selection)
+  vtkDataObject* input, const CacheKey& key, const ScalarSelection& selection)
 {
-  CacheKey key = GetScalarsKey(blocks, selection);
   if (this->Scalars.Has(key))
   {
     return;
@@ -254,15 +270,14 @@ void ScenePreparation::PrepareScalars(
     // Nothing to colour, so no array is missed either.
     this->Scene.Mesh.SetCellScalars({});
   }
-  this->Scalars.Set(std::move(key));
+  this->Scalars.Set(key);
   this->Last.ScalarsSeconds = stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("scalars");
 }
 
-void ScenePreparation::PrepareColors(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
-  const std::optional<ScalarSelection>& selection)
+void ScenePreparation::PrepareColors(
+  vtkDataObject* input, const CacheKey& key, const std::optional<ScalarSelection>& selection)
 {
-  CacheKey key = selection ? GetScalarsKey(blocks, *selection) : CacheKey();
   const TetrahedralMesh& mesh = this->Scene.Mesh.GetMesh()->GetMesh();
   if (this->Colors.Has(key) || (!selection && this->Scene.Mesh.GetColorScalars().empty()))
   {
@@ -281,7 +296,7 @@ void ScenePreparation::PrepareColors(vtkDataObject* input, const std::vector<Dat
     values = std::move(scalars.Values);
   }
   this->Scene.Mesh.SetColorScalars(std::move(values));
-  this->Colors.Set(std::move(key));
+  this->Colors.Set(key);
   this->Last.ScalarsSeconds += stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("colours");
 }

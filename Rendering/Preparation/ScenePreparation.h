@@ -77,19 +77,28 @@ public:
   const Record& GetLast() const { return this->Last; }
 
 private:
-  bool PrepareMesh(const MapperSettings& settings, vtkDataObject* input,
-    const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress);
+  /// What an input is told from others by.
+  struct InputKeys
+  {
+    CacheKey Cells;
+    CacheKey Points;
+    CacheKey Scalars;
+    CacheKey Colors;
+  };
+
+  bool IsOf(const InputKeys& keys) const;
+  bool PrepareMesh(const MapperSettings& settings, vtkDataObject* input, const InputKeys& keys,
+    const std::function<bool(double)>& progress);
   bool MovePoints(vtkDataObject* input);
-  bool MergePoints(const MapperSettings& settings, vtkDataObject* input,
-    const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress);
+  bool MergePoints(const MapperSettings& settings, vtkDataObject* input, const CacheKey& scalars,
+    const std::function<bool(double)>& progress);
   bool UseMerged(const MapperSettings& settings, vtkDataObject* input,
     const CoincidentPoints& merged, const std::function<bool(double)>& progress, bool& used);
   void SetMesh(TetrahedraIntake intake);
   void SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeReport report);
-  void PrepareScalars(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
-    const ScalarSelection& selection);
-  void PrepareColors(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
-    const std::optional<ScalarSelection>& selection);
+  void PrepareScalars(vtkDataObject* input, const CacheKey& key, const ScalarSelection& selection);
+  void PrepareColors(
+    vtkDataObject* input, const CacheKey& key, const std::optional<ScalarSelection>& selection);
   void PrepareFunction(const MapperSettings& settings, const SceneInput& input);
   void PrepareTable(const MapperSettings& settings, const SceneInput& input);
   void WarnOfMesh();
