@@ -36,10 +36,9 @@ void vtkTetrahedraCPUMapper::DrawFrame(tetralux::MapperFrame& frame)
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraCPUMapper::ReleaseGraphicsResources(vtkWindow* window)
+void vtkTetrahedraCPUMapper::ReleaseResources(vtkWindow* window)
 {
   this->Private->Drawing.ReleaseGraphicsResources(window);
-  this->Superclass::ReleaseGraphicsResources(window);
 }
 
 //------------------------------------------------------------------------------------------------

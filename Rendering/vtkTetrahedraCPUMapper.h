@@ -68,16 +68,12 @@ public:
   vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
   ///@}
 
-  /**
-   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
-   */
-  void ReleaseGraphicsResources(vtkWindow* window) override;
-
 protected:
   vtkTetrahedraCPUMapper();
   ~vtkTetrahedraCPUMapper() override;
 
   void DrawFrame(tetralux::MapperFrame& frame) override;
+  void ReleaseResources(vtkWindow* window) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
 
   /**

@@ -79,7 +79,7 @@ private:
   void Upload(MapperFrame& frame, const tetralux::RayGrid& grid, const tetralux::WalkTables& tables,
     GpuReentry reentry);
   void Read(vtkImageData* image);
-  void Composite(vtkOpenGLRenderWindow* window, const tetralux::PixelRectangle& visible);
+  void Composite(MapperFrame& frame, const tetralux::PixelRectangle& visible);
   void Describe(const tetralux::GpuRayCastStatistics& statistics,
     const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
 
@@ -92,6 +92,7 @@ private:
   tetralux::ImageCompositor Compositor;
 
   tetralux::Cached<std::vector<std::uint8_t>> Positive; ///< orientation of the mesh's cells
+  tetralux::CacheStamp Last;                            ///< of the picture that Caster has
   tetralux::ContextResources Context;
 };
 
@@ -103,18 +104,30 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   tetralux::VolumeScene& scene = *frame.Scene;
   if (rays.GetVisible().Width == 0 || scene.Mesh.GetMesh()->GetNumberOfCells() == 0)
   {
-    frame.Image->Initialize(); // a tile that shows nothing of the viewport
+    frame.MakeEmptyPicture(rays);
+    this->Last.Reset();
     return;
   }
   const tetralux::RayGrid grid = frame.MakeGrid(rays);
   const tetralux::RayLimits limits = frame.MakeLimits(rays);
+  frame.Opaque = frame.HasOpaqueGeometry();
+  frame.AddViewToKey(rays, grid, limits);
+  frame.Key.Add(frame.Opaque);
+  this->Context.Set(frame.Window);
+  if (frame.HasPicture && this->Last.Has(frame.Key) &&
+    (!frame.Opaque || this->Limits.HasDepthOf(frame.Window, rays)))
+  {
+    frame.Kept = true;
+    frame.ReportProgress(1); // too late to abort
+    this->Composite(frame, rays.GetVisible());
+    return;
+  }
+  this->Last.Reset();
   const double worldRadius =
     scene.Mesh.GetMesh()->GetRadius() * tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
   tetralux::VolumeScene::CheckWorldRadius(worldRadius);
   const double geometryError =
     scene.EstimateGeometryError(worldRadius, tetralux::RayShaderRounding);
-
-  this->Context.Set(frame.Window);
 
   const tetralux::Stopwatch uploadStopwatch;
   GpuReentry reentry = GpuReentry::Boundary;
@@ -122,14 +135,12 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   if (!tables)
   {
     frame.Aborted = true;
-    frame.Image->Initialize();
     return;
   }
   this->Upload(frame, grid, *tables, reentry);
   frame.Seconds.emplace_back("upload", uploadStopwatch.GetSeconds());
 
   const tetralux::Stopwatch castStopwatch;
-  frame.Opaque = frame.HasOpaqueGeometry();
   this->Limits.Update(frame.Window, rays, grid, limits, frame.Opaque,
     scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
   const Integrator integrator = this->Integral.GetIntegrator();
@@ -174,14 +185,11 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     frame.Window, grid.Width, grid.Height, this->Limits, this->Mesh, this->Integral, options);
   frame.Aborted = statistics.Aborted;
   frame.Integration = integrator;
-  if (frame.Aborted)
-  {
-    frame.Image->Initialize();
-  }
-  else
+  if (!frame.Aborted)
   {
     frame.ReportProgress(1); // too late to abort
-    this->Composite(frame.Window, rays.GetVisible());
+    this->Composite(frame, rays.GetVisible());
+    this->Last.Set(frame.Key);
     frame.ReadPicture = [this](vtkImageData* image)
     {
       this->Context.Get()->MakeCurrent();
@@ -367,8 +375,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::Read(vtkImageData* image)
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::Internals::Composite(
-  vtkOpenGLRenderWindow* window, const tetralux::PixelRectangle& visible)
+  MapperFrame& frame, const tetralux::PixelRectangle& visible)
 {
+  const tetralux::Stopwatch stopwatch;
   tetralux::RayPicture& picture = this->Caster.GetPicture();
   for (int band = 0; band < picture.GetNumberOfBands(); ++band)
   {
@@ -376,8 +385,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::Composite(
     rectangle.Y += picture.GetFirstRow(band);
     rectangle.Height = picture.GetBand(band).GetSettings().Height;
     this->Compositor.Composite(
-      window, rectangle, picture.GetBand(band).GetTexture(tetralux::RayPicture::Colors));
+      frame.Window, rectangle, picture.GetBand(band).GetTexture(tetralux::RayPicture::Colors));
   }
+  frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
 }
 
 //------------------------------------------------------------------------------------------------
@@ -449,10 +459,9 @@ bool vtkTetrahedraGPURayCastMapper::IsAccelerated(vtkRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
+void vtkTetrahedraGPURayCastMapper::ReleaseResources(vtkWindow* window)
 {
   this->Private->ReleaseGraphicsResources(window);
-  this->Superclass::ReleaseGraphicsResources(window);
 }
 
 //------------------------------------------------------------------------------------------------

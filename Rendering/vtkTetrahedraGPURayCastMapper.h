@@ -84,16 +84,12 @@ public:
    */
   bool IsAccelerated(vtkRenderWindow* window);
 
-  /**
-   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
-   */
-  void ReleaseGraphicsResources(vtkWindow* window) override;
-
 protected:
   vtkTetrahedraGPURayCastMapper();
   ~vtkTetrahedraGPURayCastMapper() override;
 
   void DrawFrame(tetralux::MapperFrame& frame) override;
+  void ReleaseResources(vtkWindow* window) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
 
   int StepsPerPass = 128;

@@ -145,12 +145,13 @@ public:
   tetralux::ProjectionPicture Picture;
   tetralux::ImageCompositor Compositor;
   tetralux::OpaqueDepth Opaque;
-  bool Sorted = false; ///< in the last frame, by Method
+  tetralux::CacheStamp Last; ///< of the picture that Picture has
+  bool Sorted = false;       ///< in the last frame, by Method
   VisibilityMethod Method = VisibilityMethod::Meshed;
 
 private:
   /// Projects the points of the mesh, and finds what limits rays and which cells are drawn.
-  void PrepareView(MapperFrame& frame, const CameraRays& rays);
+  void PrepareView(MapperFrame& frame, const CameraRays& rays, const tetralux::RayGrid& grid);
 
   /// The order of the cells that are drawn. False after an abort.
   bool PrepareOrder(MapperFrame& frame);
@@ -162,6 +163,7 @@ private:
 
   ChannelFormat ChooseFormat(const MapperFrame& frame) const;
   double EstimatePerspectiveError(VolumeScene& volume) const;
+  void Composite(MapperFrame& frame, const CameraRays& rays);
   void Describe(MapperFrame& frame);
   void WarnOfOrder(const std::string& refusal);
 
@@ -183,15 +185,28 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
   const CameraRays rays(frame.Renderer, 1);
   if (rays.GetVisible().Width == 0 || frame.Scene->Mesh.GetMesh()->GetNumberOfCells() == 0)
   {
-    frame.Image->Initialize(); // a tile that shows nothing of the viewport
+    frame.MakeEmptyPicture(rays);
+    this->Last.Reset();
     return;
   }
   frame.Scene->CheckComplete();
-  this->PrepareView(frame, rays);
+  const tetralux::RayGrid grid = frame.MakeGrid(rays);
+  frame.Opaque = frame.HasOpaqueGeometry();
+  frame.AddViewToKey(rays, grid, frame.MakeLimits(rays));
+  frame.Key.Add(frame.Opaque);
+  if (frame.HasPicture && this->Last.Has(frame.Key) &&
+    (!frame.Opaque || this->Opaque.IsSame(frame.Window, rays.GetVisible())))
+  {
+    frame.Kept = true;
+    frame.ReportProgress(1); // too late to abort
+    this->Composite(frame, rays);
+    return;
+  }
+  this->Last.Reset();
+  this->PrepareView(frame, rays, grid);
   if (!this->PrepareOrder(frame))
   {
     frame.Aborted = true;
-    frame.Image->Initialize();
     return;
   }
 
@@ -205,9 +220,8 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
   this->Describe(frame);
   if (!frame.Aborted)
   {
-    const tetralux::Stopwatch stopwatch;
-    this->Compositor.Composite(frame.Window, rays.GetVisible(), this->Picture.GetTexture());
-    frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
+    this->Composite(frame, rays);
+    this->Last.Set(frame.Key);
   }
   frame.ReadPicture = [this, window = frame.Window](vtkImageData* image)
   {
@@ -220,8 +234,16 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
 }
 
 //------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::Composite(MapperFrame& frame, const CameraRays& rays)
+{
+  const tetralux::Stopwatch stopwatch;
+  this->Compositor.Composite(frame.Window, rays.GetVisible(), this->Picture.GetTexture());
+  frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkTetrahedraProjectionMapper::Internals::PrepareView(
-  MapperFrame& frame, const CameraRays& rays)
+  MapperFrame& frame, const CameraRays& rays, const tetralux::RayGrid& grid)
 {
   VolumeScene& volume = *frame.Scene;
   tetralux::SceneNeeds needs;
@@ -233,7 +255,7 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   const tetralux::TetrahedralMesh& tetrahedra = mesh.GetMesh();
   tetralux::ProjectionScene& scene = this->Scene;
   scene.Volume = &volume;
-  scene.Grid = frame.MakeGrid(rays);
+  scene.Grid = grid;
   this->WorldRadius =
     mesh.GetRadius() * tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest;
   VolumeScene::CheckWorldRadius(this->WorldRadius);
@@ -278,7 +300,6 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   }
   frame.Seconds.emplace_back("points", stopwatch.GetSeconds());
 
-  frame.Opaque = frame.HasOpaqueGeometry();
   scene.OpaqueDepth = nullptr;
   if (frame.Opaque)
   {
@@ -506,12 +527,11 @@ void vtkTetrahedraProjectionMapper::DrawFrame(MapperFrame& frame)
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraProjectionMapper::ReleaseGraphicsResources(vtkWindow* window)
+void vtkTetrahedraProjectionMapper::ReleaseResources(vtkWindow* window)
 {
   this->Private->Picture.ReleaseGraphicsResources(window);
   this->Private->Compositor.ReleaseGraphicsResources(window);
   this->Private->Opaque.ReleaseGraphicsResources(window);
-  this->Superclass::ReleaseGraphicsResources(window);
 }
 
 //------------------------------------------------------------------------------------------------

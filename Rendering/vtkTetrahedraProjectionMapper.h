@@ -141,16 +141,12 @@ public:
   bool GetUseFloatingPointFrameBuffer() override { return this->ColorBuffer != UNORM8_BUFFER; }
   ///@}
 
-  /**
-   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
-   */
-  void ReleaseGraphicsResources(vtkWindow* window) override;
-
 protected:
   vtkTetrahedraProjectionMapper();
   ~vtkTetrahedraProjectionMapper() override;
 
   void DrawFrame(tetralux::MapperFrame& frame) override;
+  void ReleaseResources(vtkWindow* window) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
   void PrintResults(ostream& os, vtkIndent indent) override;
 

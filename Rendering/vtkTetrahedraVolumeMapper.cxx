@@ -7,6 +7,7 @@
 #include "Frame/RendererLights.h"
 #include "Intake/DataSetBlocks.h"
 #include "OpenGL/GraphicsCard.h"
+#include "Optics/LightKey.h"
 #include "Preparation/ScenePreparation.h"
 #include "Preparation/SceneReport.h"
 #include "Properties/PropertyPrinter.h"
@@ -73,7 +74,7 @@ public:
   }
 
   /// Throws what the stages throw.
-  void DrawFrame(vtkRenderer* renderer, vtkVolume* volume);
+  void DrawFrame(MapperFrame& frame);
 
   vtkTetrahedraVolumeMapper* Self;
   tetralux::ScenePreparation Preparation;
@@ -84,26 +85,30 @@ public:
 
 private:
   tetralux::MapperSettings MakeSettings() const;
+  void AddSceneToKey(MapperFrame& frame) const;
   void WriteStatistics(MapperFrame& frame, double frameSeconds);
 };
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVolume* volume)
+void vtkTetrahedraVolumeMapper::Internals::DrawFrame(MapperFrame& frame)
 {
   const tetralux::Stopwatch stopwatch;
   const tetralux::MapperSettings settings = this->MakeSettings();
-  MapperFrame frame = this->Record.Begin(renderer, volume);
+  // Of now: what an observer changes later is for the next frame.
+  frame.Key.Add(this->Self->GetMTime());
+  frame.Key.Add(frame.Property);
+  frame.Key.Add(frame.Property->GetMTime());
   frame.Settings = settings.Frame;
   frame.MaximumError = settings.MaximumError;
   tetralux::SceneInput input;
   input.Data = this->Self->GetDataObjectInput();
-  input.Property = volume->GetProperty();
-  input.Matrix = volume->GetMatrix();
+  input.Property = frame.Property;
+  input.Matrix = frame.Volume->GetMatrix();
   input.Interactive = frame.IsInteractive();
-  if (volume->GetProperty()->GetShade(0))
+  if (frame.Property->GetShade(0))
   {
-    frame.Lights = tetralux::GetRendererLights(renderer);
-    frame.Surface = tetralux::GetMaterial(volume->GetProperty());
+    frame.Lights = tetralux::GetRendererLights(frame.Renderer);
+    frame.Surface = tetralux::GetMaterial(frame.Property);
     input.LightVaries = tetralux::FindLighting(true, frame.Settings.SmoothShading, frame.Lights) ==
       tetralux::Lighting::Varying;
   }
@@ -113,17 +118,36 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkV
   frame.Scene = &this->Preparation.Scene;
   if (ready)
   {
-    frame.Shaded = this->Preparation.IsShaded(volume->GetProperty());
+    frame.Shaded = this->Preparation.IsShaded(frame.Property);
+    this->AddSceneToKey(frame);
     this->Self->DrawFrame(frame);
   }
   else
   {
-    frame.Image->Initialize();
     frame.Aborted = true;
   }
   if (frame.Scene->Mesh.GetMesh())
   {
     this->WriteStatistics(frame, stopwatch.GetSeconds());
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::Internals::AddSceneToKey(MapperFrame& frame) const
+{
+  const tetralux::MeshScene& mesh = frame.Scene->Mesh;
+  const tetralux::SceneOptics& optics = frame.Scene->Optics;
+  for (const std::uint64_t version : { mesh.GetCellsVersion(), mesh.GetPointsVersion(),
+         mesh.GetScalarsVersion(), mesh.GetColorScalarsVersion(), optics.GetFunctionVersion(),
+         optics.GetSurfacesVersion(), optics.GetTableVersion() })
+  {
+    frame.Key.Add(version);
+  }
+  frame.Key.Add(frame.Shaded);
+  if (frame.Shaded)
+  {
+    tetralux::AddLightsTo(frame.Key, frame.Lights);
+    tetralux::AddMaterialTo(frame.Key, frame.Surface);
   }
 }
 
@@ -212,9 +236,9 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
       ? "light varies in cells, and a table does not tell where in a cell its light comes from"
       : "see segments");
   frame.ReportOmission(!frame.Shaded, "shading",
-    frame.Volume->GetProperty()->GetShade(0) ? "it needs a gradient, and composite or isosurface "
-                                               "blending"
-                                             : "Shade is off");
+    frame.Property->GetShade(0) ? "it needs a gradient, and composite or isosurface "
+                                  "blending"
+                                : "Shade is off");
 
   Json seconds;
   DescribeSeconds(this->Preparation, seconds);
@@ -242,7 +266,17 @@ void vtkTetrahedraVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
     return;
   }
   this->Private->Record.Render(
-    [&] { this->Private->DrawFrame(renderer, volume); }, this->TimeToDraw);
+    renderer, volume, [this](MapperFrame& frame) { this->Private->DrawFrame(frame); },
+    this->TimeToDraw);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (this->Private->Record.MayRelease(window))
+  {
+    this->ReleaseResources(window);
+  }
 }
 
 //------------------------------------------------------------------------------------------------

@@ -482,14 +482,17 @@ public:
    * RGBA, the scalars: four floats, premultiplied, without any background; Depth: a float, distance
    * along the ray in world units, from the camera or in a parallel projection from the plane
    * through it, to the first contribution, -1 where there is none. Belongs to the mapper, which
-   * overwrites it in the next frame. Empty before the first frame, after one that failed or was
-   * aborted, and once its window was closed or the volume was removed from the renderer.
+   * overwrites it in the next frame. Empty before the first frame, during one, after one that
+   * failed or was aborted, and once its window was closed or the volume was removed from the
+   * renderer.
    */
   vtkImageData* GetOutputImage();
 
   /**
    * What the last frame was made of, as JSON: what was rebuilt, times in seconds, counts, the error
-   * estimate, what the scene did not need. "{}" before the first frame.
+   * estimate, what the scene did not need. "{}" before the first frame. "kept" tells whether the
+   * picture of the frame before was composited as it is, since nothing that it follows from had
+   * changed; counts are then those of the frame that made it.
    */
   std::string GetStatistics();
 
@@ -538,8 +541,20 @@ public:
    * with a double 0..1, and VolumeMapperRenderEndEvent; while the mesh is built, ProgressEvent.
    * Each time the render window is asked whether to abort: an aborted frame is not drawn. Draws
    * nothing where a vtkHardwareSelector looks for what is under the cursor: volumes have no ids.
+   *
+   * Observers may change input, properties and props, which counts from the next frame on; VTK
+   * itself does not stand it if they take the renderer out of its window, destroy other props, or
+   * leave the volume without a mapper. A frame that they ask of the same mapper is not drawn.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
+
+  /**
+   * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
+   *
+   * Releases what is in the context of a window, and the picture; during a frame, when it has
+   * ended.
+   */
+  void ReleaseGraphicsResources(vtkWindow* window) override;
 
 protected:
   vtkTetrahedraVolumeMapper();
@@ -553,6 +568,11 @@ protected:
    * becomes an error of one line.
    */
   virtual void DrawFrame(tetralux::MapperFrame& frame) = 0;
+
+  /**
+   * Release what a subclass has in the context of a window.
+   */
+  virtual void ReleaseResources(vtkWindow* window) = 0;
 
   /**
    * Add to the settings of a frame what a subclass has beside the properties of this class.

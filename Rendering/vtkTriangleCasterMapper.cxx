@@ -4,6 +4,7 @@
 #include "Base/Stopwatch.h"
 #include "Frame/CPUDrawing.h"
 #include "Frame/FrameRecord.h"
+#include "Frame/HeldContents.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
 #include "ImagePreparation/ChosenDistance.h"
@@ -11,16 +12,19 @@
 #include "ImagePreparation/ImageObstacles.h"
 #include "ImagePreparation/ImagePreparation.h"
 #include "Integral/ErrorBudget.h"
+#include "Optics/LightKey.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
 #include "Report/Json.h"
 #include "TriangleCaster/ImageCaster.h"
 #include "TriangleCaster/ImageError.h"
 #include "View/MeshToWorld.h"
+#include "View/ViewKey.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 #include "vtkWeakPointer.h"
@@ -124,7 +128,7 @@ public:
   }
 
   /// Throws what the stages throw.
-  void DrawFrame(vtkRenderer* renderer, vtkVolume* volume);
+  void DrawFrame(MapperFrame& frame);
 
   tetralux::ScalarSelection SelectScalars() const;
 
@@ -140,6 +144,7 @@ public:
 private:
   void SetUp(MapperFrame& frame) const;
   void SetUpLights(MapperFrame& frame) const;
+  void AddSceneToKey(MapperFrame& frame) const;
   PixelRectangle MakePicture(MapperFrame& frame, const tetralux::CPUPicture& picture);
   tetralux::ImageCasterOptions MakeOptions(const tetralux::RayGrid& grid, MapperFrame& frame) const;
   double FindBrightness(const tetralux::RayGrid& grid, const MapperFrame& frame) const;
@@ -169,19 +174,25 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVolume* volume)
+void vtkTriangleCasterMapper::Internals::DrawFrame(MapperFrame& frame)
 {
   const tetralux::Stopwatch stopwatch;
-  this->Last.reset();
-  this->SliceError = 0;
-  MapperFrame frame = this->Record.Begin(renderer, volume);
+  // Of now: what an observer changes later is for the next frame.
+  frame.Key.Add(this->Self->GetMTime());
+  frame.Key.Add(frame.Property);
+  frame.Key.Add(frame.Property->GetMTime());
   this->SetUp(frame);
   tetralux::ImageInput input;
-  input.Data = this->Self->GetDataObjectInput();
-  input.Property = volume->GetProperty();
-  input.Matrix = volume->GetMatrix();
+  const vtkSmartPointer<vtkDataObject> data = this->Self->GetDataObjectInput();
+  const vtkSmartPointer<vtkImageData> mask = this->Self->MaskInput;
+  // Values are read where they are.
+  const vtkSmartPointer<vtkDataObject> contents = tetralux::HoldContents(data);
+  const vtkSmartPointer<vtkDataObject> maskContents = tetralux::HoldContents(mask);
+  input.Data = data;
+  input.Property = frame.Property;
+  input.Matrix = frame.Volume->GetMatrix();
   input.Scalars = this->SelectScalars();
-  input.Mask = this->Self->MaskInput;
+  input.Mask = mask;
   input.Type = this->Self->MaskType == BinaryMaskType ? tetralux::MaskType::Binary
                                                       : tetralux::MaskType::Labels;
   input.LabelShare = this->Self->MaskBlendFactor;
@@ -199,6 +210,7 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(vtkRenderer* renderer, vtkVol
     this->Chosen.Reset();
   }
   this->SetUpLights(frame);
+  this->AddSceneToKey(frame);
 
   tetralux::RayDistances distances;
   distances.Automatic = this->Self->AutoAdjustSampleDistances != 0;
@@ -231,7 +243,7 @@ void vtkTriangleCasterMapper::Internals::SetUp(MapperFrame& frame) const
 //------------------------------------------------------------------------------------------------
 void vtkTriangleCasterMapper::Internals::SetUpLights(MapperFrame& frame) const
 {
-  vtkVolumeProperty* property = frame.Volume->GetProperty();
+  vtkVolumeProperty* property = frame.Property;
   const auto& others = this->Preparation.GetOtherComponents();
   const bool litModes =
     this->Self->BlendMode == COMPOSITE_BLEND || this->Self->BlendMode == ISOSURFACE_BLEND;
@@ -243,6 +255,21 @@ void vtkTriangleCasterMapper::Internals::SetUpLights(MapperFrame& frame) const
   {
     frame.Lights = tetralux::GetRendererLights(frame.Renderer);
     frame.Surface = tetralux::GetMaterial(property);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterMapper::Internals::AddSceneToKey(MapperFrame& frame) const
+{
+  frame.Key.Add(this->Preparation.GetVersion());
+  for (const auto& row : this->Preparation.GetPlacement().IndexFromData)
+  {
+    tetralux::AddNumbersTo(frame.Key, row);
+  }
+  frame.Key.Add(frame.Shaded);
+  if (frame.Shaded)
+  {
+    tetralux::AddLightsTo(frame.Key, frame.Lights);
   }
 }
 
@@ -263,6 +290,8 @@ tetralux::ScalarSelection vtkTriangleCasterMapper::Internals::SelectScalars() co
 PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
   MapperFrame& frame, const tetralux::CPUPicture& picture)
 {
+  this->Last.reset();
+  this->SliceError = 0;
   const tetralux::ImagePlacement& placement = this->Preparation.GetPlacement();
   const tetralux::RayGrid grid = ToIndices(placement, picture.Grid);
   const tetralux::RayLimits limits = ToIndices(placement, picture.Limits);
@@ -305,7 +334,7 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
                                                          : tetralux::SliceShape::Shells;
   options.CorrectOpacity = this->Self->CorrectOpacity != 0;
   options.PreIntegrated = this->Self->PreIntegration != 0;
-  options.Shaded = frame.Shaded && frame.Volume->GetProperty()->GetShade(0) != 0;
+  options.Shaded = frame.Shaded && frame.Property->GetShade(0) != 0;
   options.Lights = frame.Lights;
   options.Surface = frame.Surface;
   options.Gradients = this->Self->GradientSource == ON_THE_FLY_GRADIENTS
@@ -489,14 +518,18 @@ void vtkTriangleCasterMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
     return;
   }
   this->Private->Record.Render(
-    [&] { this->Private->DrawFrame(renderer, volume); }, this->TimeToDraw);
+    renderer, volume, [this](MapperFrame& frame) { this->Private->DrawFrame(frame); },
+    this->TimeToDraw);
 }
 
 //------------------------------------------------------------------------------------------------
 void vtkTriangleCasterMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
-  this->Private->Drawing.ReleaseGraphicsResources(window);
-  this->Superclass::ReleaseGraphicsResources(window);
+  if (this->Private->Record.MayRelease(window))
+  {
+    this->Private->Drawing.ReleaseGraphicsResources(window);
+    this->Superclass::ReleaseGraphicsResources(window);
+  }
 }
 
 //------------------------------------------------------------------------------------------------

@@ -481,15 +481,17 @@ public:
    * RGBA, the scalars: four floats, premultiplied, without any background; Depth: a float, distance
    * along the ray in world units, from the camera or in a parallel projection from the plane
    * through it, to the near end of the first slab that contributes, -1 where there is none. Belongs
-   * to the mapper, which overwrites it in the next frame. Empty before the first frame, after one
-   * that failed or was aborted, and once its window was closed or the volume was removed from the
-   * renderer.
+   * to the mapper, which overwrites it in the next frame. Empty before the first frame, during one,
+   * after one that failed or was aborted, and once its window was closed or the volume was removed
+   * from the renderer.
    */
   vtkImageData* GetOutputImage();
 
   /**
    * What the last frame was made of, as JSON: what was rebuilt, times in seconds, counts, the error
-   * estimate, what the scene did not need. "{}" before the first frame.
+   * estimate, what the scene did not need. "{}" before the first frame. "kept" tells whether the
+   * picture of the frame before was composited as it is, since nothing that it follows from had
+   * changed; counts are then those of the frame that made it.
    */
   std::string GetStatistics();
 

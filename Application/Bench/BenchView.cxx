@@ -91,6 +91,10 @@ double BenchView::Render()
 {
   const MessageCapture messages;
   this->Renderer->GetActiveCamera()->Modified();
+  if (this->Mapper->IsA("vtkTetrahedraVolumeMapper"))
+  {
+    this->Mapper->Modified(); // else the picture is kept
+  }
   const auto start = std::chrono::steady_clock::now();
   this->Window->Render();
   this->Window->WaitForCompletion();

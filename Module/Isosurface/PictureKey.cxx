@@ -2,8 +2,8 @@
 #include "Isosurface/PictureKey.h"
 
 #include "Base/Digest.h"
-
-#include <array>
+#include "Optics/LightKey.h"
+#include "View/ViewKey.h"
 
 namespace tetralux
 {
@@ -13,53 +13,20 @@ CacheKey MakePictureKey(const VolumeScene& scene, const RayGrid& grid, const Ray
 {
   CacheKey key = CacheKey::Of(scene.Mesh.GetCellsVersion(), scene.Mesh.GetPointsVersion(),
     scene.Mesh.GetScalarsVersion(), scene.Mesh.GetColorScalarsVersion(),
-    scene.Optics.GetFunctionVersion(), scene.Optics.GetSurfacesVersion(), grid.Width, grid.Height,
-    limits.Cropping, limits.CroppingFlags, options.MaximumError, options.SmoothShading,
-    options.Shadows, options.ShadowSoftness, options.AmbientOcclusion, options.OcclusionRadius,
-    options.SamplesPerFrame, options.MaximumSamples, options.MaximumLayers, options.Polygons);
-  const auto add = [&key](const auto& numbers)
-  {
-    for (const auto number : numbers)
-    {
-      key.Add(number);
-    }
-  };
-  add(grid.Origin);
-  add(grid.OriginStepX);
-  add(grid.OriginStepY);
-  add(grid.Direction);
-  add(grid.DirectionStepX);
-  add(grid.DirectionStepY);
-  for (const auto& row : grid.MeshFromWorld)
-  {
-    add(row);
-  }
-  for (const auto& plane : limits.Planes)
-  {
-    add(plane);
-  }
-  add(limits.CroppingPlanes);
+    scene.Optics.GetFunctionVersion(), scene.Optics.GetSurfacesVersion(), options.MaximumError,
+    options.SmoothShading, options.Shadows, options.ShadowSoftness, options.AmbientOcclusion,
+    options.OcclusionRadius, options.SamplesPerFrame, options.MaximumSamples, options.MaximumLayers,
+    options.Polygons);
+  AddRaysTo(key, grid);
+  AddLimitsTo(key, limits);
   if (limits.MaximumDistances)
   {
     Digester distances;
     distances.Add(limits.MaximumDistances, sizeof(float) * grid.Width * grid.Height);
-    add(distances.Get());
+    AddNumbersTo(key, distances.Get());
   }
-  const Material& surface = options.Surface;
-  add(std::array<float, 4>{
-    surface.Ambient, surface.Diffuse, surface.Specular, surface.SpecularPower });
-  for (const Light& light : options.Lights)
-  {
-    key.Add(light.Positional);
-    add(light.Position);
-    add(light.Ambient);
-    add(light.Diffuse);
-    add(light.Specular);
-    add(light.Attenuation);
-    add(light.Axis);
-    key.Add(light.ConeCosine);
-    key.Add(light.Exponent);
-  }
+  AddMaterialTo(key, options.Surface);
+  AddLightsTo(key, options.Lights);
   return key;
 }
 

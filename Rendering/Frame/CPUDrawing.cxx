@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/CPUDrawing.h"
 
+#include "Base/Digest.h"
 #include "Base/Stopwatch.h"
 #include "Frame/CameraRays.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/OpaqueDistances.h"
+#include "View/ViewKey.h"
 
 #include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -27,7 +29,8 @@ void CPUDrawing::Draw(
   const CameraRays rays(frame.Renderer, picture.SampleDistance);
   if (rays.GetVisible().Width == 0)
   {
-    frame.Image->Initialize(); // a tile that shows nothing of the viewport
+    frame.MakeEmptyPicture(rays);
+    this->Last = LastPicture();
     return;
   }
   picture.Grid = frame.MakeGrid(rays);
@@ -43,46 +46,79 @@ void CPUDrawing::Draw(
   frame.Opaque = picture.OpaqueDistances && !picture.OpaqueDistances->empty();
   picture.Limits.MaximumDistances = frame.Opaque ? picture.OpaqueDistances->data() : nullptr;
 
+  frame.AddViewToKey(rays, picture.Grid, picture.Limits);
+  if (frame.Opaque)
+  {
+    Digester distances;
+    distances.Add(picture.OpaqueDistances->data(), sizeof(float) * picture.OpaqueDistances->size());
+    AddNumbersTo(frame.Key, distances.Get());
+  }
+
   const PixelRectangle& visible = rays.GetVisible();
   const int width = picture.Grid.Width;
   const int height = picture.Grid.Height;
   picture.IsWindowSized = width == visible.Width && height == visible.Height;
+  frame.Kept = this->IsKept(frame);
   const Stopwatch castStopwatch;
   MapperFrame::PrepareImage(frame.Image, width, height, picture.Colors, picture.Depths);
-  const PixelRectangle covered = makePicture(frame, picture);
-  const double seconds = castStopwatch.GetSeconds();
-  frame.Seconds.emplace_back("cast", seconds);
-  if (frame.Aborted)
+  if (frame.Kept)
   {
-    return;
+    frame.ReportProgress(1); // too late to abort
   }
-  this->SecondsPerRay = seconds / (static_cast<double>(width) * height);
+  else
+  {
+    this->Last = LastPicture();
+    this->Last.Covered = makePicture(frame, picture);
+    const double seconds = castStopwatch.GetSeconds();
+    frame.Seconds.emplace_back("cast", seconds);
+    if (frame.Aborted)
+    {
+      return;
+    }
+    this->SecondsPerRay = seconds / (static_cast<double>(width) * height);
+    this->Last.Depths = frame.WindowDepths;
+    this->Last.Colors = frame.WindowColors;
+    if (frame.Final)
+    {
+      this->Last.Stamp.Set(frame.Key);
+    }
+  }
+  this->Last.ImageTime = frame.Image->GetMTime();
 
-  if (covered.Width > 0)
+  if (this->Last.Covered.Width > 0)
   {
     const Stopwatch stopwatch;
-    this->Composite(frame, picture, visible, covered);
+    this->Composite(frame, picture, visible);
     frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
   }
 }
 
-void CPUDrawing::Composite(const MapperFrame& frame, const CPUPicture& picture,
-  const PixelRectangle& visible, const PixelRectangle& covered)
+/// Whether the picture would be the last one again, and that is still there.
+bool CPUDrawing::IsKept(const MapperFrame& frame) const
+{
+  return frame.HasPicture && this->Last.Stamp.Has(frame.Key) &&
+    (!this->Last.Colors.empty() || this->Last.ImageTime == frame.Image->GetMTime());
+}
+
+void CPUDrawing::Composite(
+  const MapperFrame& frame, const CPUPicture& picture, const PixelRectangle& visible)
 {
   const int width = picture.Grid.Width;
   const int height = picture.Grid.Height;
-  const float* depths = frame.WindowDepths.data();
-  if (!frame.WindowColors.empty())
+  const LastPicture& last = this->Last;
+  const float* depths = last.Depths.data();
+  if (!last.Colors.empty())
   {
     this->Compositor.CompositeOpaque(
-      frame.Window, visible, frame.WindowColors.data(), depths, width, height, covered);
+      frame.Window, visible, last.Colors.data(), depths, width, height, last.Covered);
     return;
   }
-  if (!frame.WindowDepths.empty())
+  if (!last.Depths.empty())
   {
-    this->Compositor.WriteDepth(frame.Window, visible, depths, width, height, covered);
+    this->Compositor.WriteDepth(frame.Window, visible, depths, width, height, last.Covered);
   }
-  this->Compositor.Composite(frame.Window, visible, picture.Colors.data(), width, height, covered);
+  this->Compositor.Composite(
+    frame.Window, visible, picture.Colors.data(), width, height, last.Covered);
 }
 
 void CPUDrawing::ReleaseGraphicsResources(vtkWindow* window)

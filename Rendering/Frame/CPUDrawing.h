@@ -2,11 +2,16 @@
 #ifndef tetralux_CPUDrawing_h
 #define tetralux_CPUDrawing_h
 
+#include "Base/Cached.h"
+#include "Base/Span.h"
 #include "Frame/CPUPicture.h"
 #include "Frame/ImageCompositor.h"
 #include "Frame/OpaqueDepth.h"
 #include "TetraluxRenderingModule.h"
 
+#include "vtkType.h"
+
+#include <cstdint>
 #include <functional>
 
 class vtkWindow;
@@ -26,8 +31,9 @@ struct RayDistances
 };
 
 /// What all mappers do with a frame whose picture a processor makes: the rays of the camera and
-/// what limits them before, the way into the window after. Keeps how long the last picture took,
-/// and graphics resources of one window.
+/// what limits them before, the way into the window after. Where the picture would be the last one
+/// again, that is composited. Keeps how long the last picture took, and graphics resources of one
+/// window.
 class TETRALUXRENDERING_EXPORT CPUDrawing
 {
 public:
@@ -44,11 +50,23 @@ public:
 
 private:
   double ChooseSampleDistance(const MapperFrame& frame, const RayDistances& distances) const;
-  void Composite(const MapperFrame& frame, const CPUPicture& picture, const PixelRectangle& visible,
-    const PixelRectangle& covered);
+  void Composite(
+    const MapperFrame& frame, const CPUPicture& picture, const PixelRectangle& visible);
+  bool IsKept(const MapperFrame& frame) const;
+
+  /// What the last frame brought into the window. The memory is that of its picture and its mapper.
+  struct LastPicture
+  {
+    CacheStamp Stamp;
+    vtkMTimeType ImageTime = 0; ///< of the frame's Image
+    PixelRectangle Covered;
+    Span<const float> Depths;
+    Span<const std::uint8_t> Colors;
+  };
 
   ImageCompositor Compositor;
   OpaqueDepth Opaque;
+  LastPicture Last;
   double SecondsPerRay = 0; ///< of the last picture; 0: none yet
 };
 

@@ -5,6 +5,7 @@
 #include "Frame/MapperFrame.h"
 
 #include "vtkAbstractVolumeMapper.h"
+#include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkDualDepthPeelingPass.h"
 #include "vtkImageData.h"
@@ -14,12 +15,15 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
+#include "vtkWindow.h"
 
 #include <algorithm>
 #include <exception>
 #include <new>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace tetralux
 {
@@ -58,6 +62,25 @@ bool IsPeeled(vtkVolume* volume)
   return false;
 }
 
+/// Keeps an object until an event that it is told of.
+class Keeper : public vtkCommand
+{
+public:
+  static Keeper* New() { return new Keeper; }
+  void Execute(vtkObject* caller, unsigned long, void*) override { caller->RemoveObserver(this); }
+
+  vtkSmartPointer<vtkObject> Kept;
+};
+
+/// VTK goes on with a volume after its mapper's frame, though an observer may have removed it
+/// meanwhile from all that held it.
+void KeepUntilEnd(vtkRenderWindow* window, vtkObject* object)
+{
+  vtkNew<Keeper> keeper;
+  keeper->Kept = object;
+  window->AddObserver(vtkCommand::EndEvent, keeper);
+}
+
 } // namespace
 
 FrameRecord::FrameRecord(vtkAbstractVolumeMapper* mapper)
@@ -68,16 +91,26 @@ FrameRecord::FrameRecord(vtkAbstractVolumeMapper* mapper)
 
 FrameRecord::~FrameRecord() = default;
 
-void FrameRecord::Render(const std::function<void()>& draw, double& seconds)
+void FrameRecord::Render(vtkRenderer* renderer, vtkVolume* volume,
+  const std::function<void(MapperFrame&)>& draw, double& seconds)
 {
+  if (this->Drawing)
+  {
+    vtkWarningWithObjectMacro(this->Mapper,
+      << "a frame that an observer asks for while this mapper draws another one is not drawn");
+    return;
+  }
   const Stopwatch stopwatch;
-  this->Mapper->InvokeEvent(vtkCommand::VolumeMapperRenderStartEvent);
+  const vtkSmartPointer<vtkAbstractVolumeMapper> mapper = this->Mapper;
+  const vtkSmartPointer<vtkRenderer> heldRenderer = renderer;
+  const vtkSmartPointer<vtkRenderWindow> window = renderer->GetRenderWindow();
+  const vtkSmartPointer<vtkVolume> heldVolume = volume;
+  this->Drawing = true;
+  mapper->InvokeEvent(vtkCommand::VolumeMapperRenderStartEvent);
   std::string error;
   try
   {
-    this->Mapper->GetInputAlgorithm()->Update();
-    this->ReadPicture = nullptr;
-    draw();
+    this->Draw(renderer, volume, draw);
     this->LastError.clear();
   }
   catch (const std::bad_alloc&)
@@ -94,15 +127,51 @@ void FrameRecord::Render(const std::function<void()>& draw, double& seconds)
     if (error != this->LastError)
     {
       this->LastError = error;
-      vtkErrorWithObjectMacro(this->Mapper, << error);
+      vtkErrorWithObjectMacro(mapper, << error);
     }
   }
   seconds = stopwatch.GetSeconds();
-  this->Mapper->InvokeEvent(vtkCommand::VolumeMapperRenderEndEvent);
+  mapper->InvokeEvent(vtkCommand::VolumeMapperRenderEndEvent);
+  this->Drawing = false;
+  for (const auto& released : std::exchange(this->ToRelease, {}))
+  {
+    mapper->ReleaseGraphicsResources(released);
+  }
+  if (window && heldVolume->GetReferenceCount() == 1)
+  {
+    KeepUntilEnd(window, heldVolume);
+  }
+}
+
+void FrameRecord::Draw(
+  vtkRenderer* renderer, vtkVolume* volume, const std::function<void(MapperFrame&)>& draw)
+{
+  vtkAlgorithm* const input = this->Mapper->GetInputAlgorithm();
+  if (!input)
+  {
+    throw std::invalid_argument("there is no input");
+  }
+  input->Update();
+  const vtkSmartPointer<vtkVolumeProperty> property = volume->GetProperty();
+  MapperFrame frame = this->Begin(renderer, volume);
+  frame.Property = property;
+  draw(frame);
+}
+
+bool FrameRecord::MayRelease(vtkWindow* window)
+{
+  if (this->Drawing)
+  {
+    this->ToRelease.emplace_back(window);
+    return false;
+  }
+  this->Context.Release(window);
+  return true;
 }
 
 void FrameRecord::ClearPicture()
 {
+  this->HasPicture = false;
   this->ReadPicture = nullptr;
   this->Image->Initialize();
 }
@@ -133,6 +202,7 @@ MapperFrame FrameRecord::Begin(vtkRenderer* renderer, vtkVolume* volume)
   }
   this->Context.Set(frame.Window);
   frame.Image = this->Image;
+  frame.HasPicture = this->HasPicture;
   frame.Progress = [this, window = frame.Window](double fraction)
   { return this->ReportProgress(window, vtkCommand::VolumeMapperRenderProgressEvent, fraction); };
   return frame;
@@ -147,6 +217,31 @@ bool FrameRecord::ReportProgress(vtkRenderWindow* window, unsigned long event, d
 void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebuilt, Json seconds,
   double frameSeconds, const Json& sections)
 {
+  for (const auto& [name, value] : frame.Seconds)
+  {
+    seconds[name] = value;
+  }
+  seconds["frame"] = frameSeconds;
+  if (frame.Kept)
+  {
+    this->Sections["kept"] = true;
+    for (auto& [name, section] : this->Sections.items())
+    {
+      // What was done for the picture was not done again.
+      if (section.is_object() && section.contains("rebuilt"))
+      {
+        section["rebuilt"] = Json::array();
+      }
+      if (section.is_object() && section.contains("uploaded_bytes"))
+      {
+        section["uploaded_bytes"] = 0;
+      }
+    }
+    this->Sections["rebuilt"] = rebuilt;
+    this->Sections["seconds"] = seconds;
+    this->Statistics = this->Sections.dump(2);
+    return;
+  }
   if (frame.Aborted)
   {
     this->ClearPicture(); // of which rays were not cast
@@ -154,12 +249,8 @@ void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebu
   else
   {
     this->ReadPicture = frame.ReadPicture;
+    this->HasPicture = true;
   }
-  for (const auto& [name, value] : frame.Seconds)
-  {
-    seconds[name] = value;
-  }
-  seconds["frame"] = frameSeconds;
 
   this->ErrorEstimate = 0;
   for (const auto& [name, value] : frame.Errors)
@@ -179,9 +270,11 @@ void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebu
   frame.ReportOmission(!frame.Settings.Cropping, "cropping", "it is off");
   frame.ReportOmission(!frame.Opaque, "opaque geometry", "nothing opaque was drawn before");
 
-  Json statistics;
+  Json& statistics = this->Sections;
+  statistics = Json();
   statistics["method"] = frame.Method;
   statistics["aborted"] = frame.Aborted;
+  statistics["kept"] = false;
   statistics["rebuilt"] = rebuilt;
   statistics["seconds"] = seconds;
   for (const auto& [name, section] : sections.items())
@@ -216,6 +309,10 @@ void FrameRecord::WarnOfError(const MapperFrame& frame)
 
 vtkImageData* FrameRecord::GetPicture()
 {
+  if (this->Drawing)
+  {
+    return this->NoImage;
+  }
   if (this->ReadPicture)
   {
     // Moved out first: a failing read is not tried again.

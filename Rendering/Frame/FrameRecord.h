@@ -9,6 +9,7 @@
 
 #include "vtkIndent.h"
 #include "vtkNew.h"
+#include "vtkSmartPointer.h"
 
 #include <functional>
 #include <ostream>
@@ -41,15 +42,15 @@ public:
   FrameRecord& operator=(const FrameRecord&) = delete;
 
   /// Brings the input up to date and calls draw, between VolumeMapperRenderStartEvent and
-  /// VolumeMapperRenderEndEvent. What draw throws becomes an error of one line, which is not given
-  /// again until a frame succeeds; then nothing is left of the frame. seconds: receives what it
-  /// took, before the second event.
-  void Render(const std::function<void()>& draw, double& seconds);
-
-  /// A frame into the window of a renderer, with this picture, and with progress by
-  /// VolumeMapperRenderProgressEvent. Throws std::invalid_argument, with one line, if the window is
-  /// not one of OpenGL, or if a render pass peels volumes.
-  MapperFrame Begin(vtkRenderer* renderer, vtkVolume* volume);
+  /// VolumeMapperRenderEndEvent. Observers may change the pipeline meanwhile: mapper, renderer,
+  /// window, volume and property live until the frame has ended, and draw holds what it reads. A
+  /// frame that an observer asks for during another one is not drawn, with a warning. What draw
+  /// throws becomes an error of one line, which is not given again until a frame succeeds; then
+  /// nothing is left of the frame. Draw is given a frame with this picture, and with progress by
+  /// VolumeMapperRenderProgressEvent. seconds: receives what it took, before the second event.
+  /// A renderer without a window of OpenGL and a render pass that peels volumes are such errors.
+  void Render(vtkRenderer* renderer, vtkVolume* volume,
+    const std::function<void(MapperFrame&)>& draw, double& seconds);
 
   /// Invokes an event with a share of what is done, 0..1. Returns whether to go on: the window may
   /// abort.
@@ -58,18 +59,20 @@ public:
   /// Writes the statistics of a frame that was drawn or aborted: those that are the same for all
   /// mappers, with sections of the mapper between them, and the estimated error, which is the sum
   /// of the frame's errors. Warns where that is above MaximumError. seconds: of the stages before
-  /// the drawing, by name. frameSeconds: of all.
+  /// the drawing, by name. frameSeconds: of all. Where the picture was kept, all but the seconds
+  /// are those of the frame that made it, and nothing was rebuilt.
   void Write(MapperFrame& frame, const std::vector<std::string>& rebuilt, Json seconds,
     double frameSeconds, const Json& sections);
 
-  /// Of the last frame; empty before the first one, after one that failed or was aborted, and once
-  /// the window's context has ended or its resources were released.
+  /// Of the last frame; empty before the first one, while one is drawn, after one that failed or
+  /// was aborted, and once the window's context has ended or its resources were released.
   vtkImageData* GetPicture();
   const std::string& GetStatistics() const { return this->Statistics; }
   double GetErrorEstimate() const { return this->ErrorEstimate; }
 
-  /// window: the one that goes away, with the picture.
-  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
+  /// Whether what is in a window's context can be released now, with the picture. Not while a
+  /// frame is drawn: then the mapper's ReleaseGraphicsResources is called when that has ended.
+  bool MayRelease(vtkWindow* window);
 
   /// For PrintSelf.
   void PrintStatistics(std::ostream& os, vtkIndent indent) const;
@@ -79,18 +82,26 @@ public:
   bool IsErrorKept(double maximumError, double further = 0) const;
 
 private:
+  void Draw(
+    vtkRenderer* renderer, vtkVolume* volume, const std::function<void(MapperFrame&)>& draw);
+  MapperFrame Begin(vtkRenderer* renderer, vtkVolume* volume);
   void Clear();
   void ClearPicture();
   void WarnOfError(const MapperFrame& frame);
 
   vtkAbstractVolumeMapper* Mapper;
   vtkNew<vtkImageData> Image;
+  vtkNew<vtkImageData> NoImage;
   std::function<void(vtkImageData*)> ReadPicture; ///< into Image; empty: it is there
+  bool HasPicture = false;
   double ErrorEstimate = 0;
+  Json Sections; ///< of the frame that made the picture
   std::string Statistics = "{}";
   std::string LastError;
   OnceWarning ErrorWarning;
-  ContextResources Context; ///< of the window that the picture is of
+  bool Drawing = false;
+  std::vector<vtkSmartPointer<vtkWindow>> ToRelease; ///< when the frame has ended
+  ContextResources Context;                          ///< of the window that the picture is of
 };
 
 } // namespace tetralux

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/MapperFrame.h"
 
+#include "View/ViewKey.h"
+
 #include "vtkAbstractMapper.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -59,6 +61,7 @@ Span<float> GetArray(vtkImageData* image, const char* name, int components)
     fresh->SetName(name);
     fresh->SetNumberOfComponents(components);
     fresh->SetNumberOfTuples(size);
+    fresh->FillValue(0); // an observer may look at it before it is drawn
     pointData->AddArray(fresh);
     array = fresh;
   }
@@ -95,6 +98,20 @@ RayLimits MapperFrame::MakeLimits(const CameraRays& rays) const
   return limits;
 }
 
+void MapperFrame::AddViewToKey(const CameraRays& rays, const RayGrid& grid, const RayLimits& limits)
+{
+  const PixelRectangle& visible = rays.GetVisible();
+  const DepthMap depths = rays.GetDepthMap();
+  AddNumbersTo(
+    this->Key, std::array<int, 4>{ visible.X, visible.Y, visible.Width, visible.Height });
+  AddRaysTo(this->Key, grid);
+  AddLimitsTo(this->Key, limits);
+  AddNumbersTo(this->Key, depths.Depth);
+  AddNumbersTo(this->Key, depths.Divisor);
+  // How long a frame may take decides how right it is.
+  this->Key.Add(this->IsInteractive());
+}
+
 bool MapperFrame::IsInteractive() const
 {
   return this->Volume->GetAllocatedRenderTime() < InteractiveSeconds;
@@ -107,6 +124,21 @@ bool MapperFrame::HasOpaqueGeometry() const
   return this->Settings.IntermixIntersectingGeometry &&
     (this->Renderer->GetNumberOfPropsRendered() > 0 || this->Renderer->GetPass() ||
       this->Renderer->GetPreserveDepthBuffer());
+}
+
+void MapperFrame::MakeEmptyPicture(const CameraRays& rays) const
+{
+  const PixelRectangle& visible = rays.GetVisible();
+  if (visible.Width == 0)
+  {
+    this->Image->Initialize();
+    return;
+  }
+  constexpr float NoDistance = -1;
+  Span<float> colors, depths;
+  PrepareImage(this->Image, visible.Width, visible.Height, colors, depths);
+  std::fill(colors.begin(), colors.end(), 0.f);
+  std::fill(depths.begin(), depths.end(), NoDistance);
 }
 
 void MapperFrame::PrepareImage(

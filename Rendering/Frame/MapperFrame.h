@@ -2,6 +2,7 @@
 #ifndef tetralux_MapperFrame_h
 #define tetralux_MapperFrame_h
 
+#include "Base/Cached.h"
 #include "Base/Span.h"
 #include "Frame/CameraRays.h"
 #include "Frame/FrameSettings.h"
@@ -25,6 +26,7 @@ class vtkImageData;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
 class vtkVolume;
+class vtkVolumeProperty;
 
 namespace tetralux
 {
@@ -39,6 +41,7 @@ struct MapperFrame
   double MaximumError = 1e-4;
   vtkRenderer* Renderer = nullptr;
   vtkVolume* Volume = nullptr;
+  vtkVolumeProperty* Property = nullptr; ///< of the volume when the frame began
   vtkOpenGLRenderWindow* Window = nullptr;
   VolumeScene* Scene = nullptr; ///< complete; of mappers of cells alone
   vtkImageData* Image = nullptr;
@@ -56,10 +59,19 @@ struct MapperFrame
   std::function<bool(double)> Progress;
   bool ReportProgress(double fraction) const { return !this->Progress || this->Progress(fraction); }
 
+  /// All that the picture follows from, but for what the depth buffer holds: what the mapper knows
+  /// of it, then AddViewToKey.
+  CacheKey Key;
+  void AddViewToKey(const CameraRays& rays, const RayGrid& grid, const RayLimits& limits);
+
+  bool HasPicture = false; ///< that of the last frame, which may be kept
+
   // What was drawn, for the statistics.
 
   std::string Method; ///< as the command line calls it
   bool Aborted = false;
+  bool Kept = false; ///< composited as it is: the picture of the last frame has the same Key
+  bool Final = true; ///< false: the next frame refines the picture, if nothing changes
   std::vector<std::pair<std::string, double>> Seconds; ///< of the stages of DrawFrame
   Integrator Integration = Integrator::ClosedForm;
   std::vector<std::pair<std::string, Json>> Sections; ///< of the mapper itself
@@ -104,6 +116,10 @@ struct MapperFrame
 
   /// Whether the depth buffer may hold geometry that rays have to end at.
   bool HasOpaqueGeometry() const;
+
+  /// A picture in which nothing is, of one ray a pixel; without pixels for a tile that shows
+  /// nothing of the viewport.
+  void MakeEmptyPicture(const CameraRays& rays) const;
 
   /// The arrays RGBA, the scalars, and Depth of an image of this size, made where they are missing.
   static void PrepareImage(

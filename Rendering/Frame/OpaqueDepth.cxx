@@ -8,6 +8,7 @@
 #include "vtk_glew.h"
 
 #include <stdexcept>
+#include <vector>
 
 namespace tetralux
 {
@@ -174,6 +175,28 @@ void OpaqueDepth::Read(Span<float> depths)
   glReadPixels(0, 0, static_cast<GLsizei>(this->Texture->GetWidth()),
     static_cast<GLsizei>(this->Texture->GetHeight()), GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, alignment);
+}
+
+bool OpaqueDepth::IsSame(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle)
+{
+  if (this->Context.Get() != window || this->Bytes == 0)
+  {
+    return false;
+  }
+  OpaqueDepth now;
+  now.Copy(window, rectangle);
+  if (now.Format != this->Format || now.Bytes != this->Bytes)
+  {
+    return false;
+  }
+  std::vector<float> depths[2];
+  for (std::vector<float>& values : depths)
+  {
+    values.resize(static_cast<std::size_t>(rectangle.Width) * rectangle.Height);
+  }
+  now.Read(depths[0]);
+  this->Read(depths[1]);
+  return depths[0] == depths[1];
 }
 
 } // namespace tetralux

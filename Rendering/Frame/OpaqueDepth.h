@@ -41,6 +41,10 @@ public:
   /// current. Leaves OpenGL's state as it was.
   void Read(Span<float> depths);
 
+  /// Whether the depth buffer that is bound for drawing holds the depths of the last copy. Throws
+  /// as Copy does.
+  bool IsSame(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle);
+
   std::size_t GetNumberOfBytes() const { return this->Bytes; }
 
   void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }

@@ -85,6 +85,11 @@ void GpuRayLimits::Update(vtkOpenGLRenderWindow* window, const CameraRays& rays,
   this->CroppingFlags = static_cast<int>(limits.CroppingFlags);
 }
 
+bool GpuRayLimits::HasDepthOf(vtkOpenGLRenderWindow* window, const CameraRays& rays)
+{
+  return this->Depth.IsSame(window, rays.GetVisible());
+}
+
 int GpuRayLimits::GetNumberOfParts() const { return this->Cropping ? MostParts : 1; }
 
 std::string GpuRayLimits::GetDeclarations() const

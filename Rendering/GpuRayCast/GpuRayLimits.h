@@ -47,6 +47,10 @@ public:
   void Update(vtkOpenGLRenderWindow* window, const CameraRays& rays, const RayGrid& grid,
     const RayLimits& limits, bool opaque, const double center[3], double radius);
 
+  /// Whether the depth buffer that is bound for drawing holds what the last Update with opaque
+  /// geometry found there. Throws as OpaqueDepth does.
+  bool HasDepthOf(vtkOpenGLRenderWindow* window, const CameraRays& rays);
+
   /// To be put into a shader before its own functions.
   std::string GetDeclarations() const;
 

@@ -116,6 +116,10 @@ void ImagePreparation::Update(const ImageInput& input)
   }
   this->Placement = PlaceImage(image);
   this->PrepareFunction(input, FindSelectedArray(image, input.Scalars));
+  if (!this->Rebuilt.empty())
+  {
+    this->Version = MakeVersion();
+  }
   this->UnusedWarning.Update(this->Source,
     DescribeUnused(input.Property, input.Blend, this->Scalars.GetNumberOfComponents(),
       input.Scalars.VectorMode, this->Mask.HasLabels()));

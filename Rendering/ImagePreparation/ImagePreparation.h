@@ -13,6 +13,7 @@
 #include "TriangleCaster/ImageCaster.h"
 #include "TriangleCaster/ImageOptics.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,9 @@ public:
   /// Error of a channel by functions that are not piecewise linear.
   double GetFunctionError() const { return this->FunctionError; }
 
+  /// Another one whenever a stage was made anew; 0: none yet.
+  std::uint64_t GetVersion() const { return this->Version; }
+
   /// The last Update: which stages were made anew.
   const std::vector<std::string>& GetRebuilt() const { return this->Rebuilt; }
 
@@ -99,6 +103,7 @@ private:
   double LargestChannel = 0; ///< of components that are colours, absolute
   OnceWarning UnusedWarning;
   std::vector<std::string> Rebuilt;
+  std::uint64_t Version = 0;
   double ScalarsSeconds = 0;
   double FunctionSeconds = 0;
 };

@@ -2,6 +2,7 @@
 #include "Preparation/ScenePreparation.h"
 
 #include "Base/Stopwatch.h"
+#include "Frame/HeldContents.h"
 #include "Intake/LeftOutCells.h"
 #include "Intake/PointExtraction.h"
 #include "Intake/ScalarExtraction.h"
@@ -10,7 +11,9 @@
 #include "Preparation/TransferFunctionFromProperty.h"
 #include "View/MeshToWorld.h"
 
+#include "vtkDataObject.h"
 #include "vtkMatrix4x4.h"
+#include "vtkSmartPointer.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -72,22 +75,39 @@ bool ScenePreparation::Update(const MapperSettings& wanted, const SceneInput& in
   this->ChooseComponents(wanted, blocks, input.Property);
   MapperSettings settings = wanted;
   settings.Scalars = this->Components.Select(0);
-  if (!this->PrepareMesh(settings, input.Data, blocks, progress))
+  InputKeys keys;
+  keys.Cells = GetCellsKey(blocks);
+  keys.Points = GetPointsKey(blocks);
+  keys.Scalars = GetScalarsKey(blocks, settings.Scalars);
+  keys.Scalars.Add(this->Components.Components);
+  keys.Colors = settings.Colors ? GetScalarsKey(blocks, *settings.Colors) : CacheKey();
+  // Who is told of progress may change the input: what it consists of now is read.
+  const vtkSmartPointer<vtkDataObject> data =
+    this->IsOf(keys) ? vtkSmartPointer<vtkDataObject>(input.Data) : HoldContents(input.Data);
+  if (!this->PrepareMesh(settings, data, keys, progress))
   {
     return false;
   }
-  if (!this->MergePoints(settings, input.Data, blocks, progress))
+  if (!this->MergePoints(settings, data, keys.Scalars, progress))
   {
     return false;
   }
-  this->PrepareScalars(input.Data, blocks);
-  this->PrepareColors(input.Data, blocks, settings.Colors);
+  this->PrepareScalars(data, keys.Scalars);
+  this->PrepareColors(data, keys.Colors, settings.Colors);
   this->InputTime = inputTime;
   this->PrepareFunction(settings, input);
   this->WarnOfShade(input.Property);
   this->Scene.Prepare({});
   this->PrepareTable(settings, input);
   return true;
+}
+
+/// Whether the scene was made of that input.
+bool ScenePreparation::IsOf(const InputKeys& keys) const
+{
+  return !this->Touched && this->Scene.Mesh.GetMesh() && keys.Cells == this->CellsKey &&
+    keys.Points == this->PointsKey && this->Scalars.Has(keys.Scalars) &&
+    (keys.Colors == CacheKey() || this->Colors.Has(keys.Colors));
 }
 
 /// What is shown of the array; several components only if whoever draws them can.
@@ -129,33 +149,25 @@ CoincidentPoints ScenePreparation::ChooseMerged(
   return chosen;
 }
 
-CacheKey ScenePreparation::GetComponentsKey(const std::vector<DataSetBlock>& blocks) const
-{
-  CacheKey key = GetScalarsKey(blocks, this->Components.Select(0));
-  key.Add(this->Components.Components);
-  return key;
-}
-
 bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject* input,
-  const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress)
+  const InputKeys& keys, const std::function<bool(double)>& progress)
 {
-  CacheKey cellsKey = GetCellsKey(blocks);
-  CacheKey pointsKey = GetPointsKey(blocks);
   const bool hasMesh = this->Scene.Mesh.GetMesh() != nullptr;
   const bool isKnown = hasMesh && !this->Touched;
-  const bool sameCells = isKnown && cellsKey == this->CellsKey;
-  const bool samePoints = isKnown && pointsKey == this->PointsKey;
+  const bool sameCells = isKnown && keys.Cells == this->CellsKey;
+  const bool samePoints = isKnown && keys.Points == this->PointsKey;
   if (sameCells && samePoints)
   {
     return true;
   }
   const Stopwatch intakeStopwatch;
+  const std::vector<DataSetBlock> blocks = CollectDataSets(input);
   const Digest cells = sameCells ? this->Cells : DigestCells(blocks);
   const Digest points = samePoints ? this->Points : DigestPoints(blocks);
   if (hasMesh && cells == this->Cells && (points == this->Points || this->MovePoints(input)))
   {
-    this->CellsKey = std::move(cellsKey);
-    this->PointsKey = std::move(pointsKey);
+    this->CellsKey = keys.Cells;
+    this->PointsKey = keys.Points;
     this->Points = points;
     this->Last.MeshSeconds = intakeStopwatch.GetSeconds();
     return true;
@@ -192,8 +204,8 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
       this->Merger.CompareWith(*this->Scene.Mesh.GetMesh());
     }
   }
-  this->CellsKey = std::move(cellsKey);
-  this->PointsKey = std::move(pointsKey);
+  this->CellsKey = keys.Cells;
+  this->PointsKey = keys.Points;
   this->Cells = cells;
   this->Points = points;
   this->Last.MeshSeconds = meshStopwatch.GetSeconds();
@@ -217,9 +229,9 @@ void ScenePreparation::SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeR
 
 /// Makes the mesh anew where other points are to be taken as one.
 bool ScenePreparation::MergePoints(const MapperSettings& settings, vtkDataObject* input,
-  const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress)
+  const CacheKey& scalars, const std::function<bool(double)>& progress)
 {
-  CacheKey key = this->GetComponentsKey(blocks);
+  CacheKey key = scalars;
   key.Add(settings.Merging);
   const bool isKnown = settings.Merging == PointMerging::Never || this->Merger.HasFound();
   if ((isKnown && !this->Touched && this->Merging.Has(key)) ||
@@ -300,9 +312,8 @@ bool ScenePreparation::MovePoints(vtkDataObject* input)
   return true;
 }
 
-void ScenePreparation::PrepareScalars(vtkDataObject* input, const std::vector<DataSetBlock>& blocks)
+void ScenePreparation::PrepareScalars(vtkDataObject* input, const CacheKey& key)
 {
-  CacheKey key = this->GetComponentsKey(blocks);
   const bool sameArrays = this->Scalars.Has(key);
   if (sameArrays && !this->Touched)
   {
@@ -344,7 +355,7 @@ void ScenePreparation::PrepareScalars(vtkDataObject* input, const std::vector<Da
   {
     scene.SetOtherScalars(std::move(others));
   }
-  this->Scalars.Set(std::move(key));
+  this->Scalars.Set(key);
   this->Last.ScalarsSeconds = stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("scalars");
 }
@@ -362,10 +373,9 @@ ExtractedScalars ScenePreparation::Extract(vtkDataObject* input, int component)
   return scalars;
 }
 
-void ScenePreparation::PrepareColors(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
-  const std::optional<ScalarSelection>& selection)
+void ScenePreparation::PrepareColors(
+  vtkDataObject* input, const CacheKey& key, const std::optional<ScalarSelection>& selection)
 {
-  CacheKey key = selection ? GetScalarsKey(blocks, *selection) : CacheKey();
   const TetrahedralMesh& mesh = this->Scene.Mesh.GetMesh()->GetMesh();
   const bool sameArrays = this->Colors.Has(key);
   if ((sameArrays && !this->Touched) || (!selection && this->Scene.Mesh.GetColorScalars().empty()))
@@ -389,7 +399,7 @@ void ScenePreparation::PrepareColors(vtkDataObject* input, const std::vector<Dat
     return;
   }
   this->Scene.Mesh.SetColorScalars(std::move(values));
-  this->Colors.Set(std::move(key));
+  this->Colors.Set(key);
   this->Last.ScalarsSeconds += stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("colours");
 }

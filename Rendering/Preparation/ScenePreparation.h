@@ -81,11 +81,21 @@ public:
   const Record& GetLast() const { return this->Last; }
 
 private:
-  bool PrepareMesh(const MapperSettings& settings, vtkDataObject* input,
-    const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress);
+  /// What an input is told from others by.
+  struct InputKeys
+  {
+    CacheKey Cells;
+    CacheKey Points;
+    CacheKey Scalars;
+    CacheKey Colors;
+  };
+
+  bool IsOf(const InputKeys& keys) const;
+  bool PrepareMesh(const MapperSettings& settings, vtkDataObject* input, const InputKeys& keys,
+    const std::function<bool(double)>& progress);
   bool MovePoints(vtkDataObject* input);
-  bool MergePoints(const MapperSettings& settings, vtkDataObject* input,
-    const std::vector<DataSetBlock>& blocks, const std::function<bool(double)>& progress);
+  bool MergePoints(const MapperSettings& settings, vtkDataObject* input, const CacheKey& scalars,
+    const std::function<bool(double)>& progress);
   bool UseMerged(const MapperSettings& settings, vtkDataObject* input,
     const CoincidentPoints& merged, const std::function<bool(double)>& progress, bool& used);
   void SetMesh(TetrahedraIntake intake);
@@ -93,11 +103,10 @@ private:
   void ChooseComponents(const MapperSettings& settings, const std::vector<DataSetBlock>& blocks,
     vtkVolumeProperty* property);
   CoincidentPoints ChooseMerged(const MapperSettings& settings, vtkDataObject* input) const;
-  CacheKey GetComponentsKey(const std::vector<DataSetBlock>& blocks) const;
-  void PrepareScalars(vtkDataObject* input, const std::vector<DataSetBlock>& blocks);
+  void PrepareScalars(vtkDataObject* input, const CacheKey& key);
   ExtractedScalars Extract(vtkDataObject* input, int component);
-  void PrepareColors(vtkDataObject* input, const std::vector<DataSetBlock>& blocks,
-    const std::optional<ScalarSelection>& selection);
+  void PrepareColors(
+    vtkDataObject* input, const CacheKey& key, const std::optional<ScalarSelection>& selection);
   void PrepareFunction(const MapperSettings& settings, const SceneInput& input);
   PropertyTransferFunction MakeFunctions(
     const SceneInput& input, double maximumError, double longestPath);
