@@ -15,6 +15,7 @@
 #include "GpuRayCast/WalkTextures.h"
 #include "Integral/SegmentWeightError.h"
 #include "OpenGL/ContextResources.h"
+#include "OpenGL/EnteredContext.h"
 #include "OpenGL/GraphicsCard.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
@@ -187,7 +188,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     this->Composite(frame.Window, rays.GetVisible());
     frame.ReadPicture = [this](vtkImageData* image)
     {
-      this->Context.Get()->MakeCurrent();
+      const tetralux::EnteredContext context(this->Context.Get());
       this->Read(image);
     };
   }
@@ -261,7 +262,7 @@ bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* wind
     return false;
   }
   openGL->Initialize();
-  openGL->MakeCurrent();
+  const tetralux::EnteredContext context(openGL);
   const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
   this->SupportReason = card.Renderer;
   if (std::make_pair(card.Version[0], card.Version[1]) < std::make_pair(3, 2))
