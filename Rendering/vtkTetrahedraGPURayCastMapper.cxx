@@ -16,6 +16,7 @@
 #include "Intake/DataSetBlocks.h"
 #include "Integral/SegmentWeightError.h"
 #include "OpenGL/ContextResources.h"
+#include "OpenGL/EnteredContext.h"
 #include "OpenGL/GraphicsCard.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
@@ -192,7 +193,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     this->Last.Set(frame.Key);
     frame.ReadPicture = [this](vtkImageData* image)
     {
-      this->Context.Get()->MakeCurrent();
+      const tetralux::EnteredContext context(this->Context.Get());
       this->Read(image);
     };
   }
@@ -257,6 +258,53 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
 }
 
 //------------------------------------------------------------------------------------------------
+<<<<<<< HEAD
+=======
+bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* window)
+{
+  auto* openGL = vtkOpenGLRenderWindow::SafeDownCast(window);
+  if (!openGL)
+  {
+    this->SupportReason = "the window is not one of OpenGL";
+    return false;
+  }
+  openGL->Initialize();
+  const tetralux::EnteredContext context(openGL);
+  const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
+  this->SupportReason = card.Renderer;
+  if (std::make_pair(card.Version[0], card.Version[1]) < std::make_pair(3, 2))
+  {
+    this->SupportReason += " has OpenGL " + std::to_string(card.Version[0]) + '.' +
+      std::to_string(card.Version[1]) + ", and 3.2 is needed";
+    return false;
+  }
+  if (card.Software)
+  {
+    this->SupportReason += " runs on the processor, where rays are cast faster without OpenGL";
+    return false;
+  }
+  // Without making its tetrahedra: a hexahedron becomes five or six of them.
+  constexpr std::int64_t TetrahedraOfCell = 6;
+  if (auto* input = vtkDataSet::SafeDownCast(this->Self->GetDataObjectInput()))
+  {
+    const std::int64_t cells = TetrahedraOfCell * input->GetNumberOfCells();
+    std::string obstacle = tetralux::RayTargets::FindObstacle(cells);
+    if (obstacle.empty())
+    {
+      obstacle = tetralux::FindObstacle(
+        { { "faces", 4 * cells, 8 }, { "points", input->GetNumberOfPoints(), 16 } }, card.Limits);
+    }
+    if (!obstacle.empty())
+    {
+      this->SupportReason += ": there may be no room, " + obstacle;
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------------------------
+>>>>>>> pass
 const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTables(
   MapperFrame& frame, GpuReentry& reentry)
 {

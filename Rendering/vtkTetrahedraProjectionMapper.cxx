@@ -10,6 +10,7 @@
 #include "GpuIntegral/ShaderError.h"
 #include "GpuProjection/ProjectionPicture.h"
 #include "Integral/SegmentWeightError.h"
+#include "OpenGL/EnteredContext.h"
 #include "Projection/PerspectiveShift.h"
 #include "Projection/ScreenFrame.h"
 #include "Properties/PropertyPrinter.h"
@@ -225,7 +226,7 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   frame.ReadPicture = [this, window = frame.Window](vtkImageData* image)
   {
-    window->MakeCurrent();
+    const tetralux::EnteredContext context(window);
     Span<float> colors, depths;
     MapperFrame::PrepareImage(
       image, this->Scene.Grid.Width, this->Scene.Grid.Height, colors, depths);
