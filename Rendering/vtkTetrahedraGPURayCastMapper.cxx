@@ -258,53 +258,6 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
 }
 
 //------------------------------------------------------------------------------------------------
-<<<<<<< HEAD
-=======
-bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* window)
-{
-  auto* openGL = vtkOpenGLRenderWindow::SafeDownCast(window);
-  if (!openGL)
-  {
-    this->SupportReason = "the window is not one of OpenGL";
-    return false;
-  }
-  openGL->Initialize();
-  const tetralux::EnteredContext context(openGL);
-  const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
-  this->SupportReason = card.Renderer;
-  if (std::make_pair(card.Version[0], card.Version[1]) < std::make_pair(3, 2))
-  {
-    this->SupportReason += " has OpenGL " + std::to_string(card.Version[0]) + '.' +
-      std::to_string(card.Version[1]) + ", and 3.2 is needed";
-    return false;
-  }
-  if (card.Software)
-  {
-    this->SupportReason += " runs on the processor, where rays are cast faster without OpenGL";
-    return false;
-  }
-  // Without making its tetrahedra: a hexahedron becomes five or six of them.
-  constexpr std::int64_t TetrahedraOfCell = 6;
-  if (auto* input = vtkDataSet::SafeDownCast(this->Self->GetDataObjectInput()))
-  {
-    const std::int64_t cells = TetrahedraOfCell * input->GetNumberOfCells();
-    std::string obstacle = tetralux::RayTargets::FindObstacle(cells);
-    if (obstacle.empty())
-    {
-      obstacle = tetralux::FindObstacle(
-        { { "faces", 4 * cells, 8 }, { "points", input->GetNumberOfPoints(), 16 } }, card.Limits);
-    }
-    if (!obstacle.empty())
-    {
-      this->SupportReason += ": there may be no room, " + obstacle;
-      return false;
-    }
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------------------------
->>>>>>> pass
 const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTables(
   MapperFrame& frame, GpuReentry& reentry)
 {
@@ -472,8 +425,9 @@ bool vtkTetrahedraGPURayCastMapper::IsSupported(vtkRenderWindow* window)
     cells += TetrahedraOfCell * block.DataSet->GetNumberOfCells();
     points += block.DataSet->GetNumberOfPoints();
   }
-  const tetralux::GraphicsCard card =
-    tetralux::DescribeGraphicsCard(vtkOpenGLRenderWindow::SafeDownCast(window));
+  auto* openGL = vtkOpenGLRenderWindow::SafeDownCast(window);
+  const tetralux::EnteredContext context(openGL);
+  const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
   std::string obstacle = tetralux::RayTargets::FindObstacle(cells);
   if (obstacle.empty())
   {
@@ -495,8 +449,9 @@ bool vtkTetrahedraGPURayCastMapper::IsAccelerated(vtkRenderWindow* window)
   {
     return false;
   }
-  const tetralux::GraphicsCard card =
-    tetralux::DescribeGraphicsCard(vtkOpenGLRenderWindow::SafeDownCast(window));
+  auto* openGL = vtkOpenGLRenderWindow::SafeDownCast(window);
+  const tetralux::EnteredContext context(openGL);
+  const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
   if (card.Software)
   {
     this->SetSupportReason(

@@ -6,6 +6,7 @@
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
 #include "Intake/DataSetBlocks.h"
+#include "OpenGL/EnteredContext.h"
 #include "OpenGL/GraphicsCard.h"
 #include "Optics/LightKey.h"
 #include "Preparation/ScenePreparation.h"
@@ -362,7 +363,7 @@ bool vtkTetrahedraVolumeMapper::IsSupported(vtkRenderWindow* window)
     return false;
   }
   openGL->Initialize();
-  openGL->MakeCurrent();
+  const tetralux::EnteredContext context(openGL);
   const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
   this->SetSupportReason(card.Renderer);
   if (std::make_pair(card.Version[0], card.Version[1]) < std::make_pair(3, 2))
