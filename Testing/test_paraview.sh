@@ -44,7 +44,10 @@ start_display() {
 # A server and its client.
 check_server() {
   local port status
-  port=$("$python" -c 'import socket as s; t = s.socket(); t.bind(("", 0)); print(t.getsockname()[1])')
+  port=$("$python" -c 'import socket
+free = socket.socket()
+free.bind(("", 0))
+print(free.getsockname()[1])')
   "$paraview/usr/bin/pvserver" --server-port="$port" >build-paraview/server.log &
   local server=$!
   for _ in {1..120}; do
