@@ -435,8 +435,9 @@ public:
   vtkImageData* GetOutputImage();
 
   /**
-   * What the last frame was made of, as JSON: what was rebuilt, times in seconds, counts, the error
-   * estimate, what the scene did not need. "{}" before the first frame.
+   * What the last frame was made of, as JSON: what was rebuilt, times in seconds, counts, the bytes
+   * of what is kept and the largest memory of the process, the error estimate, what the scene did
+   * not need. "{}" before the first frame.
    */
   std::string GetStatistics();
 
