@@ -463,6 +463,10 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   section["tetrahedra_drawn"] = drawn.Cells;
   section["triangles"] = drawn.Triangles;
   section["bytes_of_graphics_card"] = static_cast<std::int64_t>(this->Picture.GetNumberOfBytes());
+  section["bytes_of_screen_points"] =
+    static_cast<std::int64_t>(this->Points.capacity() * sizeof(tetralux::ScreenPoint));
+  section["bytes_of_order"] = static_cast<std::int64_t>(
+    this->Sorter ? this->Sorter->GetSize() : this->Order.capacity() * sizeof(std::int32_t));
   section["order"] = this->Sorted ? GetMethodName(this->Method) : "none";
   if (this->Sorted)
   {

@@ -15,6 +15,7 @@
 #include "Properties/PropertySetters.h"
 #include "Report/Json.h"
 #include "Report/OnceWarning.h"
+#include "Report/PeakMemory.h"
 #include "Walk/WalkMesh.h"
 
 #include "Intake/TetrahedraIntake.h"
@@ -88,6 +89,12 @@ private:
   tetralux::MapperSettings MakeSettings() const;
   void AddSceneToKey(MapperFrame& frame) const;
   void WriteStatistics(MapperFrame& frame, double frameSeconds);
+
+  struct
+  {
+    std::int64_t BeforeFrame = 0;
+    std::int64_t AfterPreparation = 0;
+  } Peaks; ///< of the process's memory, bytes
 };
 
 //------------------------------------------------------------------------------------------------
@@ -113,9 +120,11 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(MapperFrame& frame)
     input.LightVaries = tetralux::FindLighting(true, frame.Settings.SmoothShading, frame.Lights) ==
       tetralux::Lighting::Varying;
   }
+  this->Peaks.BeforeFrame = tetralux::GetPeakMemory();
   const bool ready = this->Preparation.Update(settings, input,
     [&](double fraction)
     { return this->Record.ReportProgress(frame.Window, vtkCommand::ProgressEvent, fraction); });
+  this->Peaks.AfterPreparation = tetralux::GetPeakMemory();
   frame.Scene = &this->Preparation.Scene;
   if (ready)
   {
@@ -246,6 +255,10 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   Json sections;
   sections["input"] = DescribeInput(this->Preparation);
   sections["tables"] = DescribeTables(this->Preparation);
+  sections["memory"] = DescribeMemory(this->Preparation);
+  sections["memory"]["peak_before_frame"] = this->Peaks.BeforeFrame;
+  sections["memory"]["peak_after_preparation"] = this->Peaks.AfterPreparation;
+  sections["memory"]["peak_after_frame"] = tetralux::GetPeakMemory();
   sections["segments"] = DescribeSegments(this->Preparation, frame.Integration);
   this->Record.Write(frame, this->Preparation.GetLast().Rebuilt, seconds, frameSeconds, sections);
 }

@@ -489,10 +489,11 @@ public:
   vtkImageData* GetOutputImage();
 
   /**
-   * What the last frame was made of, as JSON: what was rebuilt, times in seconds, counts, the error
-   * estimate, what the scene did not need. "{}" before the first frame. "kept" tells whether the
-   * picture of the frame before was composited as it is, since nothing that it follows from had
-   * changed; counts are then those of the frame that made it.
+   * What the last frame was made of, as JSON: what was rebuilt, times in seconds, counts, the bytes
+   * of what is kept and the largest memory of the process, the error estimate, what the scene did
+   * not need. "{}" before the first frame. "kept" tells whether the picture of the frame before was
+   * composited as it is, since nothing that it follows from had changed; counts are then those of
+   * the frame that made it.
    */
   std::string GetStatistics();
 

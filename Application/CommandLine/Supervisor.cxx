@@ -146,7 +146,8 @@ private:
     const std::string damage = this->IsReading ? "; the file may be damaged" : "";
     if (this->Hung)
     {
-      return Fail(reader + "works on without getting on" + damage);
+      return Fail(reader + "works without getting on" + damage + " (" +
+        WorkerVitals::PatienceVariable + " sets how long that may last)");
     }
     if (!WIFSIGNALED(status))
     {

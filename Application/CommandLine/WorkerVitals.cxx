@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommandLine/WorkerVitals.h"
 
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <string>
@@ -13,7 +14,15 @@ namespace
 /// Processor time without progress that counts as a hang, seconds. Readers that sort or convert
 /// what they have read pass over 1e8 cells several times in it. Time in which the process waits,
 /// for a disk or a network, does not count.
-constexpr double LargestStandstill = 10;
+constexpr double DefaultPatience = 10;
+
+double ReadPatience()
+{
+  const char* text = std::getenv(WorkerVitals::PatienceVariable);
+  char* end = nullptr;
+  const double seconds = text ? std::strtod(text, &end) : DefaultPatience;
+  return text && (end == text || *end != '\0' || !(seconds >= 0)) ? DefaultPatience : seconds;
+}
 
 /// Memory that a reader may come to need, as a multiple of what it has read and bytes beyond that.
 /// No common compression makes data smaller than this; readers that repeat themselves at the end of
@@ -25,6 +34,7 @@ constexpr double LargestOverhead = 512e6;
 
 WorkerVitals::WorkerVitals(pid_t worker)
   : Worker(worker)
+  , Patience(ReadPatience())
 {
 }
 
@@ -45,7 +55,8 @@ bool WorkerVitals::Hangs()
   {
     this->AtProgress = now;
   }
-  return now.ProcessorSeconds - this->AtProgress.ProcessorSeconds > LargestStandstill;
+  return this->Patience > 0 &&
+    now.ProcessorSeconds - this->AtProgress.ProcessorSeconds > this->Patience;
 }
 
 bool WorkerVitals::Look(Signs& signs) const

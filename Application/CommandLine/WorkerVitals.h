@@ -8,9 +8,14 @@
 
 /// Tells whether a process that reads a file has stopped to do so without ending: it works, but it
 /// neither reads, nor needs new memory in proportion to what it has read, nor reports progress.
+///
+/// The environment variable TETRALUX_READER_PATIENCE sets how long that may last, in seconds of
+/// processor time: 10 without it or if it is no number, 0 for ever.
 class WorkerVitals
 {
 public:
+  static constexpr const char* PatienceVariable = "TETRALUX_READER_PATIENCE";
+
   explicit WorkerVitals(pid_t worker);
 
   /// Counts as progress.
@@ -31,6 +36,7 @@ private:
   bool Look(Signs& signs) const;
 
   pid_t Worker;
+  double Patience;  ///< seconds; 0: without end
   Signs AtProgress; ///< at the last progress
 };
 

@@ -5,6 +5,8 @@
 #include "Preparation/ScenePreparation.h"
 #include "Report/IntegratorName.h"
 
+#include <type_traits>
+
 namespace tetralux
 {
 namespace
@@ -130,6 +132,26 @@ Json DescribeTables(const ScenePreparation& preparation)
     tables["convexification_refusal"] = convex->Refusal;
   }
   return tables;
+}
+
+Json DescribeMemory(const ScenePreparation& preparation)
+{
+  const auto getBytes = [](const auto& values)
+  { return values.capacity() * sizeof(typename std::decay_t<decltype(values)>::value_type); };
+  const VolumeScene& scene = preparation.Scene;
+  const WalkMesh& mesh = *scene.Mesh.GetMesh();
+  const TetrahedralMesh& tetrahedra = mesh.GetMesh();
+  const Convexification* convex = mesh.GetConvexification();
+  const PreIntegrationTable* table = scene.Optics.GetTable();
+  Json memory;
+  memory["mesh"] = getBytes(tetrahedra.Points) + getBytes(tetrahedra.Cells) +
+    getBytes(tetrahedra.OriginalPoints) + getBytes(tetrahedra.OriginalCells);
+  memory["scalars"] = getBytes(scene.Mesh.GetScalars());
+  memory["walk_tables"] = mesh.GetTableSize();
+  memory["imaginary_cells"] =
+    convex ? getBytes(convex->Cells) + getBytes(convex->SteinerPoints) : 0;
+  memory["pre_integration"] = table ? table->GetNumberOfBytes() : 0;
+  return memory;
 }
 
 Json DescribeSegments(const ScenePreparation& preparation, Integrator integrator)

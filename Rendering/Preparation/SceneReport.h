@@ -21,6 +21,10 @@ Json DescribeInput(const ScenePreparation& preparation);
 /// Counts and sizes of what was built.
 Json DescribeTables(const ScenePreparation& preparation);
 
+/// Bytes of what is kept: the mesh in double precision, its scalars, the tables that rays are
+/// walked through, imaginary cells, and the pre-integration table.
+Json DescribeMemory(const ScenePreparation& preparation);
+
 /// How segments are integrated, by which table, and why.
 Json DescribeSegments(const ScenePreparation& preparation, Integrator integrator);
 

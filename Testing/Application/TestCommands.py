@@ -501,7 +501,15 @@ class Commands(ToolTest):
         self.succeed("render", "ball.vtu", "--stats", "stats.json", "--output", "out.png")
         with open(self.path("stats.json"), encoding="utf-8") as file:
             statistics = json.load(file)
-        self.assertTrue(statistics)
+        memory = statistics["memory"]
+        peaks = [
+            memory[peak]
+            for peak in ("peak_before_frame", "peak_after_preparation", "peak_after_frame")
+        ]
+        self.assertEqual(peaks, sorted(peaks))
+        cells = statistics["tables"]["tetrahedra"]
+        self.assertGreaterEqual(memory["mesh"], 16 * cells)
+        self.assertGreaterEqual(memory["walk_tables"], 32 * cells)
         text = self.succeed("render", "ball.vtu", "--output", "out.png", "--stats")
         for name in statistics:
             self.assertIn(name, text)

@@ -37,7 +37,10 @@ SEED = int(os.environ.get("TETRALUX_DAMAGE_SEED", "1"))
 LARGEST_MEMORY = 8 << 30
 
 # Seconds in which a run must end. A reader that hangs is stopped long before.
-LONGEST_RUN = 120
+LONGEST_RUN = 600
+
+# Seconds of processor time after which a reader that does not get on counts as one that hangs.
+PATIENCE = "0.7"
 
 # Points along an edge of the grids.
 EDGE = 4
@@ -243,6 +246,7 @@ class Fuzz(FormatFiles, ToolTest):
             result = subprocess.run(
                 [TOOL, *arguments], cwd=folder, capture_output=True, timeout=LONGEST_RUN,
                 check=False, preexec_fn=limit_memory,
+                env={**os.environ, "TETRALUX_READER_PATIENCE": PATIENCE},
             )
         except subprocess.TimeoutExpired:
             return "timeout", f"{name}: it does not end"
