@@ -208,10 +208,13 @@ int vtkTetrahedralizeCells::RequestData(
   {
     return 1;
   }
-  const std::string leftOut = tetralux::DescribeLeftOutCells(intake.Report, {});
-  if (!leftOut.empty())
+  for (const std::string& warning : { tetralux::DescribeLeftOutCells(intake.Report, {}),
+         tetralux::DescribeFoldedCells(intake.Report) })
   {
-    vtkWarningMacro(<< leftOut);
+    if (!warning.empty())
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
 
   const tetralux::TetrahedralMesh& mesh = intake.Mesh;

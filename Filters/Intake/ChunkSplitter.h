@@ -103,7 +103,8 @@ private:
           if (valid)
           {
             this->Merge(this->Polygon);
-            this->Faces.AddPolygon(this->Polygon.data(), this->Polygon.size());
+            this->Faces.AddPolygon(
+              this->Polygon.data(), this->Polygon.size(), this->Context.Coordinates);
           }
         });
     }
@@ -239,7 +240,7 @@ private:
       {
         this->Polygon.push_back(points[point]);
       }
-      this->Faces.AddPolygon(this->Polygon.data(), this->Polygon.size());
+      this->Faces.AddPolygon(this->Polygon.data(), this->Polygon.size(), this->Context.Coordinates);
     }
     if (type.MiddlePoint >= 0)
     {
@@ -266,7 +267,7 @@ private:
     }
     for (const std::vector<std::int64_t>& polygon : this->Hull.Polygons)
     {
-      this->Faces.AddPolygon(polygon.data(), polygon.size());
+      this->Faces.AddPolygon(polygon.data(), polygon.size(), this->Context.Coordinates);
     }
     this->ConeFromCornerOrMiddle();
     for (std::int64_t point : this->Hull.Others)
@@ -279,9 +280,12 @@ private:
   {
     if (!this->Faces.ConeFromSmallestId(this->Context.Coordinates, this->Tets))
     {
-      const std::vector<std::int64_t>& points = this->Faces.GetPoints();
-      const std::vector<double> weights(points.size(), 1.0 / points.size());
-      this->Faces.ConeFrom(this->AddPoint(points, weights), this->Tets);
+      std::vector<double> weights;
+      if (!this->Faces.FindMiddle(this->Context.Coordinates, weights))
+      {
+        ++this->Output.FoldedCells;
+      }
+      this->Faces.ConeFrom(this->AddPoint(this->Faces.GetPoints(), weights), this->Tets);
     }
   }
 

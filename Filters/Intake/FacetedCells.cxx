@@ -8,7 +8,9 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace tetralux
@@ -16,6 +18,81 @@ namespace tetralux
 
 namespace
 {
+
+using Vector = std::array<double, 3>;
+
+Vector At(const double* points, std::int64_t id)
+{
+  return { points[3 * id], points[3 * id + 1], points[3 * id + 2] };
+}
+
+Vector Subtract(const Vector& a, const Vector& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+Vector Add(const Vector& a, const Vector& b) { return { a[0] + b[0], a[1] + b[1], a[2] + b[2] }; }
+
+Vector Cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// A corner of a polygon is bent inwards from this share of the polygon's area on: above rounding.
+constexpr double SmallestBend = 1e-9;
+
+/// Distances to the planes of faces that the middle of a cell is looked for with, as a share of the
+/// cell's extent: from what only thick cells have room for down to rounding. A mean of corners
+/// needs no more than to be inside.
+constexpr double LargestClearance = 0.25;
+constexpr double SmallestClearance = 1e-9;
+constexpr double SmallestClearanceOfMean = 1e-12;
+
+/// Steps that are tried for each of them, and how much farther than below a plane each goes: what
+/// converges in some dozens where there is room.
+constexpr int MaximumSteps = 200;
+constexpr double OverRelaxation = 1.5;
+
+/// The corners of a polygon relative to one of them, so that an offset of the whole mesh does not
+/// cancel.
+std::vector<Vector> GetCorners(const std::vector<std::int64_t>& polygon, const double* points)
+{
+  std::vector<Vector> corners;
+  for (const std::int64_t id : polygon)
+  {
+    corners.push_back(Subtract(At(points, id), At(points, polygon[0])));
+  }
+  return corners;
+}
+
+/// Twice the area is its length.
+Vector FindNormal(const std::vector<Vector>& corners)
+{
+  Vector normal = { 0, 0, 0 };
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+  {
+    normal = Add(normal, Cross(corners[i], corners[i + 1]));
+  }
+  return normal;
+}
+
+/// Whether no triangle of the fan at the first corner lies on another one.
+bool HasFan(const std::vector<std::int64_t>& polygon, const double* points)
+{
+  const std::vector<Vector> corners = GetCorners(polygon, points);
+  const Vector normal = FindNormal(corners);
+  const double least = -SmallestBend * Dot(normal, normal);
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+  {
+    if (Dot(normal, Cross(corners[i], corners[i + 1])) < least)
+    {
+      return false;
+    }
+  }
+  return true;
+}
 
 /// The polygons of a face, as positions in the face's own numbering (vtkQuadraticTriangle.h and so
 /// on). A linear face is a polygon as it is.
@@ -116,19 +193,77 @@ const FacetedCellType* GetFacetedCellType(int cellType)
 
 void FacetedCellSplitter::Clear() { this->Triangles.clear(); }
 
-void FacetedCellSplitter::AddPolygon(const std::int64_t* ids, std::size_t size)
+void FacetedCellSplitter::AddPolygon(
+  const std::int64_t* ids, std::size_t size, const double* points)
 {
   // A fan at the smallest id: what the cell on the other side of the face does as well.
-  const std::size_t first = std::min_element(ids, ids + size) - ids;
+  std::vector<std::int64_t> polygon(ids, ids + size);
+  std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+  if (size > 3 && !HasFan(polygon, points))
+  {
+    this->ClipEars(polygon, points);
+    return;
+  }
   for (std::size_t i = 1; i + 1 < size; ++i)
   {
-    const std::int64_t a = ids[first];
-    const std::int64_t b = ids[(first + i) % size];
-    const std::int64_t c = ids[(first + i + 1) % size];
-    if (a != b && b != c && c != a)
+    this->AddTriangle(polygon[0], polygon[i], polygon[i + 1]);
+  }
+}
+
+void FacetedCellSplitter::AddTriangle(std::int64_t a, std::int64_t b, std::int64_t c)
+{
+  if (a != b && b != c && c != a)
+  {
+    this->Triangles.insert(this->Triangles.end(), { a, b, c });
+  }
+}
+
+void FacetedCellSplitter::ClipEars(std::vector<std::int64_t> polygon, const double* points)
+{
+  // In the one of both orders in which the cell on the other side sees it, too.
+  const bool turned = polygon.back() < polygon[1];
+  if (turned)
+  {
+    std::reverse(polygon.begin() + 1, polygon.end());
+  }
+  std::vector<Vector> corners = GetCorners(polygon, points);
+  const Vector normal = FindNormal(corners);
+  const auto area = [&](const Vector& a, const Vector& b, const Vector& c)
+  { return Dot(normal, Cross(Subtract(b, a), Subtract(c, a))); };
+  const std::size_t first = this->Triangles.size();
+  while (corners.size() > 2)
+  {
+    // The ear that is the least thin: nothing of the polygon is in its triangle.
+    const std::size_t n = corners.size();
+    std::size_t best = n;
+    double bestShape = 0;
+    for (std::size_t i = 0; i < n; ++i)
     {
-      this->Triangles.insert(this->Triangles.end(), { a, b, c });
+      const Vector& a = corners[(i + n - 1) % n];
+      const Vector& b = corners[i];
+      const Vector& c = corners[(i + 1) % n];
+      bool empty = true;
+      for (std::size_t k = 2; k + 1 < n && empty; ++k)
+      {
+        const Vector& p = corners[(i + k) % n];
+        empty = area(a, b, p) < 0 || area(b, c, p) < 0 || area(c, a, p) < 0;
+      }
+      const Vector edge = Subtract(c, a);
+      const double shape = area(a, b, c) / Dot(edge, edge);
+      if (empty && shape > bestShape)
+      {
+        best = i;
+        bestShape = shape;
+      }
     }
+    best = best == n ? 0 : best; // what is left has no area
+    this->AddTriangle(polygon[(best + n - 1) % n], polygon[best], polygon[(best + 1) % n]);
+    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(best));
+    corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  for (std::size_t i = first; turned && i < this->Triangles.size(); i += 3)
+  {
+    std::swap(this->Triangles[i + 1], this->Triangles[i + 2]);
   }
 }
 
@@ -195,6 +330,141 @@ bool FacetedCellSplitter::ConeFromSmallestId(
     tets.insert(tets.end(), { a, c, b, apex });
   }
   return true;
+}
+
+std::vector<FacetedCellSplitter::Plane> FacetedCellSplitter::FindPlanes(const double* points) const
+{
+  std::vector<Plane> planes;
+  for (std::size_t i = 0; i < this->Triangles.size(); i += 3)
+  {
+    const Vector a = At(points, this->Triangles[i]);
+    const Vector normal = Cross(Subtract(At(points, this->Triangles[i + 1]), a),
+      Subtract(At(points, this->Triangles[i + 2]), a));
+    const double length = std::sqrt(Dot(normal, normal));
+    if (length > 0)
+    {
+      Plane plane;
+      for (int k = 0; k < 3; ++k)
+      {
+        plane.Normal[k] = normal[k] / length;
+      }
+      // Seen from a corner of the cell, as in SignedVolume.
+      const Vector height = Subtract(a, At(points, this->Triangles[0]));
+      plane.Height = Dot(height, plane.Normal);
+      planes.push_back(plane);
+    }
+  }
+  return planes;
+}
+
+bool FacetedCellSplitter::FindMiddle(const double* points, std::vector<double>& weights)
+{
+  const std::size_t n = this->GetPoints().size();
+  weights.assign(n, 1. / static_cast<double>(n));
+  if (n == 0)
+  {
+    return false;
+  }
+  const Vector origin = At(points, this->Triangles[0]);
+  Vector mean = { 0, 0, 0 };
+  double extent = 0;
+  for (const std::int64_t id : this->Points)
+  {
+    const Vector p = Subtract(At(points, id), origin);
+    mean = Add(mean, p);
+    extent = std::max(extent, std::sqrt(Dot(p, p)));
+  }
+  for (double& c : mean)
+  {
+    c /= static_cast<double>(n);
+  }
+  const std::vector<Plane> planes = this->FindPlanes(points);
+  // The distance to the plane that the point is the least below.
+  const auto findNearest = [&planes](const Vector& x, const Plane*& nearest)
+  {
+    double least = std::numeric_limits<double>::max();
+    for (const Plane& plane : planes)
+    {
+      const double below = plane.Height - Dot(x, plane.Normal);
+      if (!(below >= least))
+      {
+        least = below;
+        nearest = &plane;
+      }
+    }
+    return least;
+  };
+  const Plane* nearest = nullptr;
+  if (findNearest(mean, nearest) > SmallestClearanceOfMean * extent)
+  {
+    return true;
+  }
+  // Moves below one plane after the other (relaxation, Agmon 1954), by distances that leave as much
+  // room as there is.
+  for (double clearance = LargestClearance * extent; clearance >= SmallestClearance * extent;
+       clearance /= 2)
+  {
+    Vector x = mean;
+    for (int step = 0; step < MaximumSteps; ++step)
+    {
+      const double below = findNearest(x, nearest);
+      if (!(below < clearance))
+      {
+        weights.assign(n, 0);
+        const Vector place = Add(x, origin);
+        for (std::size_t corner = 0; corner < n; ++corner)
+        {
+          this->AddWeights(points, place, corner, 1. / static_cast<double>(n), weights);
+        }
+        return true;
+      }
+      for (int k = 0; k < 3; ++k)
+      {
+        x[k] += OverRelaxation * (below - clearance) * nearest->Normal[k];
+      }
+    }
+  }
+  return false;
+}
+
+/// A point that sees all faces is between any corner and a place on a face behind it: adds a share
+/// of the weights that this gives.
+void FacetedCellSplitter::AddWeights(const double* points, const Vector& x, std::size_t corner,
+  double share, std::vector<double>& weights) const
+{
+  const Vector back = Subtract(x, At(points, this->Points[corner]));
+  Vector found = { 0, 0, 0 };
+  double best = -std::numeric_limits<double>::max();
+  std::size_t triangle = 0;
+  for (std::size_t i = 0; i < this->Triangles.size(); i += 3)
+  {
+    // back = u . (corners of the triangle - x)
+    Vector edges[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      edges[k] = Subtract(At(points, this->Triangles[i + k]), x);
+    }
+    const double volume = Dot(edges[0], Cross(edges[1], edges[2]));
+    const Vector u = { Dot(back, Cross(edges[1], edges[2])) / volume,
+      Dot(back, Cross(edges[2], edges[0])) / volume,
+      Dot(back, Cross(edges[0], edges[1])) / volume };
+    const double least = std::min({ u[0], u[1], u[2] }) / (u[0] + u[1] + u[2]);
+    if (u[0] + u[1] + u[2] > 0 && least > best)
+    {
+      best = least;
+      found = u;
+      triangle = i;
+    }
+  }
+  const double sum = std::max(found[0], 0.) + std::max(found[1], 0.) + std::max(found[2], 0.);
+  weights[corner] += share / (1 + sum);
+  for (int k = 0; k < 3; ++k)
+  {
+    const auto at = std::lower_bound(this->Points.begin(), this->Points.end(),
+      this->Triangles[triangle + static_cast<std::size_t>(k)]);
+    weights[static_cast<std::size_t>(at - this->Points.begin())] +=
+      share * std::max(found[k], 0.) / (1 + sum);
+  }
 }
 
 void FacetedCellSplitter::ConeFrom(std::int64_t apex, std::vector<std::int64_t>& tets) const

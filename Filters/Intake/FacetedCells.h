@@ -2,6 +2,7 @@
 #ifndef tetralux_FacetedCells_h
 #define tetralux_FacetedCells_h
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -49,8 +50,9 @@ public:
   /// Starts a cell.
   void Clear();
 
-  /// Adds a face: point ids, seen counter-clockwise from outside (see OrientOutward).
-  void AddPolygon(const std::int64_t* ids, std::size_t size);
+  /// Adds a face: point ids, seen counter-clockwise from outside (see OrientOutward). points:
+  /// coordinates by point id.
+  void AddPolygon(const std::int64_t* ids, std::size_t size, const double* points);
 
   /// Turns all faces around if they enclose a negative volume. points: coordinates by point id.
   void OrientOutward(const double* points);
@@ -65,8 +67,26 @@ public:
   /// The ids of all faces, ascending, each once.
   const std::vector<std::int64_t>& GetPoints();
 
+  /// Finds a point that sees all faces from inside: the mean of the corners, if that does. weights:
+  /// of GetPoints, whose mean it is; not negative where it sees all faces. Returns whether one was
+  /// found; else it is the mean of the corners.
+  bool FindMiddle(const double* points, std::vector<double>& weights);
+
 private:
+  /// A plane of a face with the cell below it: Normal . x <= Height, of length 1.
+  struct Plane
+  {
+    std::array<double, 3> Normal;
+    double Height;
+  };
+
   double SignedVolume(const double* points) const;
+  void AddTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
+  std::vector<Plane> FindPlanes(const double* points) const;
+  /// Cuts a polygon that is bent inwards, from its smallest id on.
+  void ClipEars(std::vector<std::int64_t> polygon, const double* points);
+  void AddWeights(const double* points, const std::array<double, 3>& x, std::size_t corner,
+    double share, std::vector<double>& weights) const;
 
   std::vector<std::int64_t> Triangles; // three ids each
   std::vector<std::int64_t> Points;

@@ -27,6 +27,7 @@ void AddCounts(const IntakeChunk& chunk, TetrahedraIntakeReport& report)
   report.BlankedCells += chunk.BlankedCells;
   report.LowerDimensionalCells += chunk.LowerDimensionalCells;
   report.InvalidCells += chunk.InvalidCells;
+  report.FoldedCells += chunk.FoldedCells;
 }
 
 void GatherChunks(std::vector<IntakeChunk>& chunks, TetrahedralMesh& mesh)

@@ -34,6 +34,7 @@ struct IntakeChunk
   std::int64_t BlankedCells = 0;
   std::int64_t LowerDimensionalCells = 0;
   std::int64_t InvalidCells = 0;
+  std::int64_t FoldedCells = 0;
 };
 
 /// Adds what a chunk counts to the report.

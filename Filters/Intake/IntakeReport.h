@@ -12,7 +12,8 @@ namespace tetralux
 {
 
 /// What the intake found in its input and what it left out. Every cell of the input is in
-/// CellsByType; those that gave no tetrahedra are in exactly one of the other counts.
+/// CellsByType; those that gave no tetrahedra are in exactly one of the other counts but
+/// FoldedCells.
 struct TetrahedraIntakeReport
 {
   /// Cells of the input by their type as in vtkCellType.h.
@@ -27,8 +28,10 @@ struct TetrahedraIntakeReport
   std::int64_t GhostCells = 0;            ///< vtkGhostType says DUPLICATECELL
   std::int64_t BlankedCells = 0;          ///< HIDDENCELL, REFINEDCELL, or a corner is a HIDDENPOINT
   std::int64_t LowerDimensionalCells = 0; ///< vertices, lines, faces, empty cells
-  std::int64_t InvalidCells = 0;  ///< too few points, ids that don't exist, or nothing between them
-  std::int64_t Blocks = 0;        ///< data sets that were read
+  std::int64_t InvalidCells = 0; ///< too few points, ids that don't exist, or nothing between them
+  std::int64_t Blocks = 0;       ///< data sets that were read
+  /// Polyhedra no point of which sees all faces from inside: their tetrahedra overlap.
+  std::int64_t FoldedCells = 0;
   std::int64_t SkippedBlocks = 0; ///< leaves of a composite that are no data sets, as tables
 
   /// The sum over SkippedByType.

@@ -36,4 +36,11 @@ std::string DescribeLeftOutCells(const TetrahedraIntakeReport& report, const Rem
   return text;
 }
 
+std::string DescribeFoldedCells(const TetrahedraIntakeReport& report)
+{
+  return report.FoldedCells == 0 ? std::string()
+                                 : std::to_string(report.FoldedCells) +
+      " polyhedra have no point that sees all of their faces from inside: their tetrahedra overlap";
+}
+
 } // namespace tetralux

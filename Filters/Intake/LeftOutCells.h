@@ -29,6 +29,9 @@ TETRALUXFILTERS_EXPORT std::vector<LeftOutCells> ListLeftOutCells(
 TETRALUXFILTERS_EXPORT std::string DescribeLeftOutCells(
   const TetrahedraIntakeReport& report, const RemovedCells& removed);
 
+/// What is there, but not right, as one line; empty where there is nothing.
+TETRALUXFILTERS_EXPORT std::string DescribeFoldedCells(const TetrahedraIntakeReport& report);
+
 } // namespace tetralux
 
 #endif

@@ -537,7 +537,10 @@ void ScenePreparation::WarnOfMesh()
   }
   const std::string leftOut =
     DescribeLeftOutCells(this->Intake, this->Scene.Mesh.GetMesh()->GetRemovedCells());
-  warning += (warning.empty() || leftOut.empty() ? "" : "; ") + leftOut;
+  for (const std::string& text : { leftOut, DescribeFoldedCells(this->Intake) })
+  {
+    warning += (warning.empty() || text.empty() ? "" : "; ") + text;
+  }
   this->MeshWarning.Update(this->Source, warning);
 }
 

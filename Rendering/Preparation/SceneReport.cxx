@@ -91,6 +91,7 @@ Json DescribeInput(const ScenePreparation& preparation)
   input["blanked_cells"] = intake.BlankedCells;
   input["lower_dimensional_cells"] = intake.LowerDimensionalCells;
   input["invalid_cells"] = intake.InvalidCells;
+  input["folded_cells"] = intake.FoldedCells;
   input["skipped_cells"] = intake.GetNumberOfSkippedCells();
   input["skipped_cell_types"] = intake.DescribeSkippedCells();
   input["left_out"] =

@@ -4,6 +4,7 @@
 #include "CellPatch.h"
 #include "GhostArray.h"
 #include "Intake/DataSetCheck.h"
+#include "Intake/LeftOutCells.h"
 #include "Intake/ScalarExtraction.h"
 #include "Mesh/FaceNeighbors.h"
 
@@ -430,6 +431,81 @@ TEST(TetrahedraIntake, DentedPolyhedronIsConedFromItsMiddle)
     }
   }
   EXPECT_EQ(numbersOfPoints, (std::set<std::size_t>{ 9, 10 })) << "both ways were tried";
+}
+
+namespace
+{
+
+/// Layers of a prism over a polygon, each a polyhedron.
+CellPatch MakePolygonPrism(const std::vector<std::array<double, 2>>& polygon, int layers)
+{
+  const int n = static_cast<int>(polygon.size());
+  CellPatch patch;
+  for (int layer = 0; layer < layers; ++layer)
+  {
+    std::vector<CellPatch::Position> points;
+    for (const int level : { layer, layer + 1 })
+    {
+      for (const auto& corner : polygon)
+      {
+        points.push_back({ corner[0], corner[1], 0.3 * level });
+      }
+    }
+    std::vector<std::vector<int>> faces(2);
+    for (int i = 0; i < n; ++i)
+    {
+      faces[0].insert(faces[0].begin(), i);
+      faces[1].push_back(n + i);
+      faces.push_back({ i, (i + 1) % n, n + (i + 1) % n, n + i });
+    }
+    patch.AddPolyhedron(points, faces);
+  }
+  return patch;
+}
+
+} // namespace
+
+// Faces that are not convex are the same triangles from both sides, and where a point sees all of
+// them, no tetrahedron lies on another one.
+TEST(TetrahedraIntake, ConcavePolyhedraAreConedFromAPointThatSeesAllFaces)
+{
+  std::vector<std::array<double, 2>> star;
+  for (int i = 0; i < 10; ++i)
+  {
+    const double angle = 0.2 * i * std::acos(-1.0);
+    const double radius = i % 2 == 0 ? 1 : 0.4;
+    star.push_back({ radius * std::cos(angle), radius * std::sin(angle) });
+  }
+  const std::vector<std::array<double, 2>> corner = { { 0, 0 }, { 1, 0 }, { 1, 0.1 }, { 0.1, 0.1 },
+    { 0.1, 1 }, { 0, 1 } };
+  constexpr double Rounding = 1e-6; // of points in single precision
+  const double areas[] = { 5 * 0.4 * std::sin(0.2 * std::acos(-1.0)), 0.19 };
+  const std::vector<std::array<double, 2>>* polygons[] = { &star, &corner };
+  for (int shape = 0; shape < 2; ++shape)
+  {
+    const CellPatch patch = MakePolygonPrism(*polygons[shape], 2);
+    const int n = static_cast<int>(polygons[shape]->size());
+    for (std::uint64_t seed = 1; seed <= 50; ++seed)
+    {
+      const TetrahedraIntake intake = TakeInTetrahedra(patch.MakeGrid(seed, KeepPosition));
+      std::int64_t notPositive = 0;
+      EXPECT_NEAR(GetVolume(intake.Mesh, &notPositive), 0.6 * areas[shape], Rounding);
+      EXPECT_EQ(notPositive, 0) << "shape " << shape << ", seed " << seed;
+      EXPECT_EQ(CountBoundaryFaces(intake.Mesh), 2u * (n - 2) + 2u * 2 * n);
+      EXPECT_EQ(intake.Report.FoldedCells, 0);
+    }
+  }
+}
+
+TEST(TetrahedraIntake, PolyhedraThatNoPointSeesAllOfAreCounted)
+{
+  const CellPatch patch = MakePolygonPrism(
+    { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0.7, 1 }, { 0.7, 0.3 }, { 0.3, 0.3 }, { 0.3, 1 }, { 0, 1 } },
+    1);
+  const TetrahedraIntake intake = TakeInTetrahedra(patch.MakeGrid(1, KeepPosition));
+  EXPECT_NEAR(GetVolume(intake.Mesh), 0.3 * 0.72, 1e-6);
+  EXPECT_EQ(intake.Report.FoldedCells, 1);
+  EXPECT_NE(DescribeFoldedCells(intake.Report).find("1 polyhedra"), std::string::npos);
 }
 
 TEST(TetrahedraIntake, ConvexPointSetsAgreeWithAnyNeighbour)
