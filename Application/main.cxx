@@ -2,6 +2,8 @@
 // The command line: runs a command, turns errors into one line and an exit status.
 
 #include "CommandLine/CommandErrors.h"
+#include "CommandLine/StandardStreams.h"
+#include "CommandLine/Supervisor.h"
 #include "Commands/BenchCommand.h"
 #include "Commands/GenerateCommand.h"
 #include "Commands/InfoCommand.h"
@@ -12,6 +14,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string>
 
 namespace
@@ -37,7 +40,7 @@ std::string Describe(const CLI::ParseError& error, const CLI::App& app)
 
 int Fail(const std::string& message, ExitStatus status)
 {
-  std::cerr << "tetralux: " << message << "\n";
+  PrintMessage(message);
   return status;
 }
 
@@ -55,9 +58,8 @@ void Run(CLI::App& app, int argc, char* argv[])
   app.parse(argc, argv);
 }
 
-} // namespace
-
-int main(int argc, char* argv[])
+/// Runs the command line and returns the exit status.
+int RunTool(int argc, char* argv[])
 try
 {
   CLI::App app(
@@ -65,16 +67,19 @@ try
   try
   {
     Run(app, argc, argv);
-    return Done;
   }
   catch (const CLI::Success& success) // help and version
   {
-    return app.exit(success);
+    std::ostringstream text;
+    app.exit(success, text);
+    std::cout << text.str();
   }
   catch (const CLI::ParseError& error)
   {
     return Fail(Describe(error, app), WrongUsage);
   }
+  CheckStandardOutput();
+  return Done;
 }
 catch (const UsageError& error)
 {
@@ -91,4 +96,12 @@ catch (const std::bad_alloc&)
 catch (const std::exception& error)
 {
   return Fail(error.what(), WorkFailed);
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  OpenStandardStreams();
+  return Supervise([argc, argv] { return RunTool(argc, argv); });
 }

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing from the distribution's packages (Debian 12 or later, and what derives
-# from it): Examples/setup.sh [test]. With "test", also what the tests need.
+# from it): Examples/setup.sh [test] [paraview]. With "test", also what the tests need; with
+# "paraview", what the plugin needs.
 set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(
   cmake g++ ninja-build
@@ -12,10 +14,34 @@ packages=(
   nlohmann-json3-dev # statistics
   libcli11-dev # the command-line tool
 )
-if [[ "${1:-}" == test ]]; then
-  packages+=(libgtest-dev libboost-dev python3-numpy python3-h5py clang-format clang-tidy
-    xvfb xauth) # windows without a screen
-fi
+want_paraview=false
+for wish in "$@"; do
+  case "$wish" in
+    test)
+      packages+=(libgtest-dev libboost-dev python3-numpy python3-h5py clang-format clang-tidy
+        xvfb xauth) # windows without a screen
+      ;;
+    paraview)
+      want_paraview=true
+      packages+=(paraview-dev
+        # what ParaView's CMake package looks for, without depending on it
+        libdouble-conversion-dev libfreetype-dev libglew-dev liblz4-dev libopenmpi-dev
+        libqt5svg5-dev libtiff-dev openmpi-bin python3-dev qttools5-dev
+        xvfb xauth) # its pvpython and pvbatch need a display
+      ;;
+    *)
+      echo "usage: setup.sh [test] [paraview]" >&2
+      exit 2
+      ;;
+  esac
+done
+
+# Beside VTK's Python package there is no room for ParaView's: it is unpacked.
+set_paraview_up() {
+  if $want_paraview; then
+    echo "setup: ParaView is in $(ParaView/prefix.sh)"
+  fi
+}
 
 if ! command -v dpkg-query >/dev/null; then
   echo "setup: no dpkg-query here; make sure that what these Debian packages hold is installed:" \
@@ -31,6 +57,7 @@ for package in "${packages[@]}"; do
   fi
 done
 if ((${#missing[@]} == 0)); then
+  set_paraview_up
   exit 0
 fi
 
@@ -47,4 +74,5 @@ fi
 echo "setup: installing ${missing[*]} (up to 0.5 GB to download)"
 "${as_root[@]}" apt-get -qq update
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Acquire::Retries=3 \
-  install --yes --no-install-recommends "${missing[@]}" </dev/null >/dev/null
+  install --yes --no-install-recommends --no-remove "${missing[@]}" </dev/null >/dev/null
+set_paraview_up

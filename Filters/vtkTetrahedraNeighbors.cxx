@@ -2,6 +2,7 @@
 #include "vtkTetrahedraNeighbors.h"
 
 #include "Geometry/TetrahedronFaces.h"
+#include "Intake/DataSetCheck.h"
 #include "Intake/IntakeReport.h"
 #include "Mesh/CellVolumes.h"
 #include "Mesh/FaceNeighbors.h"
@@ -225,6 +226,11 @@ private:
         std::to_string(this->NumberOfCells) + " cells; at most " +
         std::to_string(tetralux::MaximumPoints) + " and " + std::to_string(tetralux::MaximumCells) +
         " are possible";
+    }
+    const std::string damage = tetralux::FindDamageOfCells(this->Grid);
+    if (!damage.empty())
+    {
+      return "the input is damaged: " + damage;
     }
     this->Mesh.Points.resize(3 * this->NumberOfPoints);
     vtkSMPTools::For(0, this->NumberOfPoints, Grain,

@@ -7,13 +7,16 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <dlfcn.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
@@ -84,6 +87,57 @@ bool IsSoftware(EGLDeviceEXT device)
     reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(eglGetProcAddress("eglQueryDeviceStringEXT"));
   return queryString &&
     HasExtension(queryString(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+}
+
+// GLX, where the process has it. EGL refuses to make a context current to a thread that another
+// one is current to through GLX, and GLX ends the process in the other order: so whichever it is
+// has to be released before.
+struct Glx
+{
+  using Drawable = unsigned long; // as X has it
+
+  void* (*GetCurrentContext)() = nullptr;
+  void* (*GetCurrentDisplay)() = nullptr;
+  Drawable (*GetCurrentDrawable)() = nullptr;
+  Drawable (*GetCurrentReadDrawable)() = nullptr;
+  int (*MakeContextCurrent)(void* display, Drawable draw, Drawable read, void* context) = nullptr;
+
+  Glx()
+  {
+    void* library = nullptr;
+    for (const char* name : { "libGLX.so.0", "libGL.so.1" })
+    {
+      library = library ? library : dlopen(name, RTLD_LAZY | RTLD_NOLOAD);
+    }
+    const auto find = [library](const char* name, auto& function)
+    {
+      using Function = std::remove_reference_t<decltype(function)>;
+      function = library ? reinterpret_cast<Function>(dlsym(library, name)) : nullptr;
+      return function != nullptr;
+    };
+    this->Found = find("glXGetCurrentContext", this->GetCurrentContext) &&
+      find("glXGetCurrentDisplay", this->GetCurrentDisplay) &&
+      find("glXGetCurrentDrawable", this->GetCurrentDrawable) &&
+      find("glXGetCurrentReadDrawable", this->GetCurrentReadDrawable) &&
+      find("glXMakeContextCurrent", this->MakeContextCurrent);
+    // The library stays loaded as long as who loaded it.
+    if (library)
+    {
+      dlclose(library);
+    }
+  }
+
+  explicit operator bool() const { return this->Found; }
+
+private:
+  bool Found = false;
+};
+
+// Whether a window of this process may have its context through GLX.
+bool HasDisplay()
+{
+  const char* name = std::getenv("DISPLAY");
+  return name && *name != '\0';
 }
 
 // The displays to try, in this order.
@@ -185,8 +239,16 @@ public:
 
   bool MakeCurrent() const
   {
-    return this->IsCurrent() ||
-      eglMakeCurrent(this->Display, EGL_NO_SURFACE, EGL_NO_SURFACE, this->Context);
+    if (this->IsCurrent())
+    {
+      return true;
+    }
+    const Glx glx;
+    if (glx && glx.GetCurrentContext())
+    {
+      glx.MakeContextCurrent(glx.GetCurrentDisplay(), 0, 0, nullptr);
+    }
+    return eglMakeCurrent(this->Display, EGL_NO_SURFACE, EGL_NO_SURFACE, this->Context);
   }
 
   bool IsCurrent() const { return eglGetCurrentContext() == this->Context; }
@@ -213,10 +275,76 @@ private:
 /// Whichever context is current in this thread, of whatever window, or none.
 struct vtkHeadlessRenderWindow::CurrentContext
 {
+  CurrentContext()
+  {
+    const Glx glx;
+    if (this->Context == EGL_NO_CONTEXT && glx && glx.GetCurrentContext())
+    {
+      this->GlxContext = glx.GetCurrentContext();
+      this->GlxDisplay = glx.GetCurrentDisplay();
+      this->GlxDraw = glx.GetCurrentDrawable();
+      this->GlxRead = glx.GetCurrentReadDrawable();
+    }
+  }
+
+  /// Makes it current again. Where there was none, a context stays current that no GLX can meet.
+  void Restore() const
+  {
+    const EGLContext now = eglGetCurrentContext();
+    if (this->Context != EGL_NO_CONTEXT)
+    {
+      if (this->Context != now)
+      {
+        eglMakeCurrent(this->Display, this->Draw, this->Read, this->Context);
+      }
+      return;
+    }
+    if (now != EGL_NO_CONTEXT && (this->GlxContext || HasDisplay()))
+    {
+      eglMakeCurrent(eglGetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    if (this->GlxContext)
+    {
+      Glx().MakeContextCurrent(this->GlxDisplay, this->GlxDraw, this->GlxRead, this->GlxContext);
+    }
+  }
+
   EGLDisplay Display = eglGetCurrentDisplay();
   EGLSurface Draw = eglGetCurrentSurface(EGL_DRAW);
   EGLSurface Read = eglGetCurrentSurface(EGL_READ);
   EGLContext Context = eglGetCurrentContext();
+  void* GlxDisplay = nullptr;
+  void* GlxContext = nullptr;
+  Glx::Drawable GlxDraw = 0;
+  Glx::Drawable GlxRead = 0;
+};
+
+/// While one lives, the window's context may be current. Then that is again which was before, also
+/// before MakeCurrent was called, as by those who read pixels.
+class vtkHeadlessRenderWindow::ContextScope
+{
+public:
+  explicit ContextScope(vtkHeadlessRenderWindow* window)
+    : Window(window)
+  {
+    ++window->Scopes;
+    if (window->Before && window->IsCurrent())
+    {
+      this->Before = *window->Before;
+    }
+    window->Before.reset();
+  }
+  ~ContextScope()
+  {
+    --this->Window->Scopes;
+    this->Before.Restore();
+  }
+  ContextScope(const ContextScope&) = delete;
+  ContextScope& operator=(const ContextScope&) = delete;
+
+private:
+  vtkHeadlessRenderWindow* Window;
+  CurrentContext Before;
 };
 
 vtkStandardNewMacro(vtkHeadlessRenderWindow);
@@ -243,6 +371,7 @@ void vtkHeadlessRenderWindow::Initialize()
   {
     return;
   }
+  const ContextScope scope(this);
   try
   {
     this->Context = std::make_unique<EglContext>(this->DeviceIndex);
@@ -284,6 +413,7 @@ void vtkHeadlessRenderWindow::OpenGLInitContext()
 //------------------------------------------------------------------------------------------------
 void vtkHeadlessRenderWindow::Render()
 {
+  const ContextScope scope(this);
   this->Initialize();
   if (this->Context)
   {
@@ -295,6 +425,10 @@ void vtkHeadlessRenderWindow::Render()
 void vtkHeadlessRenderWindow::MakeCurrent()
 {
   this->Initialize();
+  if (this->Scopes == 0 && this->Pushed.empty() && !this->IsCurrent())
+  {
+    this->Before = std::make_unique<CurrentContext>();
+  }
   if (this->Context && !this->Context->MakeCurrent())
   {
     vtkErrorMacro("eglMakeCurrent failed with error " << eglGetError());
@@ -320,15 +454,81 @@ void vtkHeadlessRenderWindow::PopContext()
   }
   const CurrentContext before = this->Pushed.back();
   this->Pushed.pop_back();
-  if (before.Context != EGL_NO_CONTEXT && before.Context != eglGetCurrentContext())
-  {
-    eglMakeCurrent(before.Display, before.Draw, before.Read, before.Context);
-  }
+  before.Restore();
+}
+
+//------------------------------------------------------------------------------------------------
+unsigned char* vtkHeadlessRenderWindow::GetPixelData(
+  int x, int y, int x2, int y2, int front, int right)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetPixelData(x, y, x2, y2, front, right);
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkHeadlessRenderWindow::GetPixelData(
+  int x, int y, int x2, int y2, int front, vtkUnsignedCharArray* data, int right)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetPixelData(x, y, x2, y2, front, data, right);
+}
+
+//------------------------------------------------------------------------------------------------
+float* vtkHeadlessRenderWindow::GetRGBAPixelData(int x, int y, int x2, int y2, int front, int right)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetRGBAPixelData(x, y, x2, y2, front, right);
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkHeadlessRenderWindow::GetRGBAPixelData(
+  int x, int y, int x2, int y2, int front, vtkFloatArray* data, int right)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetRGBAPixelData(x, y, x2, y2, front, data, right);
+}
+
+//------------------------------------------------------------------------------------------------
+unsigned char* vtkHeadlessRenderWindow::GetRGBACharPixelData(
+  int x, int y, int x2, int y2, int front, int right)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetRGBACharPixelData(x, y, x2, y2, front, right);
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkHeadlessRenderWindow::GetRGBACharPixelData(
+  int x, int y, int x2, int y2, int front, vtkUnsignedCharArray* data, int right)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetRGBACharPixelData(x, y, x2, y2, front, data, right);
+}
+
+//------------------------------------------------------------------------------------------------
+float* vtkHeadlessRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetZbufferData(x1, y1, x2, y2);
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkHeadlessRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, float* z)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetZbufferData(x1, y1, x2, y2, z);
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkHeadlessRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer)
+{
+  const ContextScope scope(this);
+  return this->Superclass::GetZbufferData(x1, y1, x2, y2, buffer);
 }
 
 //------------------------------------------------------------------------------------------------
 int vtkHeadlessRenderWindow::SupportsOpenGL()
 {
+  const ContextScope scope(this);
   this->Initialize();
   return this->Context && this->Initialized ? 1 : 0;
 }
@@ -338,6 +538,7 @@ void vtkHeadlessRenderWindow::Finalize()
 {
   if (this->Context)
   {
+    const ContextScope scope(this);
     this->MakeCurrent();
     this->Superclass::Finalize();
     this->Initialized = false;

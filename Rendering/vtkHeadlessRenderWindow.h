@@ -11,6 +11,11 @@
  * one, default -1, it is the first hardware device that works, else Mesa in software. It takes
  * effect when the context is made.
  *
+ * Windows with a display may live beside it. Where there may be one, which the environment variable
+ * DISPLAY says, the context stays current from MakeCurrent() to the next call that renders or reads
+ * pixels, and from PushContext() to PopContext(), and no longer: a window whose context is made
+ * current by GLX would end the process.
+ *
  * If no context can be made, one error says what to install, and Render() does nothing;
  * SupportsOpenGL() asks beforehand.
  *
@@ -64,6 +69,25 @@ public:
 
   void OpenGLInitContext() override;
 
+  ///@{
+  /**
+   * As in vtkOpenGLRenderWindow.
+   */
+  unsigned char* GetPixelData(int x, int y, int x2, int y2, int front, int right) override;
+  int GetPixelData(
+    int x, int y, int x2, int y2, int front, vtkUnsignedCharArray* data, int right) override;
+  float* GetRGBAPixelData(int x, int y, int x2, int y2, int front, int right = 0) override;
+  int GetRGBAPixelData(
+    int x, int y, int x2, int y2, int front, vtkFloatArray* data, int right = 0) override;
+  unsigned char* GetRGBACharPixelData(
+    int x, int y, int x2, int y2, int front, int right = 0) override;
+  int GetRGBACharPixelData(
+    int x, int y, int x2, int y2, int front, vtkUnsignedCharArray* data, int right = 0) override;
+  float* GetZbufferData(int x1, int y1, int x2, int y2) override;
+  int GetZbufferData(int x1, int y1, int x2, int y2, float* z) override;
+  int GetZbufferData(int x1, int y1, int x2, int y2, vtkFloatArray* buffer) override;
+  ///@}
+
   /**
    * Bits of red, green, blue and alpha in the frame buffers that VTK renders into, and their sum;
    * there are no others that could be asked. vtkHardwareSelector wants to know.
@@ -82,7 +106,10 @@ private:
   std::unique_ptr<EglContext> Context;
 
   struct CurrentContext;
+  class ContextScope;
   std::vector<CurrentContext> Pushed;
+  std::unique_ptr<CurrentContext> Before; ///< MakeCurrent was called
+  int Scopes = 0;                         ///< that live
 
   // One report per cause, not one per frame.
   bool ContextFailed = false;

@@ -13,8 +13,10 @@
 #include "GpuRayCast/GpuRayLimits.h"
 #include "GpuRayCast/PixelProjection.h"
 #include "GpuRayCast/WalkTextures.h"
+#include "Intake/DataSetBlocks.h"
 #include "Integral/SegmentWeightError.h"
 #include "OpenGL/ContextResources.h"
+#include "OpenGL/EnteredContext.h"
 #include "OpenGL/GraphicsCard.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
@@ -70,11 +72,7 @@ public:
 
   void DrawFrame(MapperFrame& frame);
 
-  bool IsSupported(vtkRenderWindow* window);
-
   void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
-
-  std::string SupportReason;
 
 private:
   const tetralux::WalkTables* ChooseTables(MapperFrame& frame, GpuReentry& reentry);
@@ -161,6 +159,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     options.Layers = &projection;
   }
   options.NumberOfCells = scene.Mesh.GetMesh()->GetNumberOfCells();
+  options.NumberOfAllCells = static_cast<std::int64_t>(tables->Faces.size() / 4);
   options.CellData = scene.Mesh.HasCellScalars();
   options.LargestScalar = integrator == Integrator::Maximum;
   const double brightness = IsLit(integrator)
@@ -194,7 +193,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     this->Last.Set(frame.Key);
     frame.ReadPicture = [this](vtkImageData* image)
     {
-      this->Context.Get()->MakeCurrent();
+      const tetralux::EnteredContext context(this->Context.Get());
       this->Read(image);
     };
   }
@@ -259,6 +258,8 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
 }
 
 //------------------------------------------------------------------------------------------------
+<<<<<<< HEAD
+=======
 bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* window)
 {
   auto* openGL = vtkOpenGLRenderWindow::SafeDownCast(window);
@@ -268,7 +269,7 @@ bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* wind
     return false;
   }
   openGL->Initialize();
-  openGL->MakeCurrent();
+  const tetralux::EnteredContext context(openGL);
   const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
   this->SupportReason = card.Renderer;
   if (std::make_pair(card.Version[0], card.Version[1]) < std::make_pair(3, 2))
@@ -303,6 +304,7 @@ bool vtkTetrahedraGPURayCastMapper::Internals::IsSupported(vtkRenderWindow* wind
 }
 
 //------------------------------------------------------------------------------------------------
+>>>>>>> pass
 const tetralux::WalkTables* vtkTetrahedraGPURayCastMapper::Internals::ChooseTables(
   MapperFrame& frame, GpuReentry& reentry)
 {
@@ -457,13 +459,51 @@ void vtkTetrahedraGPURayCastMapper::DrawFrame(MapperFrame& frame)
 //------------------------------------------------------------------------------------------------
 bool vtkTetrahedraGPURayCastMapper::IsSupported(vtkRenderWindow* window)
 {
-  return this->Private->IsSupported(window);
+  if (!this->Superclass::IsSupported(window))
+  {
+    return false;
+  }
+  // Without making its tetrahedra: a hexahedron becomes five or six of them.
+  constexpr std::int64_t TetrahedraOfCell = 6;
+  std::int64_t cells = 0;
+  std::int64_t points = 0;
+  for (const auto& block : tetralux::CollectDataSets(this->GetDataObjectInput()))
+  {
+    cells += TetrahedraOfCell * block.DataSet->GetNumberOfCells();
+    points += block.DataSet->GetNumberOfPoints();
+  }
+  const tetralux::GraphicsCard card =
+    tetralux::DescribeGraphicsCard(vtkOpenGLRenderWindow::SafeDownCast(window));
+  std::string obstacle = tetralux::RayTargets::FindObstacle(cells);
+  if (obstacle.empty())
+  {
+    obstacle =
+      tetralux::FindObstacle({ { "faces", 4 * cells, 8 }, { "points", points, 16 } }, card.Limits);
+  }
+  if (!obstacle.empty())
+  {
+    this->SetSupportReason(card.Renderer + ": there may be no room, " + obstacle);
+    return false;
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------
-std::string vtkTetrahedraGPURayCastMapper::GetSupportReason()
+bool vtkTetrahedraGPURayCastMapper::IsAccelerated(vtkRenderWindow* window)
 {
-  return this->Private->SupportReason;
+  if (!this->IsSupported(window))
+  {
+    return false;
+  }
+  const tetralux::GraphicsCard card =
+    tetralux::DescribeGraphicsCard(vtkOpenGLRenderWindow::SafeDownCast(window));
+  if (card.Software)
+  {
+    this->SetSupportReason(
+      card.Renderer + " runs on the processor, where rays are cast faster without OpenGL");
+    return false;
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -484,11 +524,4 @@ void vtkTetrahedraGPURayCastMapper::PrintProperties(ostream& os, vtkIndent inden
   printer.Print("StepsPerPass", this->StepsPerPass);
   printer.Print("RayMaximumBytes", this->RayMaximumBytes);
   printer.Print("CountFragments", this->CountFragments);
-}
-
-//------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::PrintResults(ostream& os, vtkIndent indent)
-{
-  os << indent << "SupportReason: " << this->GetSupportReason() << "\n";
-  this->Superclass::PrintResults(os, indent);
 }

@@ -29,18 +29,15 @@
 #define vtkTetrahedraGPURayCastMapper_h
 
 #include "TetraluxRenderingModule.h" // For export macro
-#include "vtkTetrahedraVolumeMapper.h"
+#include "vtkTetrahedraOpenGLMapper.h"
 
 #include <memory> // For std::unique_ptr
-#include <string> // For std::string
 
-class vtkRenderWindow;
-
-class TETRALUXRENDERING_EXPORT vtkTetrahedraGPURayCastMapper : public vtkTetrahedraVolumeMapper
+class TETRALUXRENDERING_EXPORT vtkTetrahedraGPURayCastMapper : public vtkTetrahedraOpenGLMapper
 {
 public:
   static vtkTetrahedraGPURayCastMapper* New();
-  vtkTypeMacro(vtkTetrahedraGPURayCastMapper, vtkTetrahedraVolumeMapper);
+  vtkTypeMacro(vtkTetrahedraGPURayCastMapper, vtkTetrahedraOpenGLMapper);
 
   ///@{
   /**
@@ -74,16 +71,18 @@ public:
   vtkBooleanMacro(CountFragments, vtkTypeBool);
   ///@}
 
-  ///@{
   /**
-   * Return whether a window is drawn by a graphics card on which this mapper is faster than
-   * vtkTetrahedraRayCastMapper: false if OpenGL lacks something, if it is software, or if the mesh
-   * may not fit. Makes the window's context if there is none. GetSupportReason() then says why, or
-   * which graphics card it is.
+   * Return whether the mapper works in a window: false if OpenGL lacks something, or if the mesh of
+   * the input may not fit. Software OpenGL will do.
    */
-  bool IsSupported(vtkRenderWindow* window);
-  std::string GetSupportReason();
-  ///@}
+  bool IsSupported(vtkRenderWindow* window) override;
+
+  /**
+   * Return whether IsSupported(), and by a graphics card: with software OpenGL,
+   * vtkTetrahedraRayCastMapper is faster. GetSupportReason() then says why not, or which graphics
+   * card it is.
+   */
+  bool IsAccelerated(vtkRenderWindow* window);
 
 protected:
   vtkTetrahedraGPURayCastMapper();
@@ -92,7 +91,6 @@ protected:
   void DrawFrame(tetralux::MapperFrame& frame) override;
   void ReleaseResources(vtkWindow* window) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
-  void PrintResults(ostream& os, vtkIndent indent) override;
 
   int StepsPerPass = 128;
   vtkIdType RayMaximumBytes = 1073741824;

@@ -10,6 +10,7 @@
 #include "GpuIntegral/ShaderError.h"
 #include "GpuProjection/ProjectionPicture.h"
 #include "Integral/SegmentWeightError.h"
+#include "OpenGL/EnteredContext.h"
 #include "Projection/PerspectiveShift.h"
 #include "Projection/ScreenFrame.h"
 #include "Properties/PropertyPrinter.h"
@@ -20,6 +21,7 @@
 #include "View/MeshToWorld.h"
 #include "Visibility/VisibilityOrder.h"
 
+#include "vtkCellCenterDepthSort.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -171,7 +173,7 @@ private:
   double WorldRadius = 1; ///< of the mesh, world units
   std::vector<tetralux::ScreenPoint> Points;
   std::vector<std::uint8_t> DrawnCells; ///< empty: all
-  std::vector<std::int32_t> Order;
+  std::vector<std::int32_t> Order;      ///< of cells that are not sorted
   std::unique_ptr<tetralux::VisibilityOrder> Sorter;
   tetralux::CacheStamp SorterStamp; ///< of the points, and whether imaginary cells take part
   tetralux::OnceWarning OrderWarning;
@@ -210,7 +212,6 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
   }
 
   const tetralux::Stopwatch drawStopwatch;
-  this->Scene.Order = this->Order;
   const tetralux::ProjectionPicture::Result result = this->Picture.Draw(frame.Window, this->Scene,
     [&frame](double fraction) { return frame.ReportProgress(fraction); });
   frame.Seconds.emplace_back("project", result.ProjectSeconds);
@@ -225,7 +226,7 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
   }
   frame.ReadPicture = [this, window = frame.Window](vtkImageData* image)
   {
-    window->MakeCurrent();
+    const tetralux::EnteredContext context(window);
     Span<float> colors, depths;
     MapperFrame::PrepareImage(
       image, this->Scene.Grid.Width, this->Scene.Grid.Height, colors, depths);
@@ -356,11 +357,12 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
       return false;
     }
     const tetralux::Stopwatch stopwatch;
-    this->Order = this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
-      Sort::GetMethodOf(this->Self->Order, *this->Sorter),
-      this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
-                              : tetralux::VisibilityDirection::BackToFront,
-      this->DrawnCells);
+    this->Scene.Order =
+      this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
+        Sort::GetMethodOf(this->Self->Order, *this->Sorter),
+        this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
+                                : tetralux::VisibilityDirection::BackToFront,
+        this->DrawnCells);
     this->Method = this->Sorter->GetUsedMethod();
     this->WarnOfOrder(
       this->Self->Order == Sort::EXACT_ORDER && this->Method == VisibilityMethod::MeshedNonConvex
@@ -369,7 +371,7 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
     frame.Seconds.emplace_back("order", stopwatch.GetSeconds());
     return true;
   }
-  this->Order.resize(mesh.GetNumberOfCells());
+  this->Order.resize(mesh.GetNumberOfCells()); // else empty: the sorter keeps its own
   std::iota(this->Order.begin(), this->Order.end(), 0);
   if (!this->DrawnCells.empty())
   {
@@ -377,6 +379,7 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
                         [this](std::int32_t cell) { return !this->DrawnCells[cell]; }),
       this->Order.end());
   }
+  this->Scene.Order = this->Order;
   return true;
 }
 
@@ -395,6 +398,7 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareSorter(MapperFrame& frame)
   if (!this->SorterStamp.Has(key))
   {
     const tetralux::Stopwatch stopwatch;
+    this->Scene.Order = {}; // the sorter's
     this->Sorter.reset();
     this->SorterStamp.Reset();
     if (exact)
@@ -455,7 +459,7 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
     section["rms_of_rounding_to_nearest"] = std::sqrt(errors.Nearest.MeanSquare);
     section["rms_of_rounding_at_random"] = std::sqrt(errors.Random.MeanSquare);
   }
-  section["tetrahedra_in_order"] = static_cast<std::int64_t>(this->Order.size());
+  section["tetrahedra_in_order"] = static_cast<std::int64_t>(scene.Order.size());
   section["tetrahedra_drawn"] = drawn.Cells;
   section["triangles"] = drawn.Triangles;
   section["bytes_of_graphics_card"] = static_cast<std::int64_t>(this->Picture.GetNumberOfBytes());
@@ -495,7 +499,7 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   frame.ReportOmission(!this->Sorted, "order", "what cells add commutes");
   frame.ReportOmission(scene.Planes.empty(), "near and far plane", "they cut nothing");
   frame.ReportOmission(
-    this->Order.size() < static_cast<std::size_t>(volume.Mesh.GetMesh()->GetNumberOfCells()),
+    scene.Order.size() < static_cast<std::size_t>(volume.Mesh.GetMesh()->GetNumberOfCells()),
     "unseen tetrahedra", "they are transparent or clipped");
   frame.ReportOmission(!scene.Dither, "alpha dithering",
     this->Self->ColorBuffer != UNORM8_BUFFER ? "colours have more than 8 bits"
@@ -534,6 +538,48 @@ void vtkTetrahedraProjectionMapper::ReleaseResources(vtkWindow* window)
 //------------------------------------------------------------------------------------------------
 tetraluxEnumerationMacro(vtkTetrahedraProjectionMapper, ColorBuffer);
 tetraluxEnumerationMacro(vtkTetrahedraProjectionMapper, Order);
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::SetVisibilitySort(vtkVisibilitySort* sort)
+{
+  if (this->VisibilitySort != sort)
+  {
+    this->VisibilitySort = sort;
+    this->Modified();
+  }
+  if (auto* meshed = Sort::SafeDownCast(sort))
+  {
+    this->SetOrder(meshed->GetOrder());
+  }
+  else if (!sort)
+  {
+    this->SetOrder(Sort::AUTOMATIC_ORDER);
+  }
+  else if (vtkCellCenterDepthSort::SafeDownCast(sort))
+  {
+    this->SetOrder(Sort::CENTROID_ORDER);
+  }
+  else
+  {
+    this->WarnOfCall(
+      "VisibilitySort", "Order has what " + std::string(sort->GetClassName()) + " may be set for");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+vtkVisibilitySort* vtkTetrahedraProjectionMapper::GetVisibilitySort()
+{
+  return this->VisibilitySort;
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::SetUseFloatingPointFrameBuffer(bool use)
+{
+  if (use != this->GetUseFloatingPointFrameBuffer())
+  {
+    this->SetColorBuffer(use ? AUTOMATIC_BUFFER : UNORM8_BUFFER);
+  }
+}
 
 //------------------------------------------------------------------------------------------------
 int vtkTetrahedraProjectionMapper::GetUsedOrder()

@@ -28,15 +28,16 @@
 
 #include "TetraluxRenderingModule.h"          // For export macro
 #include "vtkMeshedPolyhedraVisibilitySort.h" // For VisibilityOrder
-#include "vtkTetrahedraVolumeMapper.h"
+#include "vtkSmartPointer.h"                  // For VisibilitySort
+#include "vtkTetrahedraOpenGLMapper.h"
 
 #include <memory> // For std::unique_ptr
 
-class TETRALUXRENDERING_EXPORT vtkTetrahedraProjectionMapper : public vtkTetrahedraVolumeMapper
+class TETRALUXRENDERING_EXPORT vtkTetrahedraProjectionMapper : public vtkTetrahedraOpenGLMapper
 {
 public:
   static vtkTetrahedraProjectionMapper* New();
-  vtkTypeMacro(vtkTetrahedraProjectionMapper, vtkTetrahedraVolumeMapper);
+  vtkTypeMacro(vtkTetrahedraProjectionMapper, vtkTetrahedraOpenGLMapper);
 
   ///@{
   /**
@@ -120,6 +121,26 @@ public:
   const char* GetUsedOrderAsString();
   ///@}
 
+  ///@{
+  /**
+   * Another name of Order, for programs that sort by VTK's classes: a
+   * vtkMeshedPolyhedraVisibilitySort sets its own Order, vtkCellCenterDepthSort sets
+   * CENTROID_ORDER, and no sort the default. Any other class gives one warning and leaves Order as
+   * it is. GetVisibilitySort() returns what was set, or nullptr. Default nullptr.
+   */
+  void SetVisibilitySort(vtkVisibilitySort* sort) override;
+  vtkVisibilitySort* GetVisibilitySort() override;
+  ///@}
+
+  ///@{
+  /**
+   * Another name of ColorBuffer: off is UNORM8_BUFFER, on is AUTOMATIC_BUFFER unless floats are
+   * chosen already. Default on.
+   */
+  void SetUseFloatingPointFrameBuffer(bool use) override;
+  bool GetUseFloatingPointFrameBuffer() override { return this->ColorBuffer != UNORM8_BUFFER; }
+  ///@}
+
 protected:
   vtkTetrahedraProjectionMapper();
   ~vtkTetrahedraProjectionMapper() override;
@@ -133,6 +154,7 @@ protected:
   int ColorBuffer = AUTOMATIC_BUFFER;
   vtkTypeBool AlphaDithering = 1;
   int Order = vtkMeshedPolyhedraVisibilitySort::AUTOMATIC_ORDER;
+  vtkSmartPointer<vtkVisibilitySort> VisibilitySort;
 
 private:
   vtkTetrahedraProjectionMapper(const vtkTetrahedraProjectionMapper&) = delete;

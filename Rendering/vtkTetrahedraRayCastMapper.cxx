@@ -3,6 +3,7 @@
 
 #include "Frame/CPUPicture.h"
 #include "Frame/MapperFrame.h"
+#include "Preparation/MapperSettings.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
 #include "RayCast/RayCaster.h"
@@ -57,6 +58,12 @@ vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper() = default;
 
 //------------------------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::~vtkTetrahedraRayCastMapper() = default;
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::AddSettings(tetralux::MapperSettings& settings)
+{
+  settings.DrawsComponents = true;
+}
 
 //------------------------------------------------------------------------------------------------
 tetralux::PixelRectangle vtkTetrahedraRayCastMapper::MakePicture(

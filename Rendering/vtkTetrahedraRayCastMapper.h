@@ -34,7 +34,7 @@ public:
   /**
    * Set the arithmetic of the geometry along rays. Default AUTOMATIC_PRECISION: single if its
    * estimated error is within a quarter of MaximumError, else double. Double precision takes 32
-   * bytes a point more.
+   * bytes a point more. Several components at once are always cast in double precision.
    */
   virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);
@@ -50,6 +50,7 @@ protected:
 
   tetralux::PixelRectangle MakePicture(
     tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
+  void AddSettings(tetralux::MapperSettings& settings) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
 
   int Precision = AUTOMATIC_PRECISION;

@@ -6,6 +6,7 @@
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
 #include "Intake/DataSetBlocks.h"
+#include "OpenGL/GraphicsCard.h"
 #include "Optics/LightKey.h"
 #include "Preparation/ScenePreparation.h"
 #include "Preparation/SceneReport.h"
@@ -31,7 +32,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 using tetralux::Json;
 using tetralux::MapperFrame;
@@ -77,6 +80,8 @@ public:
   tetralux::ScenePreparation Preparation;
   tetralux::FrameRecord Record;
   tetralux::OnceWarning ReentryWarning;
+  std::set<std::string> UnusedCalls; ///< that there was a warning of
+  std::string SupportReason;
 
 private:
   tetralux::MapperSettings MakeSettings() const;
@@ -348,6 +353,65 @@ bool vtkTetrahedraVolumeMapper::IsMaximumErrorKept()
 }
 
 //------------------------------------------------------------------------------------------------
+bool vtkTetrahedraVolumeMapper::IsSupported(vtkRenderWindow* window)
+{
+  auto* openGL = vtkOpenGLRenderWindow::SafeDownCast(window);
+  if (!openGL)
+  {
+    this->SetSupportReason("the window is not one of OpenGL");
+    return false;
+  }
+  openGL->Initialize();
+  openGL->MakeCurrent();
+  const tetralux::GraphicsCard card = tetralux::DescribeGraphicsCard(openGL);
+  this->SetSupportReason(card.Renderer);
+  if (std::make_pair(card.Version[0], card.Version[1]) < std::make_pair(3, 2))
+  {
+    this->SetSupportReason(card.Renderer + " has OpenGL " + std::to_string(card.Version[0]) + '.' +
+      std::to_string(card.Version[1]) + ", and 3.2 is needed");
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------------------------
+std::string vtkTetrahedraVolumeMapper::GetSupportReason() { return this->Private->SupportReason; }
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::SetSupportReason(const std::string& reason)
+{
+  this->Private->SupportReason = reason;
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::SetRayCastFunction(
+  vtkUnstructuredGridVolumeRayCastFunction* function)
+{
+  if (function)
+  {
+    this->WarnOfCall("RayCastFunction", "rays go from cell to cell");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::SetRayIntegrator(vtkUnstructuredGridVolumeRayIntegrator* integrator)
+{
+  if (integrator)
+  {
+    this->WarnOfCall("RayIntegrator", "segments are integrated as Integration says");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraVolumeMapper::WarnOfCall(const std::string& property, const std::string& reason)
+{
+  if (this->Private->UnusedCalls.insert(property).second)
+  {
+    vtkWarningMacro(<< property << " is not used: " << reason);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
 vtkIdType vtkTetrahedraVolumeMapper::GetNumberOfSkippedCells()
 {
   return this->Private->Preparation.Intake.GetNumberOfSkippedCells();
@@ -458,7 +522,8 @@ void vtkTetrahedraVolumeMapper::PrintProperties(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::PrintResults(ostream& os, vtkIndent indent)
 {
-  os << indent << "ErrorEstimate: " << this->GetErrorEstimate() << "\n"
+  os << indent << "SupportReason: " << this->GetSupportReason() << "\n"
+     << indent << "ErrorEstimate: " << this->GetErrorEstimate() << "\n"
      << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n"
      << indent << "NumberOfRemovedCells: " << this->GetNumberOfRemovedCells() << "\n"
      << indent << "NumberOfBlankCells: " << this->GetNumberOfBlankCells() << "\n";

@@ -18,8 +18,8 @@
  * ScalarOpacityUnitDistance. Radiance is the integral of attenuation x colour x exp(-optical
  * depth). VTK's own mappers of unstructured grids have the same model; its mappers of image data
  * have 1 - (1 - a)^(l / d). The property's colour (RGB in any colour space, or grey), scalar
- * opacity and unit distance of component 0 are used at the exact scalars of their nodes.
- * SetBlendMode() has the other models.
+ * opacity and unit distance of component 0 are used at the exact scalars of their nodes; those of
+ * further components where SetVectorMode() says so. SetBlendMode() has the other models.
  *
  * If the property's Shade is on, lights of the renderer shine on composite volumes and isosurfaces
  * of scalars at points, from the side of the viewer: ambient, diffuse and specular (Blinn) as in
@@ -33,7 +33,9 @@
  *
  * What is built is cached: tetrahedra and their neighbours until points, cells or ghost flags of
  * the input change, scalars until the array or the choice of it changes, the transfer function
- * until the property changes. A new camera rebuilds nothing.
+ * until the property changes. A new camera rebuilds nothing. Values that were changed in place
+ * count once Modified() was called of their array, of the points or the cells, or of the input:
+ * then what the input has is compared with what was built, and rebuilt where it differs.
  *
  * The superclass is that of VTK's own mappers of unstructured grids, since vtkVolumeMapper takes
  * only image data and rectilinear grids; vtkVolume and renderers treat both alike. Of
@@ -41,8 +43,8 @@
  * intensity, additive, isosurface), Cropping, CroppingRegionPlanes and CroppingRegionFlags; of its
  * subclasses VectorMode and VectorComponent, and on the processor ImageSampleDistance with its
  * limits and AutoAdjustSampleDistances. There are no minimum, average and slice blending, no
- * masks, no gradient opacity and no independent components. There is no SampleDistance: rays are
- * not sampled.
+ * masks and no gradient opacity. There is no SampleDistance: rays are not sampled. Every call of
+ * VTK's mappers of unstructured grids is there; Documentation/from_vtk.md has what it does.
  *
  * Mappers are created by name; there is no object factory behind them. Each cause of an error is
  * reported once; the volume is then not drawn. Setters clamp numbers to the range that is stated,
@@ -64,6 +66,10 @@
 
 class vtkDataObject;
 class vtkImageData;
+class vtkRenderWindow;
+class vtkUnstructuredGridVolumeRayCastFunction;
+class vtkUnstructuredGridVolumeRayIntegrator;
+class vtkVisibilitySort;
 
 namespace tetralux
 {
@@ -323,9 +329,20 @@ public:
    * Set how an array of several components becomes the scalar, with the numbers of
    * vtkSmartVolumeMapper. Default DISABLED_MODE.
    *
-   * - DISABLED_MODE (-1): the first component.
+   * - DISABLED_MODE (-1): what the property says. If its IndependentComponents is off, there must
+   *   be two components, colour by the first and opacity by the last; or four, red, green, blue and
+   *   opacity by the last. All functions are those of component 0. Else the VectorMode,
+   *   VectorComponent and VectorSize of the property's colour function count, or those of the
+   *   array's lookup table, if they are not the defaults of VTK. Else, if any component behind the
+   *   first was given functions and there are at most four, each is drawn by functions of its own,
+   *   and they are mixed as clouds of particles: attenuations add up. Else the first component.
    * - MAGNITUDE_MODE (0): the Euclidean norm.
    * - COMPONENT_MODE (1): component VectorComponent.
+   *
+   * @warning Several components at once are drawn by vtkTetrahedraRayCastMapper, with composite
+   * blending, in double precision and without Shade. Elsewhere, dependent ones are an error, and
+   * of independent ones the first is drawn, with one warning. ComponentWeight is not used, as in
+   * VTK's mappers of unstructured grids.
    */
   virtual void SetVectorMode(int mode);
   vtkGetMacro(VectorMode, int);
@@ -428,6 +445,42 @@ public:
   void SetCroppingRegionFlagsToInvertedFence() { this->SetCroppingRegionFlags(0x5140145); }
   void SetCroppingRegionFlagsToCross() { this->SetCroppingRegionFlags(0x0417410); }
   void SetCroppingRegionFlagsToInvertedCross() { this->SetCroppingRegionFlags(0x7be8bef); }
+  ///@}
+
+  ///@{
+  /**
+   * Return whether the mapper works in a window: whether that draws by OpenGL 3.2 or later, on a
+   * graphics card or in software. Makes the window's context if there is none. GetSupportReason()
+   * then says why not, or what draws in the window.
+   */
+  virtual bool IsSupported(vtkRenderWindow* window);
+  std::string GetSupportReason();
+  ///@}
+
+  ///@{
+  /**
+   * Calls of VTK's ray casters of unstructured grids for which there is nothing to choose here:
+   * rays go from cell to cell, segments are integrated as Integration says, and there are no lists
+   * of pixels. A function or an integrator gives one warning, and is not kept.
+   */
+  void SetRayCastFunction(vtkUnstructuredGridVolumeRayCastFunction* function);
+  vtkUnstructuredGridVolumeRayCastFunction* GetRayCastFunction() { return nullptr; }
+  void SetRayIntegrator(vtkUnstructuredGridVolumeRayIntegrator* integrator);
+  vtkUnstructuredGridVolumeRayIntegrator* GetRayIntegrator() { return nullptr; }
+  void SetMaxPixelListSize(int) {}
+  int GetMaxPixelListSize() { return 0; }
+  ///@}
+
+  ///@{
+  /**
+   * Calls of vtkProjectedTetrahedraMapper that change nothing where rays are cast: these need no
+   * order of cells, and gather in single precision. vtkTetrahedraProjectionMapper has both.
+   */
+  virtual void SetVisibilitySort(vtkVisibilitySort*) {}
+  virtual vtkVisibilitySort* GetVisibilitySort() { return nullptr; }
+  virtual void SetUseFloatingPointFrameBuffer(bool) {}
+  virtual bool GetUseFloatingPointFrameBuffer() { return true; }
+  vtkBooleanMacro(UseFloatingPointFrameBuffer, bool);
   ///@}
 
   /**
@@ -539,6 +592,16 @@ protected:
    */
   virtual void PrintProperties(ostream& os, vtkIndent indent);
   virtual void PrintResults(ostream& os, vtkIndent indent);
+
+  /**
+   * Warn once that a call of VTK's mappers is not used, and why.
+   */
+  void WarnOfCall(const std::string& property, const std::string& reason);
+
+  /**
+   * What GetSupportReason() returns.
+   */
+  void SetSupportReason(const std::string& reason);
 
   /**
    * Warn once if the mesh was to be made convex for IMAGINARY_CELLS_REENTRY and can't be.

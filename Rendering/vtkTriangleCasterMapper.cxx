@@ -7,6 +7,7 @@
 #include "Frame/HeldContents.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/RendererLights.h"
+#include "ImagePreparation/ChosenDistance.h"
 #include "ImagePreparation/ImageBlends.h"
 #include "ImagePreparation/ImageObstacles.h"
 #include "ImagePreparation/ImagePreparation.h"
@@ -34,6 +35,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 using tetralux::Json;
@@ -156,6 +158,9 @@ private:
     const tetralux::ImageCasterOptions& options, const tetralux::CPUPicture& picture,
     MapperFrame& frame) const;
 
+  tetralux::ChosenDistance Chosen;  ///< by the error, of frames without an interaction
+  std::vector<std::string> Rebuilt; ///< by the present frame, for the statistics
+
   /// The last picture, as far as it takes to measure its error.
   struct LastPicture
   {
@@ -206,6 +211,11 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(MapperFrame& frame)
                                                           : tetralux::GradientNorm::Sum;
   input.MaximumError = frame.MaximumError;
   this->Preparation.Update(input);
+  this->Rebuilt = this->Preparation.GetRebuilt();
+  if (!this->Rebuilt.empty())
+  {
+    this->Chosen.Reset();
+  }
   this->SetUpLights(frame);
   this->AddSceneToKey(frame);
 
@@ -220,8 +230,8 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(MapperFrame& frame)
 
   Json sections;
   sections["input"] = this->Preparation.DescribeInput();
-  this->Record.Write(frame, this->Preparation.GetRebuilt(), this->Preparation.DescribeSeconds(),
-    stopwatch.GetSeconds(), sections);
+  this->Record.Write(
+    frame, this->Rebuilt, this->Preparation.DescribeSeconds(), stopwatch.GetSeconds(), sections);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -242,7 +252,9 @@ void vtkTriangleCasterMapper::Internals::SetUpLights(MapperFrame& frame) const
 {
   vtkVolumeProperty* property = frame.Property;
   const auto& others = this->Preparation.GetOtherComponents();
-  frame.Shaded = this->Self->BlendMode == COMPOSITE_BLEND &&
+  const bool litModes =
+    this->Self->BlendMode == COMPOSITE_BLEND || this->Self->BlendMode == ISOSURFACE_BLEND;
+  frame.Shaded = litModes &&
     (property->GetShade(0) != 0 ||
       std::any_of(others.begin(), others.end(),
         [](const tetralux::ComponentOptics& other) { return other.Shaded; }));
@@ -418,8 +430,11 @@ double vtkTriangleCasterMapper::Internals::ChooseSampleDistance(const tetralux::
   }
   tetralux::ImageCasterOptions coarsest = options;
   coarsest.SampleDistance = CoarsestFactor * distance;
-  return tetralux::ChooseSampleDistance(
-    this->Preparation.Caster, grid, limits, coarsest, frame.Budget.Slices);
+  if (this->Chosen.Update(this->Preparation.Caster, grid, limits, coarsest, frame.Budget.Slices))
+  {
+    this->Rebuilt.emplace_back("distance of slices");
+  }
+  return this->Chosen.Get();
 }
 
 //------------------------------------------------------------------------------------------------
@@ -484,7 +499,10 @@ void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStati
     !options.SkipEmptySpace, "empty space", "SkipEmptySpace is off, so all of it is sampled");
   const bool composite = this->Self->BlendMode == COMPOSITE_BLEND;
   constexpr const char* CompositeOnly = "composite blending has it only";
-  frame.ReportOmission(!frame.Shaded, "shading", composite ? "Shade is off" : CompositeOnly);
+  frame.ReportOmission(!frame.Shaded, "shading",
+    composite || this->Self->BlendMode == ISOSURFACE_BLEND
+      ? "Shade is off"
+      : "composite and isosurface blending have it only");
   frame.ReportOmission(!this->Preparation.HasGradientOpacity(), "gradient opacity",
     composite ? "the property has none" : CompositeOnly);
   frame.ReportOmission(this->Preparation.GetFunctionError() == 0, "subdivided transfer function",

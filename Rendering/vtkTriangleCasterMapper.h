@@ -19,10 +19,11 @@
  * opacity of a sample is by OpacityModel that of its own length, so a constant volume is exact. The
  * picture approaches the integral along the ray as SampleDistance becomes smaller.
  *
- * If the property's Shade is on, lights of the renderer shine on the samples, by gradients as
- * normals, from the side of the viewer: ambient, diffuse and specular (Blinn). Gradient opacity is
- * a factor of the scalar opacity. A TransferFunction2D of the property takes the place of all its
- * functions if its TransferFunctionMode is TF_2D; its opacities are those of the unit distance.
+ * If the property's Shade is on, lights of the renderer shine on the samples, or on isosurfaces, by
+ * gradients as normals, from the side of the viewer: ambient, diffuse and specular (Blinn).
+ * Gradient opacity is a factor of the scalar opacity. A TransferFunction2D of the property takes
+ * the place of all its functions if its TransferFunctionMode is TF_2D; its opacities are those of
+ * the unit distance.
  *
  * Any vtkCamera, vtkVolume transform, viewport and tiled display; the camera may be inside. Opaque
  * geometry may be in front of, inside and behind the volume. Clipping planes of vtkAbstractMapper
@@ -83,12 +84,13 @@ public:
    *   AverageIPScalarRange. Grey is 0 at the least scalar of the volume and 1 at the largest one.
    * - ADDITIVE_BLEND (4): sum of scalar opacity times grey times length over
    *   ScalarOpacityUnitDistance, at most 1.
-   * - ISOSURFACE_BLEND (5): the surfaces of the property's IsoSurfaceValues. In VTK they are lit.
+   * - ISOSURFACE_BLEND (5): the surfaces of the property's IsoSurfaceValues.
    * - SLICE_BLEND (6): colour and scalar opacity on the plane of the property's SliceFunction, in
    *   world coordinates. A frame fails with an error if that is no vtkPlane.
    *
-   * @warning Light, gradient opacity and PreIntegration are of COMPOSITE_BLEND only. A warning says
-   * that others do not use Shade and gradient opacity.
+   * @warning Light is of COMPOSITE_BLEND and ISOSURFACE_BLEND only, gradient opacity and
+   * PreIntegration are of COMPOSITE_BLEND only. A warning says that others do not use Shade and
+   * gradient opacity.
    */
   void SetBlendMode(int mode) override;
   const char* GetBlendModeAsString();
@@ -133,9 +135,10 @@ public:
   /**
    * Set whether the distance of slices follows from MaximumError: out of those from 4 times
    * SampleDistance on, each half of the one before, down to a 16th of SampleDistance, the first at
-   * which about 1,000 rays differ by no more than 3/8 of MaximumError from the next one. Frames of
-   * an interaction have their own distance. What slices are off by is then measured in each frame,
-   * and a warning is given where it is too much. Default off.
+   * which about 1,000 rays differ by no more than 3/8 of MaximumError from the next one. It is kept
+   * until anything changes that it depends on. Frames of an interaction have their own distance.
+   * What slices are off by is then measured in each frame, and a warning is given where it is too
+   * much. Default off.
    */
   vtkSetMacro(SampleDistanceByError, vtkTypeBool);
   vtkGetMacro(SampleDistanceByError, vtkTypeBool);
@@ -388,7 +391,8 @@ public:
    * Set what of an array of several components is shown, with the numbers of
    * vtkSmartVolumeMapper. Default DISABLED_MODE.
    *
-   * - DISABLED_MODE (-1): all of up to 4 components, as the property's IndependentComponents says.
+   * - DISABLED_MODE (-1): all of up to 4 components, as the property's IndependentComponents says,
+   *   whatever VectorMode the colour function has, as in VTK's mappers of image data.
    *   Of more it is the first one, and a warning says so.
    * - MAGNITUDE_MODE (0): the Euclidean norm.
    * - COMPONENT_MODE (1): component VectorComponent.

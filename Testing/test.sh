@@ -8,43 +8,7 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-passed=0
-failed=0
-skipped=0
-
-finish() {
-  if ((skipped > 0)); then
-    echo "$skipped skipped, which is neither passed nor failed"
-  fi
-  echo "$passed passed, $failed failed"
-  exit $((failed > 0))
-}
-
-# check NAME COMMAND...: one test.
-check() {
-  local name=$1
-  shift
-  echo "== $name"
-  if "$@"; then
-    passed=$((passed + 1))
-    echo "== $name: passed"
-  else
-    failed=$((failed + 1))
-    echo "== $name: FAILED"
-  fi
-}
-
-# require NAME COMMAND...: what nothing goes on without.
-require() {
-  local name=$1
-  shift
-  echo "== $name"
-  if ! "$@"; then
-    failed=$((failed + 1))
-    echo "== $name: FAILED"
-    finish
-  fi
-}
+source Testing/steps.sh
 
 # run_tests PRESET: counts what ctest ran.
 run_tests() {
@@ -74,7 +38,7 @@ attribute() {
 }
 
 sources() {
-  find Module Filters Rendering Evaluation Application Testing Examples \
+  find Module Filters Rendering Evaluation Application ParaView Testing Examples \
     -name '*.h' -o -name '*.cxx' -o -name '*.inl'
 }
 

@@ -4,6 +4,7 @@
 #include "Bench/BenchCsv.h"
 #include "Bench/BenchFeatures.h"
 #include "Bench/BenchFront.h"
+#include "Bench/BenchIntegral.h"
 #include "Bench/BenchJson.h"
 #include "Bench/BenchMachine.h"
 #include "Bench/BenchMeasure.h"
@@ -15,11 +16,11 @@
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/ProgressLine.h"
 #include "Files/AtomicOutput.h"
+#include "Files/WriteBytes.h"
 #include "Setup/SceneCamera.h"
 #include "vtkHeadlessRenderWindow.h"
 
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 
 namespace
@@ -94,13 +95,7 @@ std::string DescribeCommand(const BenchOptions& options)
 
 void WriteText(AtomicOutput& folder, const std::string& file, const std::string& text)
 {
-  std::ofstream stream(folder.AddFile(file), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-  {
-    throw WorkError("cannot write '" + folder.GetName() + "/" + file + "'");
-  }
+  ::WriteText(text, folder.AddFile(file), folder.GetName() + "/" + file);
 }
 
 void PrintRow(const BenchRow& row)
@@ -132,7 +127,8 @@ BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& optio
   result.Height = options.Scene.Height;
   std::cout << scene.Name << ": " << scene.Description << std::endl;
 
-  BenchMeasurement reference = Measure(run, GetReferenceSetting());
+  BenchMeasurement reference =
+    scene.IsOfImages() ? MeasureIntegral(run) : Measure(run, GetReferenceSetting(scene));
   if (!reference.Row.Failure.empty())
   {
     throw WorkError("'" + scene.Name + "': " + reference.Row.Failure);
@@ -145,7 +141,7 @@ BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& optio
   result.Rows.push_back(reference.Row);
   PrintRow(result.Rows.back());
 
-  const std::vector<BenchSetting> settings = ListSettings(options);
+  const std::vector<BenchSetting> settings = ListSettings(options, scene);
   ProgressLine progress("measuring " + scene.Name);
   for (std::size_t i = 0; i < settings.size(); ++i)
   {
@@ -168,8 +164,7 @@ void RunBench(const BenchOptions& given)
 {
   CheckOptions(given);
   const BenchOptions options = Complete(given);
-  const std::vector<BenchSceneMaker> makers = ListScenes(options);
-  ListSettings(options); // throws if a setting is wrong
+  const std::vector<BenchSceneMaker> makers = ListScenes(options); // throws if a setting is wrong
 
   AtomicOutput folder(options.Output, CsvFile);
   folder.AddFolder("pictures");

@@ -2,11 +2,12 @@
 #include "Bench/BenchMappers.h"
 
 #include "Bench/BenchSetting.h"
-#include "CommandLine/CommandErrors.h"
+#include "CommandLine/OptionValues.h"
 #include "Setup/Methods.h"
 #include "vtkTetrahedraRayIntegrator.h"
-#include "vtkTetrahedraVolumeMapper.h"
 
+#include "vtkFixedPointVolumeRayCastMapper.h"
+#include "vtkGPUVolumeRayCastMapper.h"
 #include "vtkNew.h"
 #include "vtkProjectedTetrahedraMapper.h"
 #include "vtkUnstructuredGridPreIntegration.h"
@@ -15,17 +16,40 @@
 namespace
 {
 
-vtkSmartPointer<vtkTetrahedraVolumeMapper> MakeOurMapper(
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeOurMapper(
   const BenchSetting& setting, int numberOfThreads)
 {
   // Only processors have threads to set.
-  const bool onProcessor = setting.Method == "ray-cast" || setting.Method == "isosurface";
-  const int threads = onProcessor ? numberOfThreads : 0;
-  vtkSmartPointer<vtkTetrahedraVolumeMapper> mapper = vtkTetrahedraVolumeMapper::SafeDownCast(
-    MakeMapper(setting.Method, threads, setting.Assignments));
-  if (!mapper)
+  const std::string& method = setting.Method;
+  const bool onProcessor =
+    method == "ray-cast" || method == "isosurface" || method == "triangle-caster";
+  return MakeMapper(method, onProcessor ? numberOfThreads : 0, setting.Assignments);
+}
+
+/// Makes one of VTK's mappers of image data cast a ray a pixel, with slices as far apart as the
+/// setting says.
+template <class MapperT>
+vtkSmartPointer<MapperT> MakeImageMapper(const BenchSetting& setting)
+{
+  auto mapper = vtkSmartPointer<MapperT>::New();
+  mapper->AutoAdjustSampleDistancesOff();
+  mapper->SetImageSampleDistance(1);
+  for (const std::string& assignment : setting.Assignments)
   {
-    throw UsageError("--setting: the benchmark renders cells, '" + setting.Method + "' image data");
+    const auto [name, value] = ParseAssignment("SampleDistance", assignment);
+    mapper->SetSampleDistance(static_cast<float>(ParsePositive(name, value)));
+  }
+  return mapper;
+}
+
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeFixedPointMapper(
+  const BenchSetting& setting, int numberOfThreads)
+{
+  auto mapper = MakeImageMapper<vtkFixedPointVolumeRayCastMapper>(setting);
+  mapper->SetInteractiveSampleDistance(mapper->GetSampleDistance());
+  if (numberOfThreads > 0)
+  {
+    mapper->SetNumberOfThreads(numberOfThreads);
   }
   return mapper;
 }
@@ -40,12 +64,20 @@ vtkSmartPointer<vtkUnstructuredGridVolumeRayCastMapper> MakeBunykMapper()
 
 } // namespace
 
-vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeBenchMapper(
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeBenchMapper(
   const BenchSetting& setting, int numberOfThreads)
 {
   if (!IsPeer(setting))
   {
     return MakeOurMapper(setting, numberOfThreads);
+  }
+  if (setting.Method == "vtk-fixed-point")
+  {
+    return MakeFixedPointMapper(setting, numberOfThreads);
+  }
+  if (setting.Method == "vtk-gpu")
+  {
+    return MakeImageMapper<vtkGPUVolumeRayCastMapper>(setting);
   }
   if (setting.Method == "vtk-projected-tetrahedra")
   {

@@ -5,11 +5,11 @@
 #include "vtkSmartPointer.h"
 
 struct BenchSetting;
-class vtkUnstructuredGridVolumeMapper;
+class vtkAbstractVolumeMapper;
 
 /// Makes the mapper of a setting, without input. It casts one ray a pixel unless the setting says
-/// otherwise. numberOfThreads: of ray-cast; 0: one for each core.
-vtkSmartPointer<vtkUnstructuredGridVolumeMapper> MakeBenchMapper(
+/// otherwise. numberOfThreads: of methods of the processor; 0: one for each core.
+vtkSmartPointer<vtkAbstractVolumeMapper> MakeBenchMapper(
   const BenchSetting& setting, int numberOfThreads);
 
 /// Throws UsageError if the mapper does not take an assignment.

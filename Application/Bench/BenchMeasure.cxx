@@ -3,15 +3,15 @@
 
 #include "Bench/BenchMappers.h"
 #include "Bench/BenchPictures.h"
-#include "Bench/BenchScenes.h"
+#include "Bench/BenchScene.h"
 #include "Bench/BenchSettings.h"
 #include "CommandLine/CommandErrors.h"
 #include "Files/AtomicOutput.h"
 #include "Files/WriteData.h"
 #include "Setup/SceneOptions.h"
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkImageData.h"
-#include "vtkUnstructuredGridVolumeMapper.h"
 
 #include <nlohmann/json.hpp>
 

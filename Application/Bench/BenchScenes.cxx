@@ -2,6 +2,7 @@
 #include "Bench/BenchScenes.h"
 
 #include "Bench/BenchOptions.h"
+#include "Bench/BenchSettings.h"
 #include "Bench/BenchTransferFunctions.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/OptionValues.h"
@@ -11,13 +12,18 @@
 #include "Generate/GeneratedMeshes.h"
 #include "Setup/Arrays.h"
 #include "vtkTetrahedralizeCells.h"
+#include "vtkTriangleCasterMapper.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkCellIterator.h"
 #include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
 #include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolumeProperty.h"
@@ -34,42 +40,31 @@ constexpr const char* ScalarName = "Scalar";
 /// Cells along an edge of a quick run's balls.
 constexpr int QuickCells = 8;
 
-double GetDiagonal(vtkUnstructuredGrid* mesh)
+/// Points along an edge of the generated signal: as many for a period as in the paper, and as few.
+constexpr int SignalPoints = 64;
+constexpr int QuickSignalPoints = 24;
+
+double GetDiagonal(const BenchScene& scene)
 {
-  return vtkBoundingBox(mesh->GetBounds()).GetDiagonalLength();
+  return vtkBoundingBox(scene.GetData()->GetBounds()).GetDiagonalLength();
 }
 
 /// Returns the range of the scene's scalars.
 std::array<double, 2> GetRange(const BenchScene& scene)
 {
   std::array<double, 2> range;
-  vtkDataSetAttributes* attributes = scene.CellData
-    ? static_cast<vtkDataSetAttributes*>(scene.Mesh->GetCellData())
-    : scene.Mesh->GetPointData();
+  vtkDataSet* data = scene.GetData();
+  vtkDataSetAttributes* attributes =
+    scene.CellData ? static_cast<vtkDataSetAttributes*>(data->GetCellData()) : data->GetPointData();
   attributes->GetScalars()->GetFiniteRange(range.data());
   return range;
 }
 
-/// Sets the tetrahedra of any data as the mesh. It keeps only the chosen scalars, as an array of
-/// one component, since not every method can choose an array or a component.
-void SetMesh(
-  BenchScene& scene, vtkDataObject* data, const std::string& array, const std::string& component)
+/// The chosen scalars as an array of one component, since not every method can choose an array or a
+/// component. values: the array that was chosen.
+vtkSmartPointer<vtkDoubleArray> MakeScalars(const ArrayChoice& choice, vtkDataArray* values)
 {
-  const ArrayChoice choice = ChooseArray(data, array, component);
-  vtkNew<vtkTetrahedralizeCells> filter;
-  filter->SetInputDataObject(data);
-  filter->Update();
-  vtkUnstructuredGrid* tetrahedra = filter->GetOutput();
-  if (tetrahedra->GetNumberOfCells() == 0)
-  {
-    throw WorkError("'" + scene.Name + "': none of its cells can be rendered as a volume");
-  }
-  vtkDataSetAttributes* attributes = choice.Array.CellData
-    ? static_cast<vtkDataSetAttributes*>(tetrahedra->GetCellData())
-    : tetrahedra->GetPointData();
-  vtkDataArray* values = attributes->GetArray(choice.Array.Name.c_str());
-
-  vtkNew<vtkDoubleArray> scalars;
+  auto scalars = vtkSmartPointer<vtkDoubleArray>::New();
   scalars->SetName(ScalarName);
   scalars->SetNumberOfValues(values->GetNumberOfTuples());
   std::vector<double> tuple(values->GetNumberOfComponents());
@@ -87,6 +82,27 @@ void SetMesh(
     }
     scalars->SetValue(i, value);
   }
+  return scalars;
+}
+
+/// Sets the tetrahedra of any data as the mesh. It keeps only the chosen scalars.
+void SetMesh(
+  BenchScene& scene, vtkDataObject* data, const std::string& array, const std::string& component)
+{
+  const ArrayChoice choice = ChooseArray(data, array, component);
+  vtkNew<vtkTetrahedralizeCells> filter;
+  filter->SetInputDataObject(data);
+  filter->Update();
+  vtkUnstructuredGrid* tetrahedra = filter->GetOutput();
+  if (tetrahedra->GetNumberOfCells() == 0)
+  {
+    throw WorkError("'" + scene.Name + "': none of its cells can be rendered as a volume");
+  }
+  vtkDataSetAttributes* attributes = choice.Array.CellData
+    ? static_cast<vtkDataSetAttributes*>(tetrahedra->GetCellData())
+    : tetrahedra->GetPointData();
+  const vtkSmartPointer<vtkDoubleArray> scalars =
+    MakeScalars(choice, attributes->GetArray(choice.Array.Name.c_str()));
   scene.Mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
   scene.Mesh->CopyStructure(tetrahedra);
   scene.CellData = choice.Array.CellData;
@@ -100,10 +116,62 @@ void SetMesh(
   }
 }
 
+/// Why the method of image data can't render the chosen scalars; empty if it can.
+std::string FindImageObstacle(vtkDataObject* data, const ArrayChoice& choice)
+{
+  vtkNew<vtkTriangleCasterMapper> mapper;
+  mapper->SetInputDataObject(data);
+  mapper->SetScalarMode(choice.Array.CellData ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
+                                              : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
+  mapper->SelectScalarArray(choice.Array.Name.c_str());
+  mapper->SetVectorModeToMagnitude();
+  return mapper->GetObstacle();
+}
+
+/// Sets image data with the chosen scalars alone. An array of one component keeps its type.
+void SetImage(BenchScene& scene, vtkImageData* image, const ArrayChoice& choice)
+{
+  scene.Image = vtkSmartPointer<vtkImageData>::New();
+  scene.Image->CopyStructure(image);
+  vtkSmartPointer<vtkDataArray> scalars =
+    image->GetPointData()->GetArray(choice.Array.Name.c_str());
+  if (scalars->GetNumberOfComponents() > 1)
+  {
+    scalars = MakeScalars(choice, scalars);
+  }
+  scene.Image->GetPointData()->SetScalars(scalars);
+}
+
+/// Lowers opacities of image data to this at most. What has an opacity of 1 there is opaque in any
+/// length, so that a picture would depend on how the scalar of such a node is rounded.
+constexpr double LargestOpacity = 0.95;
+
+void LimitOpacities(vtkPiecewiseFunction* opacities)
+{
+  for (int node = 0; node < opacities->GetSize(); ++node)
+  {
+    double values[4]; // scalar, opacity, midpoint, sharpness
+    opacities->GetNodeValue(node, values);
+    values[1] = std::min(values[1], LargestOpacity);
+    opacities->SetNodeValue(node, values);
+  }
+}
+
 void SetTransferFunction(BenchScene& scene, const std::string& name)
 {
   scene.Property = GetBenchTransferFunction(name).Make(
-    GetRange(scene).data(), DefaultUnitDistanceFraction * GetDiagonal(scene.Mesh));
+    GetRange(scene).data(), DefaultUnitDistanceFraction * GetDiagonal(scene));
+  if (scene.IsOfImages())
+  {
+    LimitOpacities(scene.Property->GetScalarOpacity());
+  }
+}
+
+std::string DescribeImage(const std::string& what, const BenchScene& scene)
+{
+  const int* size = scene.Image->GetDimensions();
+  return what + ", image data of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) +
+    " x " + std::to_string(size[2]) + " points";
 }
 
 /// Replaces the scalars of points by scalars of cells: each cell gets the mean of its points.
@@ -152,7 +220,7 @@ std::string DescribeMesh(const std::string& what, const BenchScene& scene)
 BenchSceneMaker MakeMaker(const std::string& name, const std::string& generator,
   const std::map<std::string, double>& parameters, const std::string& function, bool cellData)
 {
-  return { name,
+  return { name, false,
     [=]
     {
       BenchScene scene = MakeGenerated(generator, parameters, cellData);
@@ -170,7 +238,7 @@ BenchSceneMaker MakeFileMaker(const std::string& name, const std::string& title,
   const std::string& fileName, const std::string& solution, const std::string& array,
   const std::string& function)
 {
-  return { name,
+  return { name, false,
     [=]
     {
       BenchScene scene;
@@ -183,17 +251,106 @@ BenchSceneMaker MakeFileMaker(const std::string& name, const std::string& title,
     } };
 }
 
-BenchSceneMaker MakeUserMaker(const SceneOptions& options)
+/// The test signal of Marschner and Lobb, An Evaluation of Reconstruction Filters for Volume
+/// Rendering (1994), on its cube from -1 to 1: waves that become shorter outwards.
+vtkSmartPointer<vtkImageData> MakeSignal(int points)
+{
+  constexpr double Pi = vtkMath::Pi();
+  constexpr double Depth = 0.25;
+  // There are 40 points for 6 periods in the paper.
+  const double frequency = 6.0 / 40 * points;
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(points, points, points);
+  image->SetOrigin(-1, -1, -1);
+  const double spacing = 2.0 / (points - 1);
+  image->SetSpacing(spacing, spacing, spacing);
+  vtkNew<vtkFloatArray> scalars;
+  scalars->SetName(ScalarName);
+  scalars->SetNumberOfValues(image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    image->GetPoint(i, x);
+    const double wave = std::cos(2 * Pi * frequency * std::cos(0.5 * Pi * std::hypot(x[0], x[1])));
+    const double value = (1 - std::sin(0.5 * Pi * x[2]) + Depth * (1 + wave)) / (2 * (1 + Depth));
+    scalars->SetValue(i, static_cast<float>(value));
+  }
+  image->GetPointData()->SetScalars(scalars);
+  return image;
+}
+
+/// A scene of the signal with one of the transfer functions.
+BenchSceneMaker MakeSignalMaker(int points, const std::string& function)
+{
+  const std::string name = "signal-" + function;
+  return { name, true,
+    [=]
+    {
+      BenchScene scene;
+      scene.Name = name;
+      scene.Image = MakeSignal(points);
+      scene.Description = DescribeImage("signal of Marschner and Lobb", scene) + "; " +
+        GetBenchTransferFunction(function).Description;
+      SetTransferFunction(scene, function);
+      return scene;
+    } };
+}
+
+/// A scene of a file of real image data.
+BenchSceneMaker MakeImageFileMaker(const std::string& name, const std::string& title,
+  const std::string& fileName, const std::string& function)
+{
+  return { name, true,
+    [=]
+    {
+      BenchScene scene;
+      scene.Name = name;
+      const vtkSmartPointer<vtkDataObject> data = ReadMesh({ fileName, {}, {}, {} }).Data;
+      const ArrayChoice choice = ChooseArray(data, "", "");
+      const std::string obstacle = FindImageObstacle(data, choice);
+      if (!obstacle.empty())
+      {
+        throw WorkError("'" + fileName + "': " + obstacle);
+      }
+      SetImage(scene, vtkImageData::SafeDownCast(data), choice);
+      scene.Description =
+        DescribeImage(title, scene) + "; " + GetBenchTransferFunction(function).Description;
+      SetTransferFunction(scene, function);
+      return scene;
+    } };
+}
+
+/// Sets what a user's file holds: image data if the settings do not ask for cells, and the method
+/// for them can render it; else the tetrahedra.
+void SetData(BenchScene& scene, const SceneOptions& options, BenchData data, const MeshData& mesh)
+{
+  const ArrayChoice choice = ChooseArray(mesh.Data, options.Array, options.Component);
+  const std::string obstacle = FindImageObstacle(mesh.Data, choice);
+  if (data == BenchData::Images && !obstacle.empty())
+  {
+    throw WorkError("'" + options.Input.Name + "': " + obstacle);
+  }
+  if (data != BenchData::Cells && obstacle.empty())
+  {
+    SetImage(scene, vtkImageData::SafeDownCast(mesh.Data), choice);
+    scene.Description = DescribeImage(scene.Name, scene);
+    return;
+  }
+  SetMesh(scene, mesh.Data, options.Array, options.Component);
+  scene.Description = DescribeMesh(scene.Name, scene);
+}
+
+BenchSceneMaker MakeUserMaker(const SceneOptions& options, BenchData data)
 {
   const std::string name = std::filesystem::path(options.Input.Name).stem().string();
-  return { name,
-    [options, name]
+  return { name, data == BenchData::Images,
+    [options, name, data]
     {
       BenchScene scene;
       scene.Name = name;
       const MeshData mesh = ReadMesh(options.Input);
       NoteTimeSteps(options.Input, mesh);
-      SetMesh(scene, mesh.Data, options.Array, options.Component);
+      SetData(scene, options, data, mesh);
       ColorAndOpacity functions;
       if (options.TransferFile.empty())
       {
@@ -203,13 +360,12 @@ BenchSceneMaker MakeUserMaker(const SceneOptions& options)
       {
         ReadTransferFunction(options.TransferFile, functions);
       }
-      scene.Description = DescribeMesh(name, scene);
       scene.Property = vtkSmartPointer<vtkVolumeProperty>::New();
       scene.Property->SetColor(functions.Color);
       scene.Property->SetScalarOpacity(functions.Opacity);
       scene.Property->SetInterpolationTypeToLinear();
-      scene.Property->SetScalarOpacityUnitDistance(options.OpacityUnitDistance.value_or(
-        DefaultUnitDistanceFraction * GetDiagonal(scene.Mesh)));
+      scene.Property->SetScalarOpacityUnitDistance(
+        options.OpacityUnitDistance.value_or(DefaultUnitDistanceFraction * GetDiagonal(scene)));
       return scene;
     } };
 }
@@ -226,6 +382,12 @@ std::vector<BenchSceneMaker> ListDataScenes(const std::string& folder)
   }
   makers.push_back(
     MakeFileMaker("can-cells", "crushed can, cell data", file("can.vtu"), "", "EQPS", "smooth"));
+  const std::string engine = file("engine.vti");
+  if (std::filesystem::exists(engine))
+  {
+    makers.push_back(MakeImageFileMaker("engine-smooth", "engine", engine, "smooth"));
+    makers.push_back(MakeImageFileMaker("engine-opaque", "engine", engine, "opaque"));
+  }
   return makers;
 }
 
@@ -233,14 +395,15 @@ std::vector<BenchSceneMaker> ListAllScenes(const BenchOptions& options)
 {
   if (!options.Scene.Input.Name.empty())
   {
-    return { MakeUserMaker(options.Scene) };
+    return { MakeUserMaker(options.Scene, FindBenchData(options)) };
   }
   if (options.Quick)
   {
     const std::map<std::string, double> small = { { "cells", QuickCells } };
     return { MakeMaker("ball-smooth", "ball", small, "smooth", false),
       MakeMaker("ball-needle", "ball", small, "needle", false),
-      MakeMaker("ball-cells", "ball", small, "steps", true) };
+      MakeMaker("ball-cells", "ball", small, "steps", true),
+      MakeSignalMaker(QuickSignalPoints, "smooth") };
   }
   std::vector<BenchSceneMaker> makers;
   if (!options.DataFolder.empty())
@@ -253,7 +416,21 @@ std::vector<BenchSceneMaker> ListAllScenes(const BenchOptions& options)
   }
   makers.push_back(MakeMaker("gear-smooth", "gear", {}, "smooth", false));
   makers.push_back(MakeMaker("ball-cells", "ball", {}, "steps", true));
+  makers.push_back(MakeSignalMaker(SignalPoints, "smooth"));
+  makers.push_back(MakeSignalMaker(SignalPoints, "needle"));
   return makers;
+}
+
+/// Leaves out the scenes of the other kind if the settings are of one kind.
+void LimitToData(BenchData data, std::vector<BenchSceneMaker>& makers)
+{
+  makers.erase(std::remove_if(makers.begin(), makers.end(),
+                 [data](const BenchSceneMaker& maker)
+                 {
+                   return (data == BenchData::Images && !maker.OfImages) ||
+                     (data == BenchData::Cells && maker.OfImages);
+                 }),
+    makers.end());
 }
 
 } // namespace
@@ -261,6 +438,7 @@ std::vector<BenchSceneMaker> ListAllScenes(const BenchOptions& options)
 std::vector<BenchSceneMaker> ListScenes(const BenchOptions& options)
 {
   std::vector<BenchSceneMaker> all = ListAllScenes(options);
+  LimitToData(FindBenchData(options), all);
   if (options.Scenes.empty())
   {
     return all;

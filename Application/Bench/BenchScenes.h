@@ -2,7 +2,7 @@
 #ifndef BenchScenes_h
 #define BenchScenes_h
 
-#include "vtkSmartPointer.h"
+#include "Bench/BenchScene.h"
 
 #include <functional>
 #include <map>
@@ -10,31 +10,19 @@
 #include <vector>
 
 struct BenchOptions;
-class vtkUnstructuredGrid;
-class vtkVolumeProperty;
-
-/// What is rendered. Every method gets the same tetrahedra with the same scalars.
-struct BenchScene
-{
-  std::string Name;        ///< of files and of --scene, as "blunt-fin-needle"
-  std::string Description; ///< one line
-
-  /// Tetrahedra with one active array of one component, of the points or of the cells.
-  vtkSmartPointer<vtkUnstructuredGrid> Mesh;
-  bool CellData = false;
-  vtkSmartPointer<vtkVolumeProperty> Property;
-};
 
 /// Makes a scene in its turn: meshes and their tables are too large to be kept all at once.
 struct BenchSceneMaker
 {
   std::string Name;
+  bool OfImages;
   std::function<BenchScene()> Make;
 };
 
 /// Lists the scenes of a run: that of the user's file, if there is one; small ones for a quick run;
-/// else those of the real data, if its folder is known, and the generated ones. Throws UsageError
-/// if an option names another scene.
+/// else those of the real data, if its folder is known, and the generated ones. If the run is
+/// limited to settings of image data, or of cells, so are its scenes. Throws UsageError if an
+/// option names another scene, or FindBenchData does.
 std::vector<BenchSceneMaker> ListScenes(const BenchOptions& options);
 
 /// Makes a ball of 2.5 cells^3 tetrahedra, for comparisons that need no particular mesh. Its

@@ -5,6 +5,12 @@
 
 bool IsPeer(const BenchSetting& setting) { return setting.Method.rfind("vtk-", 0) == 0; }
 
+bool RendersImages(const BenchSetting& setting)
+{
+  const std::string& method = setting.Method;
+  return method == "triangle-caster" || method == "vtk-fixed-point" || method == "vtk-gpu";
+}
+
 bool HasFloatPicture(const BenchSetting& setting)
 {
   const bool coarse = std::any_of(setting.Assignments.begin(), setting.Assignments.end(),

@@ -3,7 +3,10 @@
 
 #include "Bench/BenchMappers.h"
 #include "Bench/BenchOptions.h"
+#include "Bench/BenchScene.h"
 #include "CommandLine/CommandErrors.h"
+
+#include "vtkImageData.h"
 
 #include <algorithm>
 #include <sstream>
@@ -29,6 +32,15 @@ constexpr const char* HalfBuffer = "ColorBuffer=half";
 constexpr const char* EightBitBuffer = "ColorBuffer=unorm8";
 constexpr const char* FloatBuffer = "ColorBuffer=float";
 constexpr const char* ToTheEnd = "MaximumError=0";
+constexpr const char* SlicesByError = "SampleDistanceByError=on";
+
+/// Slices or samples of image data this far apart, units of the data.
+std::string SetDistance(double distance)
+{
+  std::ostringstream text;
+  text << "SampleDistance=" << distance;
+  return text.str();
+}
 
 /// A table of given sizes, with further assignments.
 Assignments MakeTable(int scalars, int lengths, const Assignments& others)
@@ -198,6 +210,71 @@ void AddPeers(std::vector<BenchSetting>& settings)
     "the same with vtkTetrahedraRayIntegrator, the closed form", "vtk-bunyk-closed-form", {} });
 }
 
+/// What slices of image data are apart, beside the default of half a voxel and less.
+void AddSliceDistances(double spacing, std::vector<BenchSetting>& settings)
+{
+  const std::string group = "distance of slices";
+  for (const char* voxels : { "2", "1", "0.5", "0.25", "0.125" })
+  {
+    settings.push_back(
+      { std::string("slices-") + voxels, group, std::string("slices ") + voxels + " voxels apart",
+        "triangle-caster", { SetDistance(std::stod(voxels) * spacing) } });
+  }
+}
+
+/// Ideas of Knittel 1999 and beyond, each switched on or off alone.
+void AddTriangleCaster(std::vector<BenchSetting>& settings)
+{
+  const std::string method = "triangle-caster";
+  std::string group = "error asked for";
+  for (const char* error : { "1e-2", "1e-3", "1e-4" })
+  {
+    settings.push_back({ std::string("error-") + error, group,
+      std::string("MaximumError ") + error + ", distance of slices by it", method,
+      { SlicesByError, std::string("MaximumError=") + error } });
+  }
+  group = "ends of rays and empty space";
+  settings.push_back({ "no-termination", group, "rays to their ends", method, { ToTheEnd } });
+  settings.push_back({ "early-termination", group, "rays end at a translucency of 1/255", method,
+    { "MaximumError=0.004" } });
+  settings.push_back(
+    { "no-empty-space", group, "empty space is sampled, too", method, { "SkipEmptySpace=off" } });
+  group = "triangle caster (Knittel 1999)";
+  settings.push_back(
+    { "triangles", group, "tiles are cast in two triangles", method, { "CastTriangles=on" } });
+  settings.push_back({ "shells", group, "shells in place of planes (section 1.1)", method,
+    { "SliceShape=shells" } });
+  settings.push_back({ "uncorrected", group,
+    "opacity is that of a step along the normal of the planes (section 1.1)", method,
+    { "CorrectOpacity=off" } });
+  settings.push_back({ "slabs", group, "slabs from a pre-integration table (section 7)", method,
+    { "PreIntegration=on" } });
+  group = "distance of rays";
+  settings.push_back({ "sample-distance-2", group, "one ray for 2 x 2 pixels, interpolated", method,
+    { "ImageSampleDistance=2" } });
+}
+
+/// As they come but for the distance of slices, whose default is a world unit whatever the data.
+void AddImagePeers(double spacing, std::vector<BenchSetting>& settings)
+{
+  const std::string group = "mappers of VTK";
+  const struct
+  {
+    const char* Method;
+    const char* Name;
+  } peers[] = { { "vtk-fixed-point", "vtkFixedPointVolumeRayCastMapper" },
+    { "vtk-gpu", "vtkGPUVolumeRayCastMapper" } };
+  for (const auto& peer : peers)
+  {
+    for (const char* voxels : { "0.5", "0.125" })
+    {
+      settings.push_back({ std::string(peer.Method) + "-" + voxels, group,
+        std::string(peer.Name) + ", samples " + voxels + " voxels apart", peer.Method,
+        { SetDistance(std::stod(voxels) * spacing) } });
+    }
+  }
+}
+
 /// "Property=Value Property=Value", with a method before them or alone, as a setting of that name.
 BenchSetting ReadSetting(const std::string& text)
 {
@@ -232,19 +309,73 @@ BenchSetting ReadSetting(const std::string& text)
   return setting;
 }
 
+/// The mean distance of points, units of the data.
+double GetSpacing(vtkImageData* image)
+{
+  const double* spacing = image->GetSpacing();
+  return (spacing[0] + spacing[1] + spacing[2]) / 3;
+}
+
 } // namespace
 
-BenchSetting GetReferenceSetting()
+BenchSetting GetReferenceSetting(const BenchScene& scene)
 {
-  return { ReferenceSettingName, "reference", "closed form, double precision, rays to their ends",
+  const std::string group = "reference";
+  if (scene.IsOfImages())
+  {
+    return { ReferenceSettingName, group,
+      "integral of the trilinear field along each ray, in double precision", "integral", {} };
+  }
+  return { ReferenceSettingName, group, "closed form, double precision, rays to their ends",
     "ray-cast", { ClosedForm, DoublePrecision, ToTheEnd } };
 }
 
-std::vector<BenchSetting> ListSettings(const BenchOptions& options)
+BenchData FindBenchData(const BenchOptions& options)
+{
+  BenchData data = BenchData::Any;
+  std::string before;
+  for (const std::string& text : options.Settings)
+  {
+    const BenchData found = RendersImages(ReadSetting(text)) ? BenchData::Images : BenchData::Cells;
+    if (data != BenchData::Any && found != data)
+    {
+      throw UsageError("--setting: one of '" + before + "' and '" + text +
+        "' renders image data, and the other one cells: a run has settings of one kind");
+    }
+    data = found;
+    before = text;
+  }
+  return data;
+}
+
+std::vector<BenchSetting> ListSettings(const BenchOptions& options, const BenchScene& scene)
 {
   std::vector<BenchSetting> settings;
-  settings.push_back({ DefaultSettingName, "default",
-    "nothing set: an error of 1e-4, all else automatic", "ray-cast", {} });
+  if (scene.IsOfImages())
+  {
+    settings.push_back({ DefaultSettingName, "default",
+      "nothing set: slices at most half a voxel apart", "triangle-caster", {} });
+  }
+  else
+  {
+    settings.push_back({ DefaultSettingName, "default",
+      "nothing set: an error of 1e-4, all else automatic", "ray-cast", {} });
+  }
+  for (const std::string& text : options.Settings)
+  {
+    settings.push_back(ReadSetting(text));
+  }
+  if (scene.IsOfImages())
+  {
+    const double spacing = GetSpacing(scene.Image);
+    if (options.Settings.empty())
+    {
+      AddSliceDistances(spacing, settings);
+      AddTriangleCaster(settings);
+    }
+    AddImagePeers(spacing, settings);
+    return settings;
+  }
   if (options.Settings.empty())
   {
     AddErrorDial(settings);
@@ -254,10 +385,6 @@ std::vector<BenchSetting> ListSettings(const BenchOptions& options)
     AddReentry(settings);
     AddGpuRayCast(settings);
     AddProjection(settings);
-  }
-  for (const std::string& text : options.Settings)
-  {
-    settings.push_back(ReadSetting(text));
   }
   AddPeers(settings);
   return settings;

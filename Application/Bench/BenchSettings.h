@@ -7,6 +7,7 @@
 #include <vector>
 
 struct BenchOptions;
+struct BenchScene;
 
 /// Name of the setting that all others are compared with: all defaults.
 constexpr const char* DefaultSettingName = "default";
@@ -14,10 +15,22 @@ constexpr const char* DefaultSettingName = "default";
 /// Name of the setting that counts as right.
 constexpr const char* ReferenceSettingName = "reference";
 
-/// The most exact setting: closed form, double precision, rays to their ends.
-BenchSetting GetReferenceSetting();
+/// The most exact setting of a scene: of cells the closed form, in double precision, with rays to
+/// their ends; of image data the integral, which is no mapper's.
+BenchSetting GetReferenceSetting(const BenchScene& scene);
 
-/// The settings of a run, the default one first. Throws UsageError if one of the user's is wrong.
-std::vector<BenchSetting> ListSettings(const BenchOptions& options);
+/// What the user's settings render.
+enum class BenchData
+{
+  Any, ///< there are none
+  Cells,
+  Images
+};
+
+/// Throws UsageError if one of the user's settings is wrong, or if there are some of both kinds.
+BenchData FindBenchData(const BenchOptions& options);
+
+/// The settings of a scene, the default one first. The user's must be right.
+std::vector<BenchSetting> ListSettings(const BenchOptions& options, const BenchScene& scene);
 
 #endif

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/BenchView.h"
 
-#include "Bench/BenchScenes.h"
+#include "Bench/BenchScene.h"
 #include "CommandLine/CommandErrors.h"
 #include "CommandLine/MessageCapture.h"
 #include "Setup/SceneCamera.h"
 #include "Setup/SceneOptions.h"
+#include "Setup/VisitMapper.h"
 #include "vtkHeadlessRenderWindow.h"
-#include "vtkTetrahedraVolumeMapper.h"
 
 #include "vtkCamera.h"
 #include "vtkDataArrayRange.h"
@@ -67,11 +67,11 @@ std::string GetOpenGLRenderer(vtkHeadlessRenderWindow* window)
 }
 
 BenchView::BenchView(vtkHeadlessRenderWindow* window, const BenchScene& scene,
-  vtkSmartPointer<vtkUnstructuredGridVolumeMapper> mapper, const SceneOptions& view)
+  vtkSmartPointer<vtkAbstractVolumeMapper> mapper, const SceneOptions& view)
   : Mapper(std::move(mapper))
   , Window(window)
 {
-  this->Mapper->SetInputData(scene.Mesh.Get());
+  this->Mapper->SetInputDataObject(scene.GetData());
   this->Mapper->SetScalarMode(
     scene.CellData ? VTK_SCALAR_MODE_USE_CELL_DATA : VTK_SCALAR_MODE_USE_POINT_DATA);
   this->Volume->SetMapper(this->Mapper);
@@ -80,7 +80,7 @@ BenchView::BenchView(vtkHeadlessRenderWindow* window, const BenchScene& scene,
   // VTK's Bunyk mapper reads the aspect before anything has computed it.
   const int* size = this->Window->GetSize();
   this->Renderer->SetAspect(static_cast<double>(size[0]) / size[1], 1);
-  PlaceCamera(view, scene.Mesh->GetBounds(), this->Renderer);
+  PlaceCamera(view, scene.GetData()->GetBounds(), this->Renderer);
   this->Window->Render();
   this->Renderer->AddVolume(this->Volume);
 }
@@ -119,12 +119,12 @@ BenchPicture BenchView::CaptureWindow() const
 
 BenchPicture BenchView::GetFloatPicture() const
 {
-  auto* mapper = vtkTetrahedraVolumeMapper::SafeDownCast(this->Mapper);
-  return MakePicture(mapper->GetOutputImage(), 1);
+  return VisitMapper(
+    this->Mapper, [](auto* mapper) { return MakePicture(mapper->GetOutputImage(), 1); });
 }
 
 std::string BenchView::GetStatistics() const
 {
-  auto* mapper = vtkTetrahedraVolumeMapper::SafeDownCast(this->Mapper);
-  return mapper ? mapper->GetStatistics() : "{}";
+  return VisitMapper(this->Mapper,
+    [](auto* mapper) { return mapper ? mapper->GetStatistics() : std::string("{}"); });
 }

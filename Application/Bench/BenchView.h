@@ -2,9 +2,9 @@
 #ifndef BenchView_h
 #define BenchView_h
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
-#include "vtkUnstructuredGridVolumeMapper.h"
 
 #include <string>
 #include <vector>
@@ -38,7 +38,7 @@ class BenchView
 public:
   /// view: the camera. Renders an empty frame, so that the window is ready.
   BenchView(vtkHeadlessRenderWindow* window, const BenchScene& scene,
-    vtkSmartPointer<vtkUnstructuredGridVolumeMapper> mapper, const SceneOptions& view);
+    vtkSmartPointer<vtkAbstractVolumeMapper> mapper, const SceneOptions& view);
   ~BenchView();
   BenchView(const BenchView&) = delete;
   BenchView& operator=(const BenchView&) = delete;
@@ -59,10 +59,10 @@ public:
 
   vtkRenderer* GetRenderer() const { return this->Renderer; }
   vtkVolume* GetVolume() const { return this->Volume; }
-  vtkUnstructuredGridVolumeMapper* GetMapper() const { return this->Mapper; }
+  vtkAbstractVolumeMapper* GetMapper() const { return this->Mapper; }
 
 private:
-  vtkSmartPointer<vtkUnstructuredGridVolumeMapper> Mapper;
+  vtkSmartPointer<vtkAbstractVolumeMapper> Mapper;
   vtkNew<vtkVolume> Volume;
   vtkNew<vtkRenderer> Renderer;
   vtkSmartPointer<vtkHeadlessRenderWindow> Window;

@@ -22,6 +22,15 @@ CLI::Option* AddOption(
     ->type_name("");
 }
 
+/// Refuses an empty text, which stands for no name: often it comes from a variable of a script that
+/// is not set.
+inline CLI::Validator MakeNameCheck()
+{
+  return CLI::Validator([](std::string& text)
+    { return text.empty() ? std::string("the name is empty") : std::string(); },
+    "");
+}
+
 /// Throws UsageError if a command has an option that is not one of these. The first of names is the
 /// option that the others have to go with.
 inline void RefuseOtherOptions(const CLI::App* command, const std::vector<std::string>& names)

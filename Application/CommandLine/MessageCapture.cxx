@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommandLine/MessageCapture.h"
 
+#include "CommandLine/StandardStreams.h"
+
 #include "vtkLogger.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
 #include <cctype>
-#include <iostream>
 #include <mutex>
 #include <vector>
 
@@ -100,6 +101,6 @@ void MessageCapture::PrintWarnings() const
   const std::lock_guard<std::mutex> lock(this->Current->Mutex);
   for (const std::string& warning : this->Current->Warnings)
   {
-    std::cerr << "tetralux: warning: " << warning << "\n";
+    PrintMessage("warning: " + warning);
   }
 }

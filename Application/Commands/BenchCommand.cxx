@@ -31,12 +31,15 @@ void AddSceneOptions(CLI::App* command, BenchOptions& options)
   AddSizeOptions(command, scene);
   command
     ->add_option("--data", options.DataFolder,
-      "Folder with bluntfinxyz.bin, bluntfinq.bin and can.vtu of the VTK examples; default: the "
-      "variable TETRALUX_DATA, else generated scenes alone")
+      "Folder with bluntfinxyz.bin, bluntfinq.bin and can.vtu of the VTK examples, and engine.vti, "
+      "image data, if it is there; default: the variable TETRALUX_DATA, else generated scenes "
+      "alone")
+    ->check(MakeNameCheck())
     ->type_name("FOLDER");
   command
     ->add_option("--scene", options.Scenes,
       "Measure this scene alone, and once more for each further one; default: all")
+    ->check(MakeNameCheck())
     ->allow_extra_args(false)
     ->type_name("NAME");
 }
@@ -47,7 +50,9 @@ void AddRunOptions(CLI::App* command, BenchOptions& options)
     ->add_option("--setting", options.Settings,
       "Measure this in place of the settings there are, and once more for each further one: "
       "properties as render --set takes them, with blanks between, of ray-cast or of a method "
-      "named before them")
+      "named before them; triangle-caster measures with scenes of image data, all others with "
+      "those of cells")
+    ->check(MakeNameCheck())
     ->allow_extra_args(false)
     ->type_name("'[METHOD] Property=Value ...'");
   AddOption(command, "--frames", "Frames timed of each picture, at most; default: 10",
@@ -63,6 +68,7 @@ void AddRunOptions(CLI::App* command, BenchOptions& options)
       "Folder to write: index.html, results.json, results.csv and pictures; one that an earlier "
       "run "
       "wrote is replaced")
+    ->check(MakeNameCheck())
     ->type_name("FOLDER");
 }
 

@@ -64,10 +64,12 @@ std::map<std::string, double> ReadParameters(const std::vector<std::string>& arg
 
 void CheckExtension(const GenerateOptions& options, const std::string& extension)
 {
-  if (GetExtension(options.Output) != extension)
+  const bool isList = options.Steps > 0; // whose files are beside it
+  if (isList ? GetExtension(options.Output) != extension
+             : !HasExtension(options.Output, { extension }))
   {
     throw UsageError("--output: '" + options.Output + "' must end in " + extension +
-      (options.Steps > 0 ? ", a list of time steps" : ""));
+      (isList ? ", a list of time steps" : ", or be -, a pipe or a device"));
   }
 }
 
@@ -92,7 +94,6 @@ void GenerateFile(const GenerateOptions& options)
   const std::map<std::string, double> parameters = ReadParameters(options.Parameters);
   AtomicOutput output(options.Output);
   ProgressLine progress("generating " + options.Name);
-  progress.ShowLabel();
   WriteMesh(options.Name, parameters, output);
   output.Commit();
 }
@@ -205,8 +206,14 @@ void AddGenerateCommand(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("generate", "Write a mesh that is made from a formula");
   const auto options = std::make_shared<GenerateOptions>();
-  command->add_option("NAME", options->Name, "Which one: see --list")->type_name("");
-  command->add_option("--output", options->Output, "File to write")->type_name("FILE.vtu|FILE.pvd");
+  command->add_option("NAME", options->Name, "Which one: see --list")
+    ->check(MakeNameCheck())
+    ->type_name("");
+  command
+    ->add_option(
+      "--output", options->Output, "File to write; - is standard output, which gets .vtu")
+    ->check(MakeNameCheck())
+    ->type_name("FILE.vtu|FILE.pvd");
   command
     ->add_option("--steps", options->Steps,
       "Write so many time steps of one period of a mesh that moves, as FILE_0000.vtu and so on "

@@ -5,6 +5,7 @@
 #include "CommandLine/CommandOption.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
+#include "CommandLine/StandardStreams.h"
 #include "Files/ReadMesh.h"
 #include "Intake/LeftOutCells.h"
 #include "Intake/PointExtraction.h"
@@ -40,7 +41,9 @@ constexpr int LabelWidth = 28;
 template <class ValueT>
 void PrintRow(const std::string& label, const ValueT& value)
 {
-  std::cout << std::left << std::setw(LabelWidth) << label << " " << value << "\n";
+  std::ostringstream row;
+  row << std::left << std::setw(LabelWidth) << label << " " << value;
+  std::cout << EscapeControls(row.str()) << "\n"; // names may have line breaks
 }
 
 /// Prints a row only if the count is above 0: for defects and for cells left out.
@@ -313,8 +316,12 @@ void PrintInfo(const InputFile& input)
     "edges", FormatNumber(volumes.ShortestEdge) + " .. " + FormatNumber(volumes.LongestEdge));
 
   std::unique_ptr<tetralux::WalkMesh> walk;
-  const double tablesSeconds =
-    MeasureSeconds([&] { walk = std::make_unique<tetralux::WalkMesh>(std::move(intake.Mesh)); });
+  const double tablesSeconds = MeasureSeconds(
+    [&]
+    {
+      const ProgressLine progress("making tables");
+      walk = std::make_unique<tetralux::WalkMesh>(std::move(intake.Mesh));
+    });
   PrintRow("boundary faces", walk->GetNumberOfBoundaryFaces());
   PrintRow("components", walk->GetNumberOfComponents());
 

@@ -5,10 +5,12 @@
 #include "CommandLine/MessageCapture.h"
 #include "CommandLine/OptionValues.h"
 #include "CommandLine/ProgressLine.h"
+#include "CommandLine/StandardStreams.h"
 #include "Commands/PictureFile.h"
 #include "Files/AtomicOutput.h"
 #include "Files/ReadMesh.h"
 #include "Files/TransferFunctionFile.h"
+#include "Files/WriteBytes.h"
 #include "Setup/Arrays.h"
 #include "Setup/MapperProperties.h"
 #include "Setup/MethodCosts.h"
@@ -38,7 +40,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <optional>
 #include <vector>
@@ -49,14 +50,18 @@ namespace
 /// Throws UsageError for what is wrong whatever the input is.
 void CheckOptions(const RenderOptions& options)
 {
-  const std::string extension = GetExtension(options.Output);
-  if (extension != ".png" && extension != ".vti")
+  if (!HasExtension(options.Output, { ".png", ".vti" }))
   {
-    throw UsageError("--output: '" + options.Output + "' must end in .png or .vti");
+    throw UsageError("--output: '" + options.Output +
+      "' must end in .png or .vti, or be -, a pipe or a device, which get a .png");
   }
-  if (!options.StatisticsFile.empty() && GetExtension(options.StatisticsFile) != ".json")
+  if (!options.StatisticsFile.empty() && !HasExtension(options.StatisticsFile, { ".json" }))
   {
     throw UsageError("--stats: '" + options.StatisticsFile + "' must end in .json");
+  }
+  if (options.Output == "-" && (options.PrintStatistics || options.StatisticsFile == "-"))
+  {
+    throw UsageError("--stats: standard output gets the picture, by --output -; name a FILE.json");
   }
   CheckCamera(options.Scene);
 }
@@ -212,9 +217,8 @@ bool IsImage(const RenderInput& input)
   return mapper->GetObstacle().empty();
 }
 
-/// lit: whether isosurfaces are.
 vtkSmartPointer<vtkVolumeProperty> MakeProperty(
-  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6], bool lit)
+  const RenderOptions& options, const ColorAndOpacity& functions, const double bounds[6])
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetColor(functions.Color);
@@ -233,7 +237,7 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
     property->SetSliceFunction(plane);
   }
   // Without light, surfaces show no shape.
-  property->SetShade(options.Shade || (lit && !options.Isovalues.empty()));
+  property->SetShade(options.Shade || !options.Isovalues.empty());
   return property;
 }
 
@@ -247,14 +251,20 @@ void ShowVolume(const RenderOptions& options, const RenderInput& input, vtkVolum
   {
     throw WorkError("'" + options.Scene.Input.Name + "': it has no points");
   }
-  const bool lit = !vtkTriangleCasterMapper::SafeDownCast(volume->GetMapper());
-  volume->SetProperty(MakeProperty(options, input.Functions, bounds, lit));
+  volume->SetProperty(MakeProperty(options, input.Functions, bounds));
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(options.Background.data());
   renderer->AddVolume(volume);
   renderer->GetCullers()->RemoveAllItems(); // a volume out of sight gives an empty picture
   window->AddRenderer(renderer);
   PlaceCamera(options.Scene, bounds, renderer);
+}
+
+/// Returns the mapper's picture. OpenGL may still be drawing it.
+vtkImageData* GetPicture(vtkAbstractVolumeMapper* mapper)
+{
+  const ProgressLine progress("finishing the picture");
+  return VisitMapper(mapper, [](auto* visited) { return visited->GetOutputImage(); });
 }
 
 bool IsEmpty(vtkImageData* image)
@@ -292,20 +302,15 @@ void PrintStatistics(const nlohmann::ordered_json& value, const std::string& ind
     else
     {
       std::cout << indent << name << ": "
-                << (member.is_string() ? member.get<std::string>() : member.dump()) << "\n";
+                << (member.is_string() ? EscapeControls(member.get<std::string>()) : member.dump())
+                << "\n";
     }
   }
 }
 
 void WriteStatistics(const nlohmann::ordered_json& statistics, const AtomicOutput& file)
 {
-  std::ofstream stream(file.GetTemporaryName());
-  stream << statistics.dump(2) << "\n";
-  stream.close();
-  if (!stream)
-  {
-    throw WorkError("cannot write '" + file.GetName() + "'");
-  }
+  WriteText(statistics.dump(2) + "\n", file.GetTemporaryName(), file.GetName());
 }
 
 /// Returns what is wrong with a picture for which another method may be taken, or an empty text.
@@ -427,12 +432,10 @@ void RenderPicture(const RenderOptions& options)
     throw WorkError("'" + options.Scene.Input.Name + "': " + error);
   }
   const nlohmann::ordered_json statistics = ReadStatistics(mapper, methods[used]);
-  vtkImageData* image =
-    VisitMapper(mapper, [](auto* visited) { return visited->GetOutputImage(); });
+  vtkImageData* image = GetPicture(mapper);
   if (IsEmpty(image))
   {
-    std::cerr << "tetralux: warning: the picture is empty: no ray meets anything that is not "
-                 "transparent\n";
+    PrintMessage("warning: the picture is empty: no ray meets anything that is not transparent");
   }
 
   WritePicture(output, image, window, options.Background);

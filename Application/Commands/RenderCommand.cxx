@@ -56,6 +56,7 @@ void AddPictureOptions(CLI::App* command, RenderOptions& options)
     ->add_option("--color-array", options.ColorArray,
       "Colour surfaces by this point array, with --method isosurface or auto; of several "
       "components the magnitude, or --set ColorArrayComponent=N")
+    ->check(MakeNameCheck())
     ->type_name("NAME");
   command->add_flag("--shade", options.Shade, "Let a light at the camera shine on the volume");
   AddOption(command, "--background", "Colour behind a .png, each from 0 to 1; default: 0,0,0",
@@ -98,10 +99,12 @@ void AddOutputOptions(CLI::App* command, RenderOptions& options)
     ->type_name("[FILE.json]");
   command
     ->add_option("--output", options.Output,
-      "Picture to write: .png, 8 bit over the background; .vti, arrays of float, RGBA "
+      "Picture to write: .png, 8 bit over the background, also for - (standard output), pipes and "
+      "devices; .vti, arrays of float, RGBA "
       "premultiplied without background and Depth along the ray in world units, -1 where nothing "
       "is")
     ->required()
+    ->check(MakeNameCheck())
     ->type_name("FILE");
 }
 

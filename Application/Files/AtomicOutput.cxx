@@ -2,19 +2,44 @@
 #include "Files/AtomicOutput.h"
 
 #include "CommandLine/CommandErrors.h"
+#include "CommandLine/OptionValues.h"
+#include "CommandLine/Worker.h"
+#include "Files/WriteBytes.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace
 {
 
 namespace fs = std::filesystem;
+
+/// Files without a name that may be open at once: systems allow a process some 1000 open files.
+/// Those beyond have hidden names.
+constexpr int MaximumUnnamed = 64;
+
+int NumberOfUnnamed = 0;
+
+/// Links from one to the next before they count as a loop; Linux has the same limit.
+constexpr int MaximumLinks = 40;
+
+constexpr mode_t AllPermissions = 07777;
+
+/// Whether a name is that of standard output, a pipe or a device.
+bool IsStream(const std::string& fileName)
+{
+  struct stat status;
+  return fileName == "-" ||
+    (stat(fileName.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
+}
 
 [[noreturn]] void Refuse(const std::string& name, const std::string& reason)
 {
@@ -28,14 +53,65 @@ fs::path GetFolderPath(const std::string& name)
   return path.has_filename() ? path : path.parent_path();
 }
 
-/// A hidden name in the same place; it keeps the extension, which writers may look at.
-std::string MakeTemporaryName(const fs::path& path, bool isFolder)
+std::string GetParent(const fs::path& path)
 {
-  const std::string process = "." + std::to_string(getpid());
-  const std::string name = isFolder
-    ? "." + path.filename().string() + process
-    : "." + path.stem().string() + process + path.extension().string();
-  return (path.parent_path() / name).string();
+  return path.has_parent_path() ? path.parent_path().string() : ".";
+}
+
+/// A hidden name in the same folder. It is short whatever the output's own name is.
+std::string MakeHiddenName(const fs::path& path)
+{
+  static int number = 0;
+  return (
+    path.parent_path() / (".tetralux-" + std::to_string(getpid()) + "-" + std::to_string(number++)))
+    .string();
+}
+
+/// Where the file is that a name stands for: the end of its links, of which the last may lead to
+/// nothing yet.
+std::string FollowLinks(const std::string& name)
+{
+  fs::path path(name);
+  std::error_code error;
+  for (int i = 0; fs::is_symlink(path, error); ++i)
+  {
+    if (i == MaximumLinks)
+    {
+      Refuse(name, std::strerror(ELOOP));
+    }
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  return path.string();
+}
+
+mode_t GetMask()
+{
+  const mode_t mask = umask(0);
+  umask(mask);
+  return mask;
+}
+
+/// The permissions of a file, or those that a new one gets.
+mode_t GetPermissions(const std::string& path)
+{
+  struct stat status;
+  return stat(path.c_str(), &status) == 0 ? status.st_mode & AllPermissions : 0666 & ~GetMask();
+}
+
+void CheckFile(const std::string& name, const std::string& target)
+{
+  struct stat status;
+  if (!fs::path(target).has_filename() ||
+    (stat(target.c_str(), &status) == 0 && S_ISDIR(status.st_mode)))
+  {
+    Refuse(name, "it is a folder");
+  }
+  // An older file is written over only if that is allowed, though it could be replaced; a new one
+  // may have a name that is too long.
+  if (access(target.c_str(), W_OK) != 0 && errno != ENOENT)
+  {
+    Refuse(name, std::strerror(errno));
+  }
 }
 
 void CheckReplaceable(const std::string& name, const fs::path& path, const std::string& marker)
@@ -57,112 +133,201 @@ void CheckReplaceable(const std::string& name, const fs::path& path, const std::
   }
 }
 
-/// Renames a folder, over an older one if there is any.
-std::error_code ReplaceFolder(const fs::path& from, const fs::path& to)
+/// Gives a folder the name of an older one, which gets the first one's name, as far as the file
+/// system can do both in one step; else the older one's name ends in ".older" at first.
+std::error_code ExchangeFolders(const std::string& from, const std::string& to)
 {
-  const fs::path older = from.string() + ".older";
-  std::error_code error;
-  if (fs::exists(to, error))
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0)
   {
-    fs::rename(to, older, error);
+    return {};
   }
+  const std::string older = from + ".older";
+  std::error_code error;
+  fs::rename(to, older, error);
   if (error)
   {
     return error;
   }
   fs::rename(from, to, error);
   std::error_code ignored;
-  if (error)
-  {
-    fs::rename(older, to, ignored); // as it was
-    return error;
-  }
-  fs::remove_all(older, ignored);
+  fs::rename(older, error ? to : from, ignored);
   return error;
 }
 
 } // namespace
 
 AtomicOutput::AtomicOutput(const std::string& fileName)
-  : Name(fileName)
-  , TemporaryName(MakeTemporaryName(fileName, false))
+  : Name(fileName == "-" ? "standard output" : fileName)
   , IsFolder(false)
 {
-  if (fs::is_directory(fileName))
+  if (IsStream(fileName))
   {
-    Refuse(fileName, "it is a folder");
+    this->Passes = true;
+    if (fileName == "-")
+    {
+      const int flags = fcntl(STDOUT_FILENO, F_GETFL);
+      if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY)
+      {
+        Refuse(this->Name, std::strerror(EBADF));
+      }
+      if (isatty(STDOUT_FILENO) == 1)
+      {
+        Refuse(this->Name, "it is a terminal");
+      }
+    }
+    else
+    {
+      this->Target = fileName;
+      CheckFile(this->Name, this->Target);
+    }
+    this->MakeFile(fs::temp_directory_path().string());
+    return;
   }
-  const Interrupts::Hold hold;
-  const int file = open(this->TemporaryName.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0)
-  {
-    Refuse(fileName, std::strerror(errno));
-  }
-  close(file);
-  this->Pending.emplace_back(this->TemporaryName, Interrupts::Kind::File);
+  this->Target = FollowLinks(fileName);
+  CheckFile(this->Name, this->Target);
+  this->MakeFile(GetParent(this->Target));
 }
 
 AtomicOutput::AtomicOutput(const std::string& folderName, const std::string& marker)
   : Name(folderName)
-  , TemporaryName(MakeTemporaryName(GetFolderPath(folderName), true))
+  , Target(FollowLinks(GetFolderPath(folderName).string()))
+  , TemporaryName(MakeHiddenName(Target))
+  , HiddenName(TemporaryName)
   , IsFolder(true)
 {
-  CheckReplaceable(folderName, GetFolderPath(folderName), marker);
-  const Interrupts::Hold hold;
+  CheckReplaceable(folderName, this->Target, marker);
+  this->Pending = std::make_unique<Worker::Pending>(this->TemporaryName);
   std::error_code error;
   fs::create_directory(this->TemporaryName, error);
   if (error)
   {
     Refuse(folderName, error.message());
   }
-  this->Pending.emplace_back(this->TemporaryName, Interrupts::Kind::Folder);
 }
 
 AtomicOutput::~AtomicOutput()
 {
-  if (!this->TemporaryName.empty())
+  if (this->File >= 0)
+  {
+    close(this->File);
+    --NumberOfUnnamed;
+  }
+  if (this->Pending)
   {
     std::error_code error;
-    fs::remove_all(this->TemporaryName, error);
+    fs::remove_all(this->HiddenName, error);
   }
 }
 
-std::string AtomicOutput::AddFile(const std::string& name)
+/// Makes a file in a folder, if possible without a name. Only this process may open it until it is
+/// whole.
+void AtomicOutput::MakeFile(const std::string& folder)
 {
-  std::string path = (fs::path(this->TemporaryName) / name).string();
-  this->Pending.emplace_back(path, Interrupts::Kind::File);
-  return path;
+  constexpr mode_t OwnOnly = 0600;
+  if (NumberOfUnnamed < MaximumUnnamed)
+  {
+    this->File = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, OwnOnly);
+  }
+  const std::string path = "/proc/self/fd/" + std::to_string(this->File);
+  if (this->File >= 0 && access(path.c_str(), W_OK) == 0)
+  {
+    ++NumberOfUnnamed;
+    this->TemporaryName = path;
+    this->HiddenName = MakeHiddenName(this->Target);
+    return;
+  }
+  if (this->File >= 0)
+  {
+    close(this->File);
+    this->File = -1;
+  }
+  this->HiddenName = this->TemporaryName = MakeHiddenName(fs::path(folder) / "any");
+  this->Pending = std::make_unique<Worker::Pending>(this->TemporaryName);
+  const int file =
+    open(this->TemporaryName.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, OwnOnly);
+  if (file < 0)
+  {
+    Refuse(this->Name, std::strerror(errno));
+  }
+  close(file);
 }
 
-void AtomicOutput::AddFolder(const std::string& name)
+std::string AtomicOutput::AddFile(const std::string& name) const
 {
-  const std::string path = (fs::path(this->TemporaryName) / name).string();
-  const Interrupts::Hold hold;
+  return (fs::path(this->TemporaryName) / name).string();
+}
+
+void AtomicOutput::AddFolder(const std::string& name) const
+{
   std::error_code error;
-  fs::create_directory(path, error);
+  fs::create_directory(this->AddFile(name), error);
   if (error)
   {
     Refuse(this->Name + "/" + name, error.message());
   }
-  this->Pending.emplace_back(path, Interrupts::Kind::Folder);
 }
 
 void AtomicOutput::Commit()
 {
-  const Interrupts::Hold hold;
-  std::error_code error;
-  if (this->IsFolder)
+  if (this->Passes)
   {
-    error = ReplaceFolder(this->TemporaryName, GetFolderPath(this->Name));
+    CopyToStream(this->TemporaryName, this->Target, this->Name);
+  }
+  else if (this->IsFolder)
+  {
+    this->CommitFolder();
   }
   else
   {
-    fs::rename(this->TemporaryName, this->Name, error);
+    this->CommitFile();
+  }
+}
+
+void AtomicOutput::CommitFile()
+{
+  if (chmod(this->TemporaryName.c_str(), GetPermissions(this->Target)) != 0)
+  {
+    Refuse(this->Name, std::strerror(errno));
+  }
+  if (this->File >= 0)
+  {
+    // A link does not replace a file, so that the file gets a hidden name before its own.
+    this->Pending = std::make_unique<Worker::Pending>(this->HiddenName);
+    if (linkat(AT_FDCWD, this->TemporaryName.c_str(), AT_FDCWD, this->HiddenName.c_str(),
+          AT_SYMLINK_FOLLOW) != 0)
+    {
+      Refuse(this->Name, std::strerror(errno));
+    }
+  }
+  if (std::rename(this->HiddenName.c_str(), this->Target.c_str()) != 0)
+  {
+    Refuse(this->Name, std::strerror(errno));
+  }
+  this->Pending.reset();
+}
+
+void AtomicOutput::CommitFolder()
+{
+  std::error_code error;
+  if (fs::exists(this->Target, error))
+  {
+    error = ExchangeFolders(this->TemporaryName, this->Target);
+  }
+  else
+  {
+    fs::rename(this->TemporaryName, this->Target, error);
   }
   if (error)
   {
     Refuse(this->Name, error.message());
   }
-  this->TemporaryName.clear();
-  this->Pending.clear();
+  // What is left is the older folder, which the destructor removes.
+}
+
+bool HasExtension(const std::string& fileName, const std::vector<std::string>& extensions)
+{
+  const std::string extension = GetExtension(fileName);
+  return extension.empty()
+    ? IsStream(fileName)
+    : std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }

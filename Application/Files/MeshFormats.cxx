@@ -227,10 +227,9 @@ Reader MakePlot3dReader(const std::string& coordinates, const std::string& solut
 } // namespace
 
 vtkSmartPointer<vtkAlgorithm> MakeMeshReader(
-  const std::string& fileName, const std::string& plot3dSolution)
+  const std::string& fileName, const std::string& extension, const std::string& plot3dSolution)
 {
   CheckReadable(fileName);
-  const std::string extension = GetFormatExtension(fileName);
   if (!plot3dSolution.empty() || Contains(GetPlot3dExtensions(), extension))
   {
     return MakePlot3dReader(fileName, plot3dSolution);

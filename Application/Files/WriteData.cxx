@@ -2,8 +2,12 @@
 #include "Files/WriteData.h"
 
 #include "CommandLine/CommandErrors.h"
+#include "CommandLine/LibraryOutput.h"
 #include "CommandLine/MessageCapture.h"
+#include "CommandLine/ProgressLine.h"
+#include "Files/WriteBytes.h"
 
+#include "vtkCommand.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -17,16 +21,23 @@ template <class WriterT>
 void Write(WriterT* writer, const std::string& path, const std::string& name)
 {
   const MessageCapture messages;
-  writer->SetFileName(path.c_str());
-  writer->Write();
-  if (writer->GetErrorCode() != vtkErrorCode::NoError)
   {
-    throw WorkError("cannot write '" + name +
-      "': " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+    const LibraryOutput output; // libpng prints what it also returns
+    ProgressLine progress("writing " + name);
+    progress.Observe(writer, vtkCommand::ProgressEvent);
+    writer->SetFileName(path.c_str());
+    writer->Write();
   }
-  if (!messages.GetError().empty())
+  const bool fails = writer->GetErrorCode() != vtkErrorCode::NoError;
+  if (fails || !messages.GetError().empty())
   {
-    throw WorkError("cannot write '" + name + "': " + messages.GetError());
+    const std::string obstacle = FindWriteObstacle(path);
+    throw WorkError("cannot write '" + name + "': " +
+      (!obstacle.empty() ? obstacle
+          : writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError
+          ? "there was not enough space"
+          : fails ? vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())
+                  : messages.GetError()));
   }
 }
 

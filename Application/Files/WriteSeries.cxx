@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/WriteSeries.h"
 
-#include "CommandLine/CommandErrors.h"
+#include "Files/WriteBytes.h"
 
 #include "vtkIndent.h"
 #include "vtkNew.h"
 #include "vtkXMLDataElement.h"
 
-#include <fstream>
+#include <sstream>
 
 void WritePvd(
   const std::vector<SeriesStep>& steps, const std::string& path, const std::string& name)
@@ -31,11 +31,7 @@ void WritePvd(
       collection->AddNestedElement(file);
     }
   }
-  std::ofstream stream(path);
+  std::ostringstream stream;
   root->PrintXML(stream, vtkIndent());
-  stream.close();
-  if (!stream)
-  {
-    throw WorkError("cannot write '" + name + "'");
-  }
+  WriteText(stream.str(), path, name);
 }

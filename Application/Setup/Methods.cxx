@@ -222,7 +222,7 @@ std::vector<MethodChoice> ListMethods(const std::string& method, vtkRenderWindow
   if (!methods.empty())
   {
     vtkNew<vtkTetrahedraGPURayCastMapper> rayCaster;
-    if (!rayCaster->IsSupported(window))
+    if (!rayCaster->IsAccelerated(window))
     {
       methods.clear();
     }

@@ -58,11 +58,17 @@ void CheckComponent(const std::string& option, const std::string& text)
 CLI::Option* AddInputOptions(CLI::App* command, InputFile& input)
 {
   CLI::Option* option =
-    command->add_option("IN", input.Name, "File to read: " + GetInputHelp())->type_name("");
+    command
+      ->add_option("IN", input.Name,
+        "File to read; - is standard input, which may have VTK XML, VTK legacy, Exodus or NRRD: " +
+          GetInputHelp())
+      ->check(MakeNameCheck())
+      ->type_name("");
   command
     ->add_option("--plot3d-q", input.Plot3dSolution,
       "Solution file of the PLOT3D coordinates IN; as well, IN may be both with a comma between: "
       "xyz.bin,q.bin")
+    ->check(MakeNameCheck())
     ->type_name("FILE");
   CLI::Option* time = AddOption(command, "--time",
     "Time step nearest to this time of a file that has several, in the file's units; info lists "
@@ -84,6 +90,7 @@ void AddScalarOptions(CLI::App* command, SceneOptions& options)
     ->add_option("--array", options.Array,
       "Array to colour by, of the points or else of the cells; default: the active scalars, else "
       "the first array of floating point numbers")
+    ->check(MakeNameCheck())
     ->type_name("NAME");
   AddOption(command, "--component",
     "Component of an array that has several, counted from 0, or magnitude, the default",
@@ -97,6 +104,7 @@ void AddScalarOptions(CLI::App* command, SceneOptions& options)
     ->add_option("--transfer", options.TransferFile,
       "Colour and opacity: a preset of ParaView, or a list of them, of which the first is used, at "
       "its own scalar values; default: cool to warm over the array's range, opacity from 0 to 1")
+    ->check(MakeNameCheck())
     ->type_name("FILE.json");
   AddOption(command, "--opacity-unit-distance",
     "Length over which the opacity is reached, in units of the data: attenuation is opacity / D; "

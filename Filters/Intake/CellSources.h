@@ -9,6 +9,7 @@
 #include "vtkDataArrayRange.h"
 #include "vtkDataSet.h"
 #include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -67,13 +68,17 @@ public:
   template <class AddFaceT>
   void GetFaces(vtkIdType cellId, AddFaceT&& addFace) const
   {
-    vtkNew<vtkIdList> stream; // number of faces, then size and ids of each
-    this->Grid->GetFaceStream(cellId, stream);
-    vtkIdType next = 1;
-    while (next < stream->GetNumberOfIds())
+    // VTK's own functions take for granted that these arrays are whole.
+    vtkIdTypeArray* locations = this->Grid->GetFaceLocations();
+    vtkIdTypeArray* stream = this->Grid->GetFaces(); // number of faces, then size and ids of each
+    const vtkIdType end = stream ? stream->GetNumberOfValues() : 0;
+    vtkIdType next =
+      locations && cellId < locations->GetNumberOfValues() ? locations->GetValue(cellId) : -1;
+    vtkIdType faces = 0 <= next && next < end ? stream->GetValue(next++) : 0;
+    for (; faces > 0 && next < end; --faces)
     {
-      const vtkIdType size = stream->GetId(next++);
-      if (size < 0 || next + size > stream->GetNumberOfIds())
+      const vtkIdType size = stream->GetValue(next++);
+      if (size < 0 || size > end - next)
       {
         return;
       }

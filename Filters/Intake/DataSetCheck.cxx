@@ -3,6 +3,7 @@
 
 #include "Intake/StructuredLayout.h"
 
+#include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkPoints.h"
 #include "vtkRectilinearGrid.h"
@@ -55,6 +56,26 @@ std::string FindDamage(vtkDataSet* dataSet, const StructuredLayout& layout)
   return {};
 }
 
+/// Returns the first cell whose list of points is not within the array of them, or -1.
+struct FindBadList
+{
+  template <class CellStateT>
+  vtkIdType operator()(CellStateT& state) const
+  {
+    const vtkIdType end = state.GetConnectivity()->GetNumberOfValues();
+    for (vtkIdType cell = 0; cell < state.GetNumberOfCells(); ++cell)
+    {
+      const vtkIdType first = state.GetBeginOffset(cell);
+      const vtkIdType last = state.GetEndOffset(cell);
+      if (first < 0 || last < first || end < last)
+      {
+        return cell;
+      }
+    }
+    return -1;
+  }
+};
+
 } // namespace
 
 std::string FindDamage(vtkDataSet* dataSet)
@@ -75,6 +96,20 @@ std::string FindDamage(vtkDataSet* dataSet)
     }
   }
   return {};
+}
+
+std::string FindDamageOfCells(vtkUnstructuredGrid* grid)
+{
+  std::string damage = FindDamage(grid);
+  if (damage.empty() && grid->GetNumberOfCells() > 0)
+  {
+    const vtkIdType cell = grid->GetCells()->Visit(FindBadList());
+    if (cell >= 0)
+    {
+      damage = "the points of its cell " + std::to_string(cell) + " are not in its array of them";
+    }
+  }
+  return damage;
 }
 
 } // namespace tetralux

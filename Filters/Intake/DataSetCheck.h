@@ -7,6 +7,7 @@
 #include <string>
 
 class vtkDataSet;
+class vtkUnstructuredGrid;
 
 namespace tetralux
 {
@@ -15,6 +16,10 @@ namespace tetralux
 /// for granted: readers of damaged files leave it otherwise. Returns one line that says what is
 /// wrong, empty where nothing is. Constant time; ids of points are not looked at.
 TETRALUXFILTERS_EXPORT std::string FindDamage(vtkDataSet* dataSet);
+
+/// The same, and whether each cell's list of points is within the array of them: for those that
+/// read cells by VTK's functions, which do not look. Linear time.
+TETRALUXFILTERS_EXPORT std::string FindDamageOfCells(vtkUnstructuredGrid* grid);
 
 } // namespace tetralux
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Intake/GridTetrahedra.h"
 
+#include "Intake/DataSetCheck.h"
 #include "Intake/IntakeReport.h"
 #include "Mesh/MeshLimits.h"
 
@@ -47,6 +48,11 @@ std::string ReadTetrahedra(vtkUnstructuredGrid* grid, TetrahedralMesh& mesh)
     return "the input has " + std::to_string(numberOfPoints) + " points and " +
       std::to_string(numberOfCells) + " cells; at most " + std::to_string(MaximumPoints) + " and " +
       std::to_string(MaximumCells) + " are possible";
+  }
+  const std::string damage = FindDamageOfCells(grid);
+  if (!damage.empty())
+  {
+    return "the input is damaged: " + damage;
   }
   mesh.Points.resize(3 * static_cast<std::size_t>(numberOfPoints));
   for (vtkIdType i = 0; i < numberOfPoints; ++i)

@@ -56,10 +56,13 @@ constexpr vtkIdType Grain = 65536;
 struct ReduceTuples
 {
   template <class ArrayT>
-  void operator()(ArrayT* array, vtkIdType count, int vectorMode, int component, double* out) const
+  void operator()(ArrayT* array, vtkIdType count, const ScalarSelection& selection, int component,
+    double* out) const
   {
     const auto tuples = vtk::DataArrayTupleRange(array);
-    const bool magnitude = vectorMode == Magnitude && array->GetNumberOfComponents() > 1;
+    const int size =
+      selection.VectorSize > 0 ? selection.VectorSize : array->GetNumberOfComponents();
+    const bool magnitude = selection.VectorMode == Magnitude && size > 1;
     vtkSMPTools::For(0, count, Grain,
       [&](vtkIdType begin, vtkIdType end)
       {
@@ -69,9 +72,10 @@ struct ReduceTuples
           if (magnitude)
           {
             double sum = 0;
-            for (const auto value : tuple)
+            for (int c = 0; c < size; ++c)
             {
-              sum += static_cast<double>(value) * static_cast<double>(value);
+              const auto value = static_cast<double>(tuple[component + c]);
+              sum += value * value;
             }
             out[i] = std::sqrt(sum);
           }
@@ -201,7 +205,8 @@ std::string CheckArray(vtkDataArray* array, vtkIdType count, bool cellData,
       " values for " + std::to_string(count) + (cellData ? " cells" : " points");
   }
   const int components = array->GetNumberOfComponents();
-  component = selection.VectorMode == Component ? selection.VectorComponent : 0;
+  const bool chosen = selection.VectorMode == Component || selection.VectorSize > 0;
+  component = chosen ? selection.VectorComponent : 0;
   if (component < 0 || component >= components)
   {
     return "array '" + name + "' has no component " + std::to_string(component) + "; it has " +
@@ -264,10 +269,9 @@ std::vector<double> ReadInput(
     }
     double* out = values.data() + (result.CellData ? block.FirstCell : block.FirstPoint);
     ReduceTuples worker;
-    if (!vtkArrayDispatch::Dispatch::Execute(
-          array, worker, count, selection.VectorMode, component, out))
+    if (!vtkArrayDispatch::Dispatch::Execute(array, worker, count, selection, component, out))
     {
-      worker(array, count, selection.VectorMode, component, out);
+      worker(array, count, selection, component, out);
     }
   }
   return values;

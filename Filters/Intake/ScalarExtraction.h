@@ -33,6 +33,8 @@ struct ScalarSelection
   /// -1 disabled (the first component), 0 magnitude, 1 component VectorComponent.
   int VectorMode = -1;
   int VectorComponent = 0;
+  /// Components of the magnitude, from VectorComponent on; 0: all.
+  int VectorSize = 0;
 };
 
 /// The result of ExtractScalars. Where Error is not empty, Values is empty.

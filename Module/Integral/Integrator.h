@@ -18,6 +18,7 @@ enum class Integrator
   Emission,      ///< emission alone
   Maximum,       ///< the largest scalar
   Isosurfaces,   ///< scalars at points only
+  Components,    ///< emission and absorption of several scalars at points; by the ray caster only
   Count
 };
 

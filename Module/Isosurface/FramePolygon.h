@@ -63,12 +63,29 @@ constexpr double BoxRounding = 4. / (1ll << 53);
 /// edge functions below EdgeRounding: its square root, and less. Which way they turn is not known.
 constexpr double TinyBox = 1. / (1 << 26);
 
-/// Prepares a polygon for the rays within the bounds of a packet. Returns whether any may hit it.
-/// largest: largest |u| and |v| of the packet, at least 1.
-TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, double largest,
-  float margin, const Isopolygon& polygon, FramePolygon& result)
+/// Whether there is no whole number from low to high.
+TETRALUX_INLINE bool IsBetweenPixels(double low, double high)
 {
-  double x[4], y[4], d[4], w[4];
+  return __builtin_floor(high) < low;
+}
+
+/// Corners of a polygon in a RayFrame.
+struct FrameCorners
+{
+  double X[4], Y[4], Depth[4];
+  double W[4]; ///< what u and v are divided by: depths, or 1 for parallel rays
+  bool Tiny;   ///< by TinyBox
+};
+
+/// Finds where a polygon is for the rays within the bounds of a packet: keys and bounds of corners.
+/// Returns whether any ray may hit it. largest: largest |u| and |v| of the packet, at least 1.
+TETRALUX_INLINE bool PlaceCorners(const RayFrame& frame, const RayPacket& packet, double largest,
+  float margin, const Isopolygon& polygon, FrameCorners& corners, FramePolygon& result)
+{
+  double(&x)[4] = corners.X;
+  double(&y)[4] = corners.Y;
+  double(&d)[4] = corners.Depth;
+  double(&w)[4] = corners.W;
 #pragma omp simd simdlen(4)
   for (int i = 0; i < 4; ++i)
   {
@@ -81,7 +98,7 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
   const double nearest = LeastOf(d);
   const double farthest = LargestOf(d);
   bool allBefore = true;
-  bool tiny = false;
+  corners.Tiny = false;
   if (frame.Parallel)
   {
     for (double& one : w)
@@ -126,11 +143,17 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
     result.HighU = static_cast<float>(highU) + margin;
     result.LowV = static_cast<float>(lowV) - margin;
     result.HighV = static_cast<float>(highV) + margin;
-    tiny = highU - lowU < TinyBox * largest && highV - lowV < TinyBox * largest;
+    corners.Tiny = highU - lowU < TinyBox * largest && highV - lowV < TinyBox * largest;
     result.BoxLowU = lowU - BoxRounding * largest;
     result.BoxHighU = highU + BoxRounding * largest;
     result.BoxLowV = lowV - BoxRounding * largest;
     result.BoxHighV = highV + BoxRounding * largest;
+    if (frame.Pixels &&
+      (IsBetweenPixels(result.BoxLowU, result.BoxHighU) ||
+        IsBetweenPixels(result.BoxLowV, result.BoxHighV)))
+    {
+      return false;
+    }
   }
   else
   {
@@ -140,6 +163,18 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
     result.BoxHighU = result.BoxHighV = InfiniteKey;
   }
 
+  return true;
+}
+
+/// Finds the edges and the plane of a polygon whose corners are placed. Returns whether any ray may
+/// hit it.
+TETRALUX_INLINE bool PlaceEdges(
+  const RayFrame& frame, double largest, const FrameCorners& corners, FramePolygon& result)
+{
+  const double(&x)[4] = corners.X;
+  const double(&y)[4] = corners.Y;
+  const double(&d)[4] = corners.Depth;
+  const double(&w)[4] = corners.W;
   // Edge i runs from corner i to the next one.
   const double nextX[4] = { x[1], x[2], x[3], x[0] };
   const double nextY[4] = { y[1], y[2], y[3], y[0] };
@@ -187,7 +222,7 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
   }
   if (volume == 0 || (frame.Parallel && across[2] == 0))
   {
-    if (!tiny)
+    if (!corners.Tiny)
     {
       return false; // seen from its edge
     }
@@ -219,6 +254,15 @@ TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, doubl
   }
 
   return true;
+}
+
+/// Both.
+TETRALUX_INLINE bool Place(const RayFrame& frame, const RayPacket& packet, double largest,
+  float margin, const Isopolygon& polygon, FramePolygon& result)
+{
+  FrameCorners corners;
+  return PlaceCorners(frame, packet, largest, margin, polygon, corners, result) &&
+    PlaceEdges(frame, largest, corners, result);
 }
 
 /// Which rays within the bounds of a packet a polygon covers, their limits left aside: none where

@@ -326,14 +326,20 @@ private:
   {
     PlacedPolygon placed;
     placed.Id = id;
-    if (!Place(this->Frame, this->Packet, this->Largest, this->Margin, polygon, placed.Polygon))
+    FrameCorners corners;
+    // Most polygons are hidden or small: where no chunk may hit one, its edges are not needed.
+    const std::uint32_t chunks = PlaceCorners(this->Frame, this->Packet, this->Largest,
+                                   this->Margin, polygon, corners, placed.Polygon)
+      ? FindChunks(this->Packet, placed.Polygon)
+      : 0;
+    if (chunks == 0 || !PlaceEdges(this->Frame, this->Largest, corners, placed.Polygon))
     {
       ++this->Counts.Polygons;
       ++this->Counts.PolygonMisses;
       return false;
     }
     placed.Part = FindLimitedPart(this->Limits, polygon);
-    return HitPlaced<AnyHit>(this->Limits, this->Frame, placed, this->Packet, this->Counts);
+    return HitPlaced<AnyHit>(this->Limits, this->Frame, placed, chunks, this->Packet, this->Counts);
   }
 
   const TraceTree& Tree;

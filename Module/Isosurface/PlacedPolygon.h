@@ -19,17 +19,15 @@ struct PlacedPolygon
   LimitedPart Part;
 };
 
-/// Intersects the rays of a packet with a polygon. Returns whether any may have hit it.
+/// Intersects the rays of a packet with a polygon. chunks: those of FindChunks. Returns whether any
+/// may have hit it.
 template <bool AnyHit>
 TETRALUX_INLINE bool HitPlaced(const TraceLimits& limits, const RayFrame& frame,
-  const PlacedPolygon& placed, RayPacket& packet, TraceCounts& counts)
+  const PlacedPolygon& placed, std::uint32_t chunks, RayPacket& packet, TraceCounts& counts)
 {
   ++counts.Polygons;
-  const Coverage coverage = Cover(placed.Polygon, packet);
-  std::uint32_t chunks = coverage == Coverage::None || placed.Part == LimitedPart::None
-    ? 0
-    : FindChunks(packet, placed.Polygon);
-  if (chunks == 0)
+  const Coverage coverage = chunks == 0 ? Coverage::None : Cover(placed.Polygon, packet);
+  if (coverage == Coverage::None || placed.Part == LimitedPart::None)
   {
     ++counts.PolygonMisses;
     return false;

@@ -203,7 +203,9 @@ TETRALUX_INLINE void TracePlaced(const TraceTree& tree, const RayFrame& frame,
       {
         if (query.MayHit(placed.Bounds[i]))
         {
-          changed |= HitPlaced<AnyHit>(limits, frame, polygons[i], packet, counts);
+          const PlacedPolygon& polygon = polygons[i];
+          changed |= HitPlaced<AnyHit>(
+            limits, frame, polygon, FindChunks(packet, polygon.Polygon), packet, counts);
         }
         else
         {

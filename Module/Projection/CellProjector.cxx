@@ -15,6 +15,10 @@ namespace
 /// Corners farther from the picture than this, in pixels, would cost a rasteriser its accuracy.
 constexpr double LargestPosition = 16384;
 
+/// How many times farther from 0 than another one's the z of the base may be. Differences to it are
+/// rounded in single precision, so that a depth is off by at most 16 times 2^-24 of itself.
+constexpr double LargestReach = 16;
+
 } // namespace
 
 int CellProjector::Project(const ScreenPoint* const (&points)[4], ProjectedCell& result)
@@ -55,18 +59,28 @@ int CellProjector::Project(const ScreenPoint* const (&points)[4], ProjectedCell&
   Linear faces[4];
   bool seen[4];
   bool front[4];
-  int base = -1;
-  double leastSlope = std::numeric_limits<double>::max();
+  // The largest |z| of each face in the part of the picture that the cell covers; 1 at least in a
+  // perspective.
+  double reaches[4];
+  double leastReach = std::numeric_limits<double>::max();
   bool allSeen = true;
   for (int i = 0; i < 4; ++i)
   {
     seen[i] = cell.FindFace(i, faces[i], front[i]);
     allSeen = allSeen && seen[i];
+    reaches[i] = std::abs(faces[i].Value) +
+      0.5 * std::abs(faces[i].SlopeX) * (box.Hi[0] - box.Lo[0]) +
+      0.5 * std::abs(faces[i].SlopeY) * (box.Hi[1] - box.Lo[1]);
+    leastReach = seen[i] ? std::min(leastReach, reaches[i]) : leastReach;
+  }
+  // The least steep one. A face whose plane passes the eye closely is not steep where it is
+  // parallel to the picture, but differences to its z would be rounding alone.
+  int base = -1;
+  double leastSlope = std::numeric_limits<double>::max();
+  for (int i = 0; i < 4; ++i)
+  {
     const double slope = faces[i].SlopeX * faces[i].SlopeX + faces[i].SlopeY * faces[i].SlopeY;
-    // A face in whose plane the eye is, to rounding, is not steep where it is parallel to the
-    // picture, but differences to its z would be rounding alone.
-    const bool passesEye = std::abs(faces[i].Value) > 1 / ScreenFrame::SmallestDepth;
-    if (seen[i] && !passesEye && slope < leastSlope)
+    if (seen[i] && slope < leastSlope && reaches[i] <= LargestReach * std::max(leastReach, 1.))
     {
       leastSlope = slope;
       base = i;

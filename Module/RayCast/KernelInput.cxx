@@ -69,6 +69,20 @@ void FillTable(const PreIntegrationTable& table, const float* texels, OwningKern
   in.Table = &in.Lookup;
 }
 
+void FillComponents(const VolumeScene& scene, OwningKernelInput& in)
+{
+  const std::vector<IntervalTable>& tables = scene.Optics.GetComponentIntervals();
+  KernelComponents& components = in.SeveralScalars;
+  components.Count = static_cast<int>(tables.size());
+  components.Dependent = scene.Optics.GetComponents().Dependent;
+  components.Rows = scene.GetComponentRows().front().Scalars;
+  for (std::size_t c = 0; c < tables.size(); ++c)
+  {
+    components.Intervals[c] = tables[c].Intervals.data();
+  }
+  in.Components = &components;
+}
+
 void FillLighting(const VolumeScene& scene, const RayGrid& grid, const RayCastOptions& options,
   const CastChoices& choices, OwningKernelInput& in)
 {
@@ -122,6 +136,10 @@ void FillKernelInput(const VolumeScene& scene, const RayGrid& grid, const RayLim
   if (choices.Lit)
   {
     FillLighting(scene, grid, options, choices, in);
+  }
+  if (choices.Method == Integrator::Components)
+  {
+    FillComponents(scene, in);
   }
   if (IsTabulated(choices.Method))
   {

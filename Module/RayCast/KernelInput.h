@@ -37,6 +37,7 @@ struct OwningKernelInput : KernelInput
   KernelLighting Light{};
   std::vector<KernelLight> Lights;
   KernelTable Lookup{};
+  KernelComponents SeveralScalars{};
 
   OwningKernelInput()
     : KernelInput{}

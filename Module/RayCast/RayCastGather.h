@@ -12,6 +12,8 @@
 //                cells, and a surface between their scalars must not be lost.
 //   NeedsGradients  whether the gradients on a cell's faces are told before it is added:
 //   EnterCell    the distances z of both faces, and the gradients there
+//   NeedsComponents  whether several scalars on a cell's faces are told before it is added:
+//   EnterComponents  the distances z of both faces, and the scalars there
 //   First        distance z to the ray's first contribution, or infinity
 
 #include "RayCast/RayCastFrame.h"
@@ -50,6 +52,12 @@ TETRALUX_INLINE Double8 Widen(Double8 x) { return x; }
 TETRALUX_INLINE Float8 LoadLanes(const float* p) { return LoadFloat8(p); }
 TETRALUX_INLINE Double8 LoadLanes(const double* p) { return LoadDouble8(p); }
 
+/// Several scalars in each lane.
+struct ComponentLanes
+{
+  Double8 S[MostComponents];
+};
+
 template <class Real>
 struct FirstContribution
 {
@@ -72,6 +80,7 @@ public:
   using V = LanesOfReal<Real>;
   static constexpr bool NeedsLength = true;
   static constexpr bool NeedsGradients = false;
+  static constexpr bool NeedsComponents = false;
   FirstContribution<Real> First;
 
   GatheredModel(const WorldRays& rays, Double8 start)

@@ -8,6 +8,7 @@
 #include "Hierarchy/BoundaryBvh.h"
 #include "Integral/Integrator.h"
 #include "Lighting/KernelLighting.h"
+#include "Optics/ComponentFunctions.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
 #include "PreIntegration/PreIntegrationTable.h"
@@ -43,6 +44,15 @@ struct KernelTable
   float InverseDelta;
 };
 
+/// Several scalars at points.
+struct KernelComponents
+{
+  int Count;          ///< 2 to MostComponents
+  bool Dependent;     ///< as ComponentFunctions has it
+  const double* Rows; ///< four for each point
+  const IntervalTable::Interval* Intervals[MostComponents];
+};
+
 struct KernelInput
 {
   // The mesh. Points: WalkPoint<Real> of the kernel's Real.
@@ -70,10 +80,11 @@ struct KernelInput
   /// Values of surfaces i - 1 and i, for i from 0 up to their number.
   const std::array<float, 2>* SurfaceNeighbors;
   int NumberOfSurfaces;
-  const float* SurfaceColors;     ///< red, green, blue, opacity of each surface, ascending in value
-  const KernelTable* Table;       ///< of Integrator::Table
-  const KernelLighting* Lighting; ///< of lit integrators; nullptr where isosurfaces are not lit
-  double DistanceRounding;        ///< what distances along rays may be off by, in world units
+  const float* SurfaceColors; ///< red, green, blue, opacity of each surface, ascending in value
+  const KernelTable* Table;   ///< of Integrator::Table
+  const KernelComponents* Components; ///< of Integrator::Components
+  const KernelLighting* Lighting;     ///< of lit integrators; nullptr where isosurfaces are not lit
+  double DistanceRounding;            ///< what distances along rays may be off by, in world units
 
   // The scene.
   const RayGrid* Grid;

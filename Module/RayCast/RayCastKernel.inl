@@ -27,6 +27,7 @@
 // Boundary crossings are found by the same determinants, so they come in pairs, too: walking from
 // the nearest one strikes off the one where the walk ends, and the next one left is a re-entry.
 
+#include "RayCast/RayCastComponents.h"
 #include "RayCast/RayCastCrossings.h"
 #include "RayCast/RayCastIsosurfaces.h"
 #include "RayCast/RayCastLimits.h"
@@ -175,6 +176,12 @@ private:
         this->EnterCell(z0, z1, backward);
       }
     }
+    if constexpr (Model::NeedsComponents)
+    {
+      const ComponentLanes before = this->Scalars;
+      this->InterpolateComponents();
+      this->Gathered.EnterComponents(z0, z1, before, this->Scalars);
+    }
     if constexpr (CellData)
     {
       // Imaginary cells have no values. Every lane loads some.
@@ -225,6 +232,23 @@ private:
     const LaneVector a = LoadGradient(lighting, this->A.Id);
     this->Gradient = Fma(
       LoadGradient(lighting, this->B.Id) - a, b, Fma(LoadGradient(lighting, this->C.Id) - a, c, a));
+  }
+
+  /// The scalars where each ray goes through its triangle.
+  TETRALUX_INLINE void InterpolateComponents()
+  {
+    const V scale = V(Real(1)) / (this->WA + this->WB + this->WC);
+    const V wb = this->WB * scale;
+    const V wc = this->WC * scale;
+    const double* rows = this->In.Components->Rows;
+    ComponentLanes a, b, c;
+    GatherRows(rows, this->A.Id, a.S[0], a.S[1], a.S[2], a.S[3]);
+    GatherRows(rows, this->B.Id, b.S[0], b.S[1], b.S[2], b.S[3]);
+    GatherRows(rows, this->C.Id, c.S[0], c.S[1], c.S[2], c.S[3]);
+    for (int k = 0; k < MostComponents; ++k)
+    {
+      this->Scalars.S[k] = Blend(wb, wc, a.S[k], b.S[k], c.S[k]);
+    }
   }
 
   /// Of rays past their end those that meet no cells before it that they have still to enter: cells
@@ -416,6 +440,10 @@ private:
         this->InterpolateGradient();
       }
     }
+    if constexpr (Model::NeedsComponents)
+    {
+      this->InterpolateComponents();
+    }
     this->Running |= lanes;
   }
 
@@ -505,7 +533,8 @@ private:
   Corner<Real> A, B, C;
   V WA, WB, WC; ///< weights of the corners at the ray, twice the areas across; not normalised
   V Z, S;       ///< distance and scalar there
-  LaneVector Gradient; ///< there, in coordinates of the mesh, where the model needs it
+  LaneVector Gradient;    ///< there, in coordinates of the mesh, where the model needs it
+  ComponentLanes Scalars; ///< there, where the model needs them
   Int8 Cell, CellBefore;
   Int8 Point; ///< the cell's fourth point
 
@@ -549,6 +578,7 @@ RayCastKernels MakeRayCastKernels()
   set(Integrator::Emission, MakePair<Emission, false>(), MakePair<Emission, true>());
   set(Integrator::Maximum, MakePair<Maximum, false>(), MakePair<Maximum, true>());
   set(Integrator::Isosurfaces, MakePair<Isosurfaces, false>(), {});
+  set(Integrator::Components, { nullptr, &CastRays<double, Components, false> }, {});
   return kernels;
 }
 

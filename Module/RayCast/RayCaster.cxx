@@ -113,7 +113,7 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
     ? 0
     : scene.EstimateGeometryError(choices.WorldRadius, SingleRounding);
   choices.DoublePrecision = options.Arithmetic == Precision::Double ||
-    !std::isfinite(geometryError) ||
+    choices.Method == Integrator::Components || !std::isfinite(geometryError) ||
     (options.Arithmetic == Precision::Automatic && geometryError > budget.Geometry);
   choices.TerminationError = budget.Termination;
   choices.Lit = options.Shaded && !choices.CellData &&
@@ -143,6 +143,7 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
     needs.PointGradients = choices.Lit && choices.SmoothShading;
     needs.CellGradients = choices.Lit && !choices.SmoothShading;
     needs.FloatTexels = tabulated;
+    needs.ComponentRows = choices.Method == Integrator::Components;
     scene.Prepare(needs);
   }
   return choices;

@@ -22,6 +22,10 @@ Integrator ChooseIntegrator(const VolumeScene& scene, Lighting lighting)
       break;
   }
   const bool ofCells = scene.Mesh.HasCellScalars();
+  if (scene.HasComponents())
+  {
+    return ofCells ? Integrator::ClosedForm : Integrator::Components;
+  }
   const bool lit = lighting != Lighting::None && !ofCells; // constant cells have no gradient
   if (scene.GetPlan().ConstantColor && !lit)
   {

@@ -16,6 +16,7 @@ void MeshScene::SetMesh(std::shared_ptr<WalkMesh> mesh)
 {
   this->Mesh = std::move(mesh);
   this->Scalars.clear();
+  this->OtherScalars.clear();
   this->CellsVersion = MakeVersion();
   this->PointsVersion = MakeVersion();
   this->ScalarsVersion = 0;
@@ -57,6 +58,7 @@ void MeshScene::SetScalars(std::vector<double> scalars, bool ofCells)
       std::to_string(expected) + (ofCells ? " cells" : " points"));
   }
   this->Scalars = std::move(scalars);
+  this->OtherScalars.clear();
   this->ScalarsOfCells = ofCells;
   this->ScalarsVersion = MakeVersion();
 
@@ -82,6 +84,20 @@ void MeshScene::SetScalars(std::vector<double> scalars, bool ofCells)
   {
     this->CountBlankCells();
   }
+}
+
+void MeshScene::SetOtherScalars(std::vector<std::vector<double>> scalars)
+{
+  for (const std::vector<double>& other : scalars)
+  {
+    if (other.size() != this->Scalars.size())
+    {
+      throw std::invalid_argument(std::to_string(other.size()) +
+        " further scalars were given for " + std::to_string(this->Scalars.size()));
+    }
+  }
+  this->OtherScalars = std::move(scalars);
+  this->ScalarsVersion = MakeVersion();
 }
 
 void MeshScene::SetColorScalars(std::vector<double> scalars)

@@ -39,6 +39,13 @@ public:
   void SetCellScalars(std::vector<double> scalars);
   ///@}
   const std::vector<double>& GetScalars() const { return this->Scalars; }
+
+  /// Sets further scalars of the same points or cells, for SceneOptics::SetComponents. Where one of
+  /// them is not finite, the first one must not be. New scalars remove them. Throws
+  /// std::invalid_argument if a number of them is wrong.
+  void SetOtherScalars(std::vector<std::vector<double>> scalars);
+  const std::vector<std::vector<double>>& GetOtherScalars() const { return this->OtherScalars; }
+
   bool HasCellScalars() const { return this->ScalarsOfCells; }
 
   /// Sets scalars at points that isosurfaces are coloured by, in place of their values; empty: they
@@ -55,8 +62,8 @@ public:
   /// Cells that touch a scalar which is not finite.
   std::int64_t GetNumberOfBlankCells() const { return this->NumberOfBlankCells; }
 
-  /// Versions of the cells, of the coordinates of their points, and of both scalars; 0: none. New
-  /// cells are new points, too.
+  /// Versions of the cells, of the coordinates of their points, of the scalars with the further
+  /// ones, and of those to colour by; 0: none. New cells are new points, too.
   ///@{
   std::uint64_t GetCellsVersion() const { return this->CellsVersion; }
   std::uint64_t GetPointsVersion() const { return this->PointsVersion; }
@@ -94,6 +101,7 @@ private:
 
   std::shared_ptr<WalkMesh> Mesh;
   std::vector<double> Scalars;
+  std::vector<std::vector<double>> OtherScalars;
   bool ScalarsOfCells = false;
   double ScalarRange[2] = { 0, 0 }; ///< of the finite ones
   std::int64_t NumberOfBlankCells = 0;

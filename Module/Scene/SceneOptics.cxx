@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace tetralux
 {
@@ -39,6 +41,25 @@ void SceneOptics::SetTransferFunction(const TransferFunction& function, double e
   this->FunctionError = error;
   this->FunctionVersion = MakeVersion();
   this->SetTable(nullptr, 0);
+}
+
+void SceneOptics::SetComponents(ComponentFunctions components)
+{
+  const std::size_t count = components.Functions.size();
+  if (count == 1 || count > static_cast<std::size_t>(MostComponents))
+  {
+    throw std::invalid_argument("there are functions of " + std::to_string(count) +
+      " scalars; there can be 2 to " + std::to_string(MostComponents));
+  }
+  std::vector<IntervalTable> intervals;
+  intervals.reserve(count);
+  for (const TransferFunction& function : components.Functions)
+  {
+    intervals.push_back(MakeIntervalTable(function));
+  }
+  this->Components = std::move(components);
+  this->ComponentIntervals = std::move(intervals);
+  this->FunctionVersion = MakeVersion();
 }
 
 void SceneOptics::SetIsosurfaces(std::vector<Isosurface> surfaces)

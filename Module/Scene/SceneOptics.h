@@ -3,6 +3,7 @@
 #define tetralux_SceneOptics_h
 
 #include "Base/Cached.h"
+#include "Optics/ComponentFunctions.h"
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
 #include "Optics/TransferFunction.h"
@@ -33,6 +34,19 @@ public:
   const TransferFunction& GetTransferFunction() const { return this->Function; }
   const IntervalTable& GetIntervalTable() const { return this->Intervals; }
 
+  /// Sets functions of several scalars, in place of the one of SetTransferFunction, of which the
+  /// first one is the scalar: for OpticalModel::EmissionAbsorption. Without functions: of the one
+  /// scalar. Throws std::invalid_argument as SetTransferFunction, and if their number is wrong.
+  void SetComponents(ComponentFunctions components);
+  const ComponentFunctions& GetComponents() const { return this->Components; }
+  const std::vector<IntervalTable>& GetComponentIntervals() const
+  {
+    return this->ComponentIntervals;
+  }
+
+  /// Whether there are functions of several scalars.
+  bool HasComponents() const { return !this->Components.Functions.empty(); }
+
   /// Sets what OpticalModel::Isosurfaces shows, in any order; of equal values the last one counts.
   /// Throws std::invalid_argument if a value or a colour is not finite.
   void SetIsosurfaces(std::vector<Isosurface> surfaces);
@@ -46,7 +60,7 @@ public:
   const PreIntegrationTable* GetTable() const { return this->Table.get(); }
   double GetTableError() const { return this->TableError; }
 
-  /// Versions of function, surfaces and table; 0: never set.
+  /// Versions of the functions, of surfaces and of the table; 0: never set.
   ///@{
   std::uint64_t GetFunctionVersion() const { return this->FunctionVersion; }
   std::uint64_t GetSurfacesVersion() const { return this->SurfacesVersion; }
@@ -63,6 +77,8 @@ private:
   OpticalModel Model = OpticalModel::EmissionAbsorption;
   TransferFunction Function;
   IntervalTable Intervals;
+  ComponentFunctions Components;
+  std::vector<IntervalTable> ComponentIntervals;
   std::vector<Isosurface> Surfaces;
   std::shared_ptr<const PreIntegrationTable> Table;
   double TableError = 0;

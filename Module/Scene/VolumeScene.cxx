@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 
 namespace tetralux
@@ -32,6 +33,49 @@ constexpr double LargestSingleRadius = 1e31;
 bool IsInSingleRange(double worldRadius)
 {
   return SmallestSingleRadius <= worldRadius && worldRadius <= LargestSingleRadius;
+}
+
+CellValue MakeMappedValue(const ScalarMap& map, double scalar)
+{
+  CellValue value{};
+  value.Attenuation = std::isfinite(scalar) ? static_cast<float>(map.Map(scalar))
+                                            : std::numeric_limits<float>::quiet_NaN();
+  return value;
+}
+
+/// What a place has whose scalars have these values of their functions.
+TransferFunction::Value Mix(const std::vector<TransferFunction::Value>& values, bool dependent)
+{
+  TransferFunction::Value mixed{};
+  for (const TransferFunction::Value& value : values)
+  {
+    mixed.Attenuation += value.Attenuation;
+    for (int c = 0; c < 3; ++c)
+    {
+      mixed.Color[c] += dependent ? value.Color[c] : value.Attenuation * value.Color[c];
+    }
+  }
+  for (double& channel : mixed.Color)
+  {
+    channel = dependent || mixed.Attenuation == 0 ? channel : channel / mixed.Attenuation;
+  }
+  return mixed;
+}
+
+/// For each cell 1 where any of the scalars attenuates.
+std::vector<std::uint8_t> FindCellsOfComponents(
+  const MeshScene& mesh, const ComponentFunctions& components)
+{
+  const std::vector<std::int32_t>& cells = mesh.GetMesh()->GetMesh().Cells;
+  std::vector<std::uint8_t> visible(cells.size() / 4, 0);
+  for (std::size_t c = 0; c < components.Functions.size(); ++c)
+  {
+    const std::vector<std::uint8_t> one = FindVisibleCells(components.Functions[c], cells,
+      c == 0 ? mesh.GetScalars() : mesh.GetOtherScalars()[c - 1], mesh.HasCellScalars());
+    std::transform(one.begin(), one.end(), visible.begin(), visible.begin(),
+      [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
+  }
+  return visible;
 }
 
 } // namespace
@@ -60,6 +104,13 @@ void VolumeScene::CheckComplete() const
   if (!this->Mesh.IsComplete())
   {
     throw std::invalid_argument("scalars must be set after the mesh and before rays are cast");
+  }
+  if (this->HasComponents() &&
+    this->Mesh.GetOtherScalars().size() + 1 != this->Optics.GetComponents().Functions.size())
+  {
+    throw std::invalid_argument("there are functions of " +
+      std::to_string(this->Optics.GetComponents().Functions.size()) + " scalars, and " +
+      std::to_string(this->Mesh.GetOtherScalars().size() + 1) + " scalars at each place");
   }
   if (isosurfaces && this->Mesh.HasCellScalars() && !this->Mesh.GetScalars().empty())
   {
@@ -105,6 +156,14 @@ void VolumeScene::Prepare(const SceneNeeds& needs)
   if (needs.LongestEdge)
   {
     this->Mesh.PrepareLongestEdge();
+  }
+  if (needs.ComponentRows)
+  {
+    this->PrepareComponentRows();
+  }
+  else if (!this->HasComponents())
+  {
+    this->ComponentRows.Reset();
   }
   if (needs.FloatTexels)
   {
@@ -180,28 +239,76 @@ void VolumeScene::PrepareCellValues()
 #pragma omp parallel for schedule(static)
     for (std::int64_t t = 0; t < n; ++t)
     {
-      CellValue value{};
-      if (model == OpticalModel::MaximumIntensity)
-      {
-        value.Attenuation = std::isfinite(scalars[t]) ? static_cast<float>(map.Map(scalars[t]))
-                                                      : std::numeric_limits<float>::quiet_NaN();
-      }
-      else if (std::isfinite(scalars[t]))
-      {
-        const TransferFunction::Value v = Evaluate(this->Optics.GetTransferFunction(), scalars[t]);
-        value.Attenuation = static_cast<float>(v.Attenuation);
-        for (int c = 0; c < 3; ++c)
-        {
-          value.Color[c] = static_cast<float>(v.Color[c]);
-        }
-      }
-      values[t] = value;
+      values[t] = model == OpticalModel::MaximumIntensity
+        ? MakeMappedValue(map, scalars[t])
+        : this->MakeCellValue(static_cast<std::size_t>(t));
     }
     return values;
   };
   this->CellValues.Update(CacheKey::Of(model == OpticalModel::MaximumIntensity,
                             this->Optics.GetFunctionVersion(), this->Mesh.GetScalarsVersion()),
     build);
+}
+
+CellValue VolumeScene::MakeCellValue(std::size_t cell) const
+{
+  CellValue value{};
+  const double scalar = this->Mesh.GetScalars()[cell];
+  if (!std::isfinite(scalar))
+  {
+    return value;
+  }
+  TransferFunction::Value exact{};
+  if (this->HasComponents())
+  {
+    const ComponentFunctions& components = this->Optics.GetComponents();
+    std::vector<TransferFunction::Value> values = { Evaluate(components.Functions[0], scalar) };
+    for (std::size_t c = 1; c < components.Functions.size(); ++c)
+    {
+      values.push_back(
+        Evaluate(components.Functions[c], this->Mesh.GetOtherScalars()[c - 1][cell]));
+    }
+    exact = Mix(values, components.Dependent);
+  }
+  else
+  {
+    exact = Evaluate(this->Optics.GetTransferFunction(), scalar);
+  }
+  value.Attenuation = static_cast<float>(exact.Attenuation);
+  for (int c = 0; c < 3; ++c)
+  {
+    value.Color[c] = static_cast<float>(exact.Color[c]);
+  }
+  return value;
+}
+
+void VolumeScene::PrepareComponentRows()
+{
+  const std::size_t rows = this->Mesh.GetMesh()->GetNumberOfTablePoints();
+  const auto build = [&]
+  {
+    const std::vector<IntervalTable>& tables = this->Optics.GetComponentIntervals();
+    std::vector<ComponentRow> result(rows, ComponentRow{});
+    for (std::size_t c = 0; c < tables.size(); ++c)
+    {
+      const ScalarMap map = { tables[c].Offset, tables[c].Scale };
+      const std::vector<double>& scalars =
+        c == 0 ? this->Mesh.GetScalars() : this->Mesh.GetOtherScalars()[c - 1];
+      for (std::size_t p = 0; p < scalars.size(); ++p)
+      {
+        result[p].Scalars[c] = map.Map(scalars[p]);
+      }
+    }
+    return result;
+  };
+  this->ComponentRows.Update(
+    CacheKey::Of(rows, this->Mesh.GetScalarsVersion(), this->Optics.GetFunctionVersion()), build);
+}
+
+bool VolumeScene::HasComponents() const
+{
+  return this->Optics.GetModel() == OpticalModel::EmissionAbsorption &&
+    this->Optics.HasComponents();
 }
 
 void VolumeScene::PrepareVisibleCells()
@@ -211,6 +318,12 @@ void VolumeScene::PrepareVisibleCells()
   {
     const std::vector<std::int32_t>& cells = this->Mesh.GetMesh()->GetMesh().Cells;
     VisibleCellFlags flags;
+    if (this->HasComponents())
+    {
+      flags.Cells = FindCellsOfComponents(this->Mesh, this->Optics.GetComponents());
+      flags.NumberOfTransparent = std::count(flags.Cells.begin(), flags.Cells.end(), 0);
+      return flags;
+    }
     switch (model)
     {
       case OpticalModel::MaximumIntensity: // the largest scalar may be where it is transparent

@@ -28,6 +28,7 @@ struct SceneNeeds
   bool CellGradients = false;  ///< MeshScene::GetCellGradients()
   bool LongestEdge = false;    ///< MeshScene::GetLongestEdge()
   bool FloatTexels = false;    ///< SceneOptics::GetFloatTexels()
+  bool ComponentRows = false;  ///< GetComponentRows()
 };
 
 /// Scalars in the tables that are rendered from are x = (s - Offset) / Scale: those of the transfer
@@ -38,6 +39,13 @@ struct ScalarMap
   double Scale = 1;
   double Map(double scalar) const { return (scalar - this->Offset) / this->Scale; }
 };
+
+/// The scalars of a point, each as the table of its function maps it; 0 behind the last one.
+struct alignas(4 * sizeof(double)) ComponentRow
+{
+  double Scalars[MostComponents];
+};
+static_assert(MostComponents == 4, "a row is loaded at once");
 
 /// What is rendered, the same for every method: a mesh with scalars, what rays gather in it, and
 /// what is visible of both. Prepare makes what follows from what was set; getters only read.
@@ -55,6 +63,9 @@ public:
   /// after any change of Mesh or Optics and before the getters below. The mesh must be set.
   void Prepare(const SceneNeeds& needs);
 
+  /// Whether rays gather several scalars.
+  bool HasComponents() const;
+
   /// How segments are integrated for the present model, function and scalars, table aside.
   const IntegrationPlan& GetPlan() const { return this->Plan.Get(); }
 
@@ -71,6 +82,9 @@ public:
   /// OpticalModel::MaximumIntensity the mapped scalar in place of the attenuation, not-a-number if
   /// it is not finite. Empty for scalars at points.
   const std::vector<CellValue>& GetCellValues() const { return this->CellValues.Get(); }
+
+  /// Of several scalars at points, one for each point of the tables that rays are walked through.
+  const std::vector<ComponentRow>& GetComponentRows() const { return this->ComponentRows.Get(); }
 
   /// For each cell 1 if it contributes anything, 0 if it is fully transparent; empty: all may
   /// contribute.
@@ -121,10 +135,12 @@ private:
     std::int64_t NumberOfTransparent = 0;
   };
 
+  CellValue MakeCellValue(std::size_t cell) const;
   void PreparePlan();
   void PrepareCellValues();
   template <class Real>
   void PreparePoints(CacheStamp& stamp);
+  void PrepareComponentRows();
   void PrepareVisibleCells();
   void PrepareVisibleTables();
   double GetLargestMappedScalar() const;
@@ -134,6 +150,7 @@ private:
   Cached<IntegrationPlan> Plan;
   Cached<std::vector<CellValue>> CellValues;
   CacheStamp SinglePoints, DoublePoints; ///< of the mesh's tables
+  Cached<std::vector<ComponentRow>> ComponentRows;
   Cached<VisibleCellFlags> Visible;
   WalkTables VisibleTables; ///< empty: rays are walked through all cells
   CacheStamp VisibleTopology;

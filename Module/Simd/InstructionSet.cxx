@@ -30,6 +30,17 @@ InstructionSet GetWidestInstructionSet()
   return GetInstructionSet();
 }
 
+bool HasFastGathers()
+{
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+  static const bool fast =
+    GetWidestInstructionSet() == InstructionSet::Avx512 && __builtin_cpu_is("amd");
+  return fast;
+#else
+  return false;
+#endif
+}
+
 const char* GetName(InstructionSet set)
 {
   switch (set)

@@ -4,10 +4,10 @@
 
 namespace tetralux
 {
-
-/// Lanes of a vector: how many numbers the kernels compute at once. The same for every instruction
-/// set, so that one packet of rays serves all kernels. The vector types carry it in their names.
-constexpr int LaneCount = 8;
+#ifndef TETRALUX_LANE_COUNT // else 16, of kernels for AVX-512 that share no packets with others
+#define TETRALUX_LANE_COUNT 8
+#endif
+constexpr int LaneCount = TETRALUX_LANE_COUNT; ///< of a vector: the same for each instruction set
 
 /// One bit for each lane.
 constexpr unsigned AllLanes = (1u << LaneCount) - 1;

@@ -6,8 +6,8 @@
 // This header chooses an implementation by the options of the compiler: LanesAvx2.h for AVX2 with
 // FMA, LanesGeneric.h for every other processor. Each lives in a namespace of its own
 // (TETRALUX_ISA), so that one library can hold the kernels of several instruction sets. What is
-// compiled for AVX-512 uses the lanes of AVX2.
-// InstructionSet.h tells which of them to call.
+// compiled for AVX-512 uses the lanes of AVX2, or with a TETRALUX_LANE_COUNT of 16 those of
+// LanesAvx512.h, by the same names. InstructionSet.h tells which of them to call.
 //
 // Types
 //
@@ -66,9 +66,10 @@
 //   Polynomial(x, c)   Horner's scheme, with Fma
 
 #include "Simd/LaneCount.h"
-
 #if defined(__AVX2__) && defined(__FMA__)
-#if defined(__AVX512F__)
+#if TETRALUX_LANE_COUNT == 16
+#define TETRALUX_ISA isa_avx512_wide
+#elif defined(__AVX512F__)
 #define TETRALUX_ISA isa_avx512
 #else
 #define TETRALUX_ISA isa_avx2
@@ -78,9 +79,7 @@
 #define TETRALUX_ISA isa_generic
 #define TETRALUX_AVX2 0
 #endif
-
-// Forced in the AVX2 kernels only. The loops over lanes of the other kernels, and what the
-// sanitizers add, take minutes to compile if they are all in one function.
+// Else loops over lanes, and what sanitizers add, take minutes to compile in one function.
 #if defined(__GNUC__) && TETRALUX_AVX2 && !defined(__SANITIZE_ADDRESS__)
 #define TETRALUX_INLINE inline __attribute__((always_inline))
 #else
@@ -91,8 +90,9 @@
 #else
 #define TETRALUX_NOINLINE
 #endif
-
-#if TETRALUX_AVX2
+#if TETRALUX_LANE_COUNT == 16
+#include "Simd/LanesAvx512.h"
+#elif TETRALUX_AVX2
 #include "Simd/LanesAvx2.h"
 #else
 #include "Simd/LanesGeneric.h"

@@ -182,22 +182,35 @@ void BlockLabels::Build(
 }
 
 void EmptySpace::Build(
-  const std::int32_t size[3], const std::function<bool(std::int64_t)>& contributes)
+  const std::int32_t size[3], int threads, const std::function<bool(std::int64_t)>& contributes)
 {
   std::copy(size, size + 3, this->Size);
   const std::int64_t nx = this->Size[0] + 1, ny = this->Size[1] + 1, nz = this->Size[2] + 1;
   this->Sums.assign(static_cast<std::size_t>(nx * ny * nz), 0);
+  // Sums in each layer of blocks by itself, and then over the layers.
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
   for (std::int64_t z = 1; z < nz; ++z)
   {
     for (std::int64_t y = 1; y < ny; ++y)
     {
       std::int32_t row = 0;
+      std::int32_t* sums = &this->Sums[(z * ny + y) * nx];
       for (std::int64_t x = 1; x < nx; ++x)
       {
         row += contributes(((z - 1) * (ny - 1) + y - 1) * (nx - 1) + x - 1) ? 1 : 0;
-        const auto at = [&](std::int64_t j, std::int64_t k)
-        { return this->Sums[(k * ny + j) * nx + x]; };
-        this->Sums[(z * ny + y) * nx + x] = row + at(y - 1, z) + at(y, z - 1) - at(y - 1, z - 1);
+        sums[x] = row + sums[x - nx];
+      }
+    }
+  }
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::int64_t y = 1; y < ny; ++y)
+  {
+    for (std::int64_t z = 2; z < nz; ++z)
+    {
+      std::int32_t* sums = &this->Sums[(z * ny + y) * nx];
+      for (std::int64_t x = 1; x < nx; ++x)
+      {
+        sums[x] += sums[x - ny * nx];
       }
     }
   }

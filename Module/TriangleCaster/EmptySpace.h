@@ -96,9 +96,10 @@ private:
 class TETRALUXCORE_EXPORT EmptySpace
 {
 public:
-  /// size: blocks along each axis. contributes: whether a block may contribute, by its index, x
-  /// fastest.
-  void Build(const std::int32_t size[3], const std::function<bool(std::int64_t)>& contributes);
+  /// size: blocks along each axis. threads: at least 1. contributes: whether a block may
+  /// contribute, by its index, x fastest; called by all threads.
+  void Build(
+    const std::int32_t size[3], int threads, const std::function<bool(std::int64_t)>& contributes);
 
   /// Whether no cell that a box meets contributes. low, high: corners in coordinates of the volume.
   bool IsEmpty(const double low[3], const double high[3]) const

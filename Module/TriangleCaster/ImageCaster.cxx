@@ -42,17 +42,34 @@ constexpr int WorkSize = 32;
 constexpr int SmallestTile = 4;
 constexpr int LargestTile = 64;
 
-ImageKernel GetKernel(InstructionSet set, const ImageKernelInput& in)
+/// A kernel, and what it is compiled for.
+struct ChosenKernel
+{
+  ImageKernel Kernel;
+  InstructionSet Set;
+};
+
+ChosenKernel ChooseKernel(const ImageCasterOptions& options, const ImageKernelInput& in)
 {
   const bool components = in.Components > 1 || in.Labels;
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  if (set == InstructionSet::Avx2)
+  if (!options.PortableKernels && options.WideKernels && !components && HasFastGathers())
   {
-    return components ? GetImageComponentKernelAvx2(in) : GetImageKernelAvx2(in);
+    const ImageKernel kernel = GetImageKernelAvx512(in);
+    if (kernel)
+    {
+      return { kernel, InstructionSet::Avx512 };
+    }
+  }
+  if (!options.PortableKernels && GetInstructionSet() == InstructionSet::Avx2)
+  {
+    return { components ? GetImageComponentKernelAvx2(in) : GetImageKernelAvx2(in),
+      InstructionSet::Avx2 };
   }
 #endif
-  static_cast<void>(set);
-  return components ? GetImageComponentKernelGeneric(in) : GetImageKernelGeneric(in);
+  static_cast<void>(options);
+  return { components ? GetImageComponentKernelGeneric(in) : GetImageKernelGeneric(in),
+    InstructionSet::Generic };
 }
 
 /// About half of the volume's size, in world units.
@@ -272,7 +289,7 @@ void ImageCaster::Internals::PrepareSpace(int threads, ImageKernelInput& in)
     const std::vector<BlockLabels::Set>& sets = this->Labels.GetSets();
     // A surface may be between two samples that have something hidden between them.
     const bool hides = !sets.empty() && in.Blend != ImageBlend::Isosurfaces;
-    this->Space.Build(functions.front().Blocks->GetSize(),
+    this->Space.Build(functions.front().Blocks->GetSize(), threads,
       [&](std::int64_t block)
       {
         const BlockLabels::Set set = hides ? sets[block] : BlockLabels::GetSet(0);
@@ -430,7 +447,8 @@ void ImageCaster::Internals::PrepareGradients(
     in.InterpolateIntensities = options.SumOfLights == LightSum::Interpolated;
   }
   const bool needed = in.Lighting || in.Table.Entries || in.GradientTransfer.Count > 0;
-  if (needed && in.Blend == ImageBlend::Composite && options.Gradients == GradientSource::Bytes)
+  const bool uses = in.Blend == ImageBlend::Composite || in.Blend == ImageBlend::Isosurfaces;
+  if (needed && uses && options.Gradients == GradientSource::Bytes)
   {
     if (!this->GradientsValid)
     {
@@ -585,9 +603,7 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   }
   self.PrepareGradients(options, threads, in);
 
-  const InstructionSet set =
-    options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();
-  const ImageKernel kernel = GetKernel(set, in);
+  const ChosenKernel chosen = ChooseKernel(options, in);
   struct alignas(64) Counts : ImageKernelCounts
   {
   };
@@ -595,8 +611,8 @@ ImageCastStatistics ImageCaster::Cast(const RayGrid& grid, const RayLimits& limi
   const TileGrid tiles{ grid.Width, grid.Height, std::max(WorkSize, in.TileSize) };
   ImageCastStatistics statistics;
   statistics.Aborted = !ForEachTile(tiles, threads, options.Progress,
-    [&](const Tile& tile, int thread) { kernel(in, tile, counts[thread]); });
-  statistics.InstructionSet = GetName(set);
+    [&](const Tile& tile, int thread) { chosen.Kernel(in, tile, counts[thread]); });
+  statistics.InstructionSet = GetName(chosen.Set);
   statistics.NumberOfThreads = threads;
   statistics.Slices = in.Slices.Count;
   for (const Counts& count : counts)

@@ -42,8 +42,9 @@ struct ImageCasterOptions
   /// with Shaded or depth cueing, nor where opacity depends on gradients.
   bool PreIntegrated = false;
 
-  /// Whether lights shine on samples, from the side of the viewer, by gradients as normals: ambient
-  /// and diffuse light times the colour, and Blinn's highlights. What is lit is not clamped.
+  /// Whether lights shine on samples, or on isosurfaces, from the side of the viewer, by gradients
+  /// as normals: ambient and diffuse light times the colour, and Blinn's highlights. What is lit is
+  /// not clamped. ImageBlend::Composite and Isosurfaces only.
   bool Shaded = false;
   std::vector<Light> Lights;
   Material Surface;
@@ -83,6 +84,11 @@ struct ImageCasterOptions
   /// Use the kernels that run on any processor even where there are faster ones; the pictures
   /// differ by rounding. For tests of those kernels.
   bool PortableKernels = false;
+
+  /// Use the kernels of 16 lanes where the processor has AVX-512 and fast gathers, and samples are
+  /// composited by a function of their scalar alone. The pictures are the same bits. For tests of
+  /// the others.
+  bool WideKernels = true;
 
   /// As in RayCastOptions. May be empty.
   std::function<bool(double)> Progress;

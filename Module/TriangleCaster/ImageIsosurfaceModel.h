@@ -5,10 +5,13 @@
 // Surfaces of constant scalar between the samples of a ray.
 
 #include "TriangleCaster/CompositingBuffer.h"
+#include "TriangleCaster/GradientModel.h"
 #include "TriangleCaster/ImageRays.h"
 #include "TriangleCaster/ImageSample.h"
+#include "TriangleCaster/SamplePlaces.h"
 
 #include <cstdint>
+#include <type_traits>
 
 namespace tetralux
 {
@@ -18,8 +21,9 @@ namespace
 {
 
 /// Each ray knows between which two values its last sample was, so that a sample is compared with
-/// two values, however many surfaces there are.
-template <class Value>
+/// two values, however many surfaces there are. Gradients: NoGradients, or GradientModel where
+/// lights shine.
+template <class Value, class Gradients>
 class ImageIsosurfaceModel : public CompositingBuffer
 {
 public:
@@ -28,6 +32,8 @@ public:
 
   ImageIsosurfaceModel(const ImageKernelInput& in, const ImageRays& rays)
     : CompositingBuffer(in, rays)
+    , Rays(rays)
+    , Gradient(in, rays)
     , Scalar(LoadFloat8(rays.Kept[ScalarRow]))
     , Middle(LoadFloat8(rays.Kept[MiddleRow]))
     , Next(LoadFloat8(rays.Kept[NextRow]))
@@ -116,7 +122,11 @@ private:
       GatherRows(in.Surfaces.Optics, surface, color[0], color[1], color[2], opacity);
       const Float8 value = Select(rises, this->Upper, this->Lower);
       hit.Front = Fma(value - this->Scalar, way, this->Middle);
-      // A normal there would let lights change the colour.
+      if constexpr (IsLit)
+      {
+        hit.Front = Select(crosses, hit.Front, sample.Middle); // a place for each ray
+        this->Light(in, hit, color);
+      }
       this->AddSample(hit, Keep(crosses & this->GetOpen(), opacity), color);
       this->Below = Select(crosses, Select(rises, this->Below + Int8(1), surface), this->Below);
       this->FindBounds(in);
@@ -124,6 +134,21 @@ private:
     } while (Any(crosses));
   }
 
+  /// Lets lights shine on what is at hit.Front.
+  TETRALUX_INLINE void Light(const ImageKernelInput& in, ImageSample& hit, Float8 (&color)[3])
+  {
+    hit.Share = 0.f;
+    const auto slab = static_cast<float>(hit.Slab);
+    PlaceSample(in, FindPositions(in, this->Rays, hit.Slab), hit.Front - Float8(slab), hit);
+    typename Gradients::template Field<Value> field;
+    field.LoadScalar(in, hit);
+    this->Gradient.Light(in, *in.Lighting, hit, field.GetGradient(in, hit), color);
+  }
+
+  static constexpr bool IsLit = !std::is_same_v<Gradients, NoGradients>;
+
+  const ImageRays& Rays;
+  Gradients Gradient;
   Float8 Scalar; ///< of the last sample
   Float8 Middle; ///< slab position of the last sample
   Float8 Next;   ///< slab of the sample that follows the last one; 0 where none does

@@ -242,7 +242,13 @@ ImageKernel GetImageKernelAvx2(const ImageKernelInput& in);
 #endif
 ///@}
 
-/// The same for several components, or labels.
+#ifdef TETRALUX_HAVE_AVX2_KERNEL
+/// The same, with 16 lanes for AVX-512, where samples are composited by a function of their scalar
+/// alone; else nullptr. The pictures are the same bits as by AVX2.
+ImageKernel GetImageKernelAvx512(const ImageKernelInput& in);
+#endif
+
+/// The same as GetImageKernelGeneric for several components, or labels.
 ///@{
 ImageKernel GetImageComponentKernelGeneric(const ImageKernelInput& in);
 #ifdef TETRALUX_HAVE_AVX2_KERNEL

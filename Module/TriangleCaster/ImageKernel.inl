@@ -77,7 +77,8 @@ ImageKernel ChooseModel(const ImageKernelInput& in)
     case ImageBlend::Additive:
       return ChooseLookup<Value, AdditiveModel>(in);
     case ImageBlend::Isosurfaces:
-      return &CastTile<Value, ImageIsosurfaceModel<Value>>;
+      return in.Lighting ? &CastTile<Value, ImageIsosurfaceModel<Value, GradientModel<true>>>
+                         : &CastTile<Value, ImageIsosurfaceModel<Value, NoGradients>>;
     case ImageBlend::Slice:
       return &CastSlice<Value>;
     default:

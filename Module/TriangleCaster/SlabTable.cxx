@@ -112,10 +112,12 @@ TransferFunction MakeAttenuationFunction(const ImageOptics& optics, double lengt
 
 } // namespace
 
-void SlabTable::Update(const ImageOptics& optics, double length, const double (&range)[2])
+void SlabTable::Update(const ImageOptics& optics, double slabLength, const double (&range)[2])
 {
-  constexpr double Nearby = 1. / 8;
-  if (std::abs(length - this->Length) < Nearby * this->Length)
+  constexpr double LengthsOfOctave = 4;
+  const double length =
+    std::exp2(std::round(LengthsOfOctave * std::log2(slabLength)) / LengthsOfOctave);
+  if (length == this->Length)
   {
     return;
   }

@@ -19,10 +19,12 @@ public:
   /// Texels along each scalar: one a value of 8-bit data, and 1 MiB in all.
   static constexpr int Size = 256;
 
-  /// length: of a slab, world units. range: smallest and largest scalar of the volume. Does nothing
-  /// where nothing changed but the length, by less than an eighth. Throws as
+  /// slabLength: world units. range: smallest and largest scalar of the volume. The table's
+  /// own slabs have the nearest length out of four an octave, within a tenth: a table serves
+  /// distances that change a little, and does not depend on those that came before. Does nothing
+  /// where nothing changed but the length, and not that of the table. Throws as
   /// BuildPreIntegrationTable.
-  void Update(const ImageOptics& optics, double length, const double (&range)[2]);
+  void Update(const ImageOptics& optics, double slabLength, const double (&range)[2]);
 
   /// To be called when optics or range change.
   void Invalidate() { this->Length = 0; }

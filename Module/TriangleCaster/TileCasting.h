@@ -9,6 +9,7 @@
 #include "TriangleCaster/ImageRays.h"
 #include "TriangleCaster/ImageSample.h"
 #include "TriangleCaster/MaskLanes.h"
+#include "TriangleCaster/SamplePlaces.h"
 #include "TriangleCaster/TileSpace.h"
 
 #include <algorithm>
@@ -23,27 +24,10 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Finds the cells of a vector's samples. way: slabs from the start of the block.
-TETRALUX_INLINE void PlaceSample(
-  const ImageKernelInput& in, const BlockPositions& positions, Float8 way, ImageSample& sample)
-{
-  const std::int32_t strides[3] = { 1, in.Row, in.Slice };
-  sample.Index = positions.Index;
-  for (int a = 0; a < 3; ++a)
-  {
-    const Float8 x = Fma(positions.Step[a], way, positions.Base[a]);
-    // The cell, and at its border either of two.
-    const Int8 cell = RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[a]), positions.High[a]));
-    sample.Place[a] = x - ToFloat(cell);
-    sample.Cell[a] = ToFloat(cell) - positions.Low[a];
-    sample.Index = sample.Index + cell * Int8(strides[a]);
-  }
-}
-
 /// Which samples of a vector neither a mask nor a hidden cell hides.
 struct ShownSamples
 {
-  unsigned char Bits[SlabsOfBlock][MostCroppedParts]; ///< one of each ray
+  std::uint16_t Bits[SlabsOfBlock][MostCroppedParts]; ///< one of each ray, of up to 16
 };
 
 /// Finds them in slabs [begin, end) of the block that begins at slab start. Apart from CastBlock,
@@ -63,7 +47,7 @@ TETRALUX_NOINLINE void FindShownSamples(const ImageKernelInput& in, const ImageR
       const Float8 to = Select(LoadInt8(rays.Last[p]) == n, LoadFloat8(rays.End[p]), Float8(1.f));
       ImageSample place;
       PlaceSample(in, positions, position + Float8(0.5f) * (from + to), place);
-      shown.Bits[slab - start][p] = static_cast<unsigned char>(Bits(FindShown(in, place)));
+      shown.Bits[slab - start][p] = static_cast<std::uint16_t>(Bits(FindShown(in, place)));
     }
   }
 }

@@ -39,8 +39,8 @@ void CPUDrawing::Draw(
   if (frame.HasOpaqueGeometry())
   {
     const Stopwatch stopwatch;
-    picture.OpaqueDistances =
-      std::make_shared<const std::vector<float>>(ReadOpaqueDistances(frame.Renderer, rays));
+    picture.OpaqueDistances = std::make_shared<const std::vector<float>>(
+      ReadOpaqueDistances(this->Opaque, frame.Window, rays));
     frame.Seconds.emplace_back("depth_buffer", stopwatch.GetSeconds());
   }
   frame.Opaque = picture.OpaqueDistances && !picture.OpaqueDistances->empty();
@@ -124,6 +124,7 @@ void CPUDrawing::Composite(
 void CPUDrawing::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Compositor.ReleaseGraphicsResources(window);
+  this->Opaque.ReleaseGraphicsResources(window);
 }
 
 double CPUDrawing::ChooseSampleDistance(
@@ -133,9 +134,8 @@ double CPUDrawing::ChooseSampleDistance(
   {
     return distances.Fixed;
   }
-  int width, height;
-  frame.Renderer->GetTiledSize(&width, &height);
-  const double fullSeconds = this->SecondsPerRay * width * height;
+  const PixelRectangle whole = FindDrawnViewport(frame.Renderer).Whole;
+  const double fullSeconds = this->SecondsPerRay * whole.Width * whole.Height;
   const double distance = std::sqrt(fullSeconds / frame.Volume->GetAllocatedRenderTime());
   return std::max(std::min(distance, distances.Maximum), distances.Minimum);
 }

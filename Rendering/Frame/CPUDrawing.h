@@ -6,6 +6,7 @@
 #include "Base/Span.h"
 #include "Frame/CPUPicture.h"
 #include "Frame/ImageCompositor.h"
+#include "Frame/OpaqueDepth.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkType.h"
@@ -64,6 +65,7 @@ private:
   };
 
   ImageCompositor Compositor;
+  OpaqueDepth Opaque;
   LastPicture Last;
   double SecondsPerRay = 0; ///< of the last picture; 0: none yet
 };

@@ -3,7 +3,6 @@
 
 #include "vtkCamera.h"
 #include "vtkMatrix4x4.h"
-#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
 #include <algorithm>
@@ -94,24 +93,16 @@ std::array<double, 4> FindEye(vtkCamera* camera)
 
 CameraRays::CameraRays(vtkRenderer* renderer, double sampleDistance)
 {
-  renderer->GetTiledSizeAndOrigin(
-    &this->ViewportSize[0], &this->ViewportSize[1], &this->LowerLeft[0], &this->LowerLeft[1]);
-  const int* window = renderer->GetRenderWindow()->GetActualSize();
-  this->Visible.X = std::max(this->LowerLeft[0], 0);
-  this->Visible.Y = std::max(this->LowerLeft[1], 0);
-  this->Visible.Width =
-    std::max(std::min(this->LowerLeft[0] + this->ViewportSize[0], window[0]) - this->Visible.X, 0);
-  this->Visible.Height =
-    std::max(std::min(this->LowerLeft[1] + this->ViewportSize[1], window[1]) - this->Visible.Y, 0);
-  if (this->Visible.Width == 0 || this->Visible.Height == 0)
+  this->Viewport = FindDrawnViewport(renderer);
+  const PixelRectangle& visible = this->Viewport.Visible;
+  if (visible.Width == 0)
   {
-    this->Visible.Width = this->Visible.Height = 0;
     return;
   }
   const auto countRays = [sampleDistance](int pixels)
   { return std::max(1, static_cast<int>(std::lround(pixels / sampleDistance))); };
-  this->Grid.Width = countRays(this->Visible.Width);
-  this->Grid.Height = countRays(this->Visible.Height);
+  this->Grid.Width = countRays(visible.Width);
+  this->Grid.Height = countRays(visible.Height);
 
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->GetPosition(this->Position);
@@ -172,12 +163,12 @@ CameraRays::CameraRays(vtkRenderer* renderer, double sampleDistance)
 
 void CameraRays::GetDevicePoint(double i, double j, double& x, double& y) const
 {
-  const double pixelX =
-    this->Visible.X - this->LowerLeft[0] + (i + 0.5) * this->Visible.Width / this->Grid.Width;
-  const double pixelY =
-    this->Visible.Y - this->LowerLeft[1] + (j + 0.5) * this->Visible.Height / this->Grid.Height;
-  x = 2 * pixelX / this->ViewportSize[0] - 1;
-  y = 2 * pixelY / this->ViewportSize[1] - 1;
+  const PixelRectangle& whole = this->Viewport.Whole;
+  const PixelRectangle& visible = this->Viewport.Visible;
+  const double pixelX = visible.X - whole.X + (i + 0.5) * visible.Width / this->Grid.Width;
+  const double pixelY = visible.Y - whole.Y + (j + 0.5) * visible.Height / this->Grid.Height;
+  x = 2 * pixelX / whole.Width - 1;
+  y = 2 * pixelY / whole.Height - 1;
 }
 
 CameraRays::DepthPlaces CameraRays::GetDepthPlaces() const

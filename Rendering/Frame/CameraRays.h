@@ -2,6 +2,7 @@
 #ifndef tetralux_CameraRays_h
 #define tetralux_CameraRays_h
 
+#include "Frame/DrawnViewport.h"
 #include "TetraluxRenderingModule.h"
 #include "View/DepthMap.h"
 #include "View/RayGrid.h"
@@ -20,16 +21,7 @@ namespace tetralux
 /// std::invalid_argument, with one line, where the camera's matrices have no inverse.
 std::array<double, 4> FindEye(vtkCamera* camera);
 
-/// A rectangle of pixels of the window, from its lower left.
-struct PixelRectangle
-{
-  int X = 0;
-  int Y = 0;
-  int Width = 0;
-  int Height = 0;
-};
-
-/// The rays of a renderer's camera through what the window shows of its viewport: any projection
+/// The rays of a renderer's camera through the visible part of its viewport: any projection
 /// that vtkCamera can make, since they are taken from its matrices. All is computed relative to the
 /// camera's position, so that a scene far from the origin loses no accuracy.
 class TETRALUXRENDERING_EXPORT CameraRays
@@ -39,8 +31,8 @@ public:
   /// camera's matrices have no inverse.
   CameraRays(vtkRenderer* renderer, double sampleDistance);
 
-  /// What the window shows of the viewport; empty where Width or Height is 0.
-  const PixelRectangle& GetVisible() const { return this->Visible; }
+  /// The visible part of the viewport; empty where Width or Height is 0.
+  const PixelRectangle& GetVisible() const { return this->Viewport.Visible; }
 
   /// The rays, from the camera's eye or, in a parallel projection, the plane through it. Its
   /// MeshFromWorld is the identity.
@@ -69,9 +61,7 @@ private:
   /// Position of a ray in normalized device coordinates.
   void GetDevicePoint(double i, double j, double& x, double& y) const;
 
-  PixelRectangle Visible;
-  int LowerLeft[2] = { 0, 0 }; ///< of the viewport, may be outside of the window
-  int ViewportSize[2] = { 0, 0 };
+  DrawnViewport Viewport;
   RayGrid Grid;
   double Position[3] = { 0, 0, 0 };
   double DeviceFromWorld[16]; ///< rows; world relative to Position

@@ -7,7 +7,11 @@
 #include "vtkAbstractVolumeMapper.h"
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
+#include "vtkDualDepthPeelingPass.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationObjectBaseVectorKey.h"
+#include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -41,6 +45,21 @@ Json Describe(const ErrorBudget& budget)
   section["light"] = budget.Light;
   section["slices"] = budget.Slices;
   return section;
+}
+
+/// Whether a pass is under way that peels the volume layer by layer.
+bool IsPeeled(vtkVolume* volume)
+{
+  vtkInformation* keys = volume->GetPropertyKeys();
+  vtkInformationObjectBaseVectorKey* passes = vtkOpenGLRenderPass::RenderPasses();
+  for (int k = 0; keys && k < keys->Length(passes); ++k)
+  {
+    if (vtkDualDepthPeelingPass::SafeDownCast(keys->Get(passes, k)))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Keeps an object until an event that it is told of.
@@ -173,6 +192,13 @@ MapperFrame FrameRecord::Begin(vtkRenderer* renderer, vtkVolume* volume)
   if (!frame.Window)
   {
     throw std::invalid_argument("the renderer has no OpenGL render window");
+  }
+  if (IsPeeled(volume))
+  {
+    throw std::invalid_argument("vtkDualDepthPeelingPass peels volumes through shaders that this "
+                                "mapper does not have: set the renderer's "
+                                "UseDepthPeelingForVolumes off, and give the pass no "
+                                "VolumetricPass");
   }
   this->Context.Set(frame.Window);
   frame.Window->MakeCurrent(); // an observer may have rendered another one

@@ -48,6 +48,7 @@ public:
   /// throws becomes an error of one line, which is not given again until a frame succeeds; then
   /// nothing is left of the frame. Draw is given a frame with this picture, and with progress by
   /// VolumeMapperRenderProgressEvent. seconds: receives what it took, before the second event.
+  /// A renderer without a window of OpenGL and a render pass that peels volumes are such errors.
   void Render(vtkRenderer* renderer, vtkVolume* volume,
     const std::function<void(MapperFrame&)>& draw, double& seconds);
 

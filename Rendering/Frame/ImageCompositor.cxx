@@ -16,9 +16,56 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tetralux
 {
+namespace
+{
+
+/// While one lives, only the first picture of the frame buffer is drawn into: render passes bind
+/// others beside it, such as positions and normals of opaque geometry.
+class FirstPictureOnly
+{
+public:
+  FirstPictureOnly()
+  {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_DRAW_BUFFERS, &most);
+    for (GLuint k = 1; k < static_cast<GLuint>(most); ++k)
+    {
+      GLint buffer = GL_NONE;
+      glGetIntegerv(GL_DRAW_BUFFER0 + k, &buffer);
+      if (buffer != GL_NONE)
+      {
+        Mask mask = { k, {} };
+        glGetBooleani_v(GL_COLOR_WRITEMASK, k, mask.Channels);
+        glColorMaski(k, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        this->Masks.push_back(mask);
+      }
+    }
+  }
+  ~FirstPictureOnly()
+  {
+    for (const Mask& mask : this->Masks)
+    {
+      const GLboolean* channels = mask.Channels;
+      glColorMaski(mask.Buffer, channels[0], channels[1], channels[2], channels[3]);
+    }
+  }
+  FirstPictureOnly(const FirstPictureOnly&) = delete;
+  FirstPictureOnly& operator=(const FirstPictureOnly&) = delete;
+
+private:
+  struct Mask
+  {
+    GLuint Buffer;
+    GLboolean Channels[4];
+  };
+  std::vector<Mask> Masks;
+};
+
+} // namespace
 
 ImageCompositor::ImageCompositor()
   : Context(
@@ -180,6 +227,7 @@ void ImageCompositor::Draw(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const cha
       quad->Program->SetUniformi(name, texture->GetTextureUnit());
     }
   }
+  const FirstPictureOnly firstOnly;
   quad->Render();
   for (const auto& [name, texture] : textures)
   {

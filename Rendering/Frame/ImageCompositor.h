@@ -19,7 +19,8 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// Blends a float picture over what a window's frame buffer shows. Holds graphics resources of one
+/// Blends a float picture over what the frame buffer shows that is bound for drawing, the first
+/// one of its pictures. Holds graphics resources of one
 /// window at a time, the last one.
 class TETRALUXRENDERING_EXPORT ImageCompositor
 {

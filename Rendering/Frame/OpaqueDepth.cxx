@@ -24,7 +24,7 @@ struct DepthFormat
   std::size_t Bytes;
 };
 
-/// That of the depth buffer bound for drawing: depths are copied only between equal ones.
+/// That of the depth buffer bound for reading: depths are copied only between equal ones.
 DepthFormat FindDepthFormat(bool windowsOwn)
 {
   const auto get = [windowsOwn](bool stencil, GLenum parameter)
@@ -34,10 +34,10 @@ DepthFormat FindDepthFormat(bool windowsOwn)
     const GLenum attachment = stencil ? (windowsOwn ? GL_STENCIL : GL_STENCIL_ATTACHMENT)
                                       : (windowsOwn ? GL_DEPTH : GL_DEPTH_ATTACHMENT);
     glGetFramebufferAttachmentParameteriv(
-      GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
+      GL_READ_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
     if (type != GL_NONE)
     {
-      glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, parameter, &value);
+      glGetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, attachment, parameter, &value);
     }
     return value;
   };
@@ -64,6 +64,33 @@ DepthFormat FindDepthFormat(bool windowsOwn)
   return { internal, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, static_cast<std::size_t>(4) };
 }
 
+/// While one lives, reading comes from a frame buffer; then both that were bound are bound again.
+class ReadingFrom
+{
+public:
+  ReadingFrom(vtkOpenGLState* state, unsigned int framebuffer)
+    : State(state)
+  {
+    state->PushFramebufferBindings();
+    state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  }
+  ~ReadingFrom() { this->State->PopFramebufferBindings(); }
+  ReadingFrom(const ReadingFrom&) = delete;
+  ReadingFrom& operator=(const ReadingFrom&) = delete;
+
+private:
+  vtkOpenGLState* State;
+};
+
+/// The frame buffer that is bound for drawing; between frames, the one that frames are drawn into.
+unsigned int FindSource(vtkOpenGLRenderWindow* window)
+{
+  GLint bound = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+  vtkOpenGLFramebufferObject* own = window->GetRenderFramebuffer();
+  return bound == 0 && own->GetContext() ? own->GetFBOIndex() : static_cast<unsigned int>(bound);
+}
+
 } // namespace
 
 OpaqueDepth::OpaqueDepth()
@@ -85,11 +112,11 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
   while (glGetError() != GL_NO_ERROR) // of others
   {
   }
-  int source = 0;
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &source);
+  vtkOpenGLState* state = window->GetState();
+  const unsigned int source = FindSource(window);
+  const ReadingFrom reading(state, source);
   const DepthFormat format = FindDepthFormat(source == 0);
 
-  vtkOpenGLState* state = window->GetState();
   const vtkOpenGLState::ScopedglActiveTexture unit(state);
   const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
   state->vtkglDisable(GL_SCISSOR_TEST);
@@ -118,8 +145,6 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
     this->Format = format.Internal;
   }
   this->Framebuffer->SetContext(window);
-  state->PushFramebufferBindings();
-  state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, source);
   this->Framebuffer->Bind(GL_DRAW_FRAMEBUFFER);
   if (changed)
   {
@@ -131,9 +156,7 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
   }
   glBlitFramebuffer(rectangle.X, rectangle.Y, rectangle.X + width, rectangle.Y + height, 0, 0,
     width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-  const bool copied = glGetError() == GL_NO_ERROR;
-  state->PopFramebufferBindings();
-  if (!copied)
+  if (glGetError() != GL_NO_ERROR)
   {
     throw std::runtime_error("the depth buffer could not be copied");
   }
@@ -143,8 +166,7 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
 void OpaqueDepth::Read(Span<float> depths)
 {
   vtkOpenGLState* state = this->Context.Get()->GetState();
-  state->PushFramebufferBindings();
-  this->Framebuffer->Bind(GL_READ_FRAMEBUFFER);
+  const ReadingFrom reading(state, this->Framebuffer->GetFBOIndex());
   state->vtkglReadBuffer(GL_NONE);
   GLint alignment = 0;
   glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
@@ -153,7 +175,6 @@ void OpaqueDepth::Read(Span<float> depths)
   glReadPixels(0, 0, static_cast<GLsizei>(this->Texture->GetWidth()),
     static_cast<GLsizei>(this->Texture->GetHeight()), GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, alignment);
-  state->PopFramebufferBindings();
 }
 
 bool OpaqueDepth::IsSame(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle)

@@ -3,7 +3,7 @@
 #define tetralux_OpaqueDepth_h
 
 #include "Base/Span.h"
-#include "Frame/CameraRays.h"
+#include "Frame/DrawnViewport.h"
 #include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
 

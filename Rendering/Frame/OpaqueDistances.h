@@ -3,20 +3,21 @@
 #define tetralux_OpaqueDistances_h
 
 #include "Frame/CameraRays.h"
+#include "Frame/OpaqueDepth.h"
 #include "TetraluxRenderingModule.h"
 
 #include <vector>
 
-class vtkRenderer;
+class vtkOpenGLRenderWindow;
 
 namespace tetralux
 {
 
 /// For each ray the distance to the opaque geometry that was drawn before, from the depth buffer at
 /// the pixel that the ray goes through; infinite where there is none. Empty where there is none at
-/// all. Throws std::runtime_error where the depth buffer can't be read.
+/// all. depth: keeps the copy that is read. Throws what OpaqueDepth::Copy does.
 TETRALUXRENDERING_EXPORT std::vector<float> ReadOpaqueDistances(
-  vtkRenderer* renderer, const CameraRays& rays);
+  OpaqueDepth& depth, vtkOpenGLRenderWindow* window, const CameraRays& rays);
 
 } // namespace tetralux
 

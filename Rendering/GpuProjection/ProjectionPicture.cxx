@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <stdexcept>
 
 namespace tetralux
@@ -32,6 +33,45 @@ constexpr std::size_t BatchSize = 131072;
 
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.
 constexpr float Beyond = 1e38f;
+
+/// Batches that may wait for the graphics card: one that it draws and one that is ready. Drivers
+/// keep a copy of each batch until it is drawn, without a limit of their own: 300 bytes a cell.
+constexpr std::size_t MaximumBatchesInFlight = 2;
+
+/// The batches that were sent and may not be drawn yet.
+class BatchQueue
+{
+public:
+  BatchQueue() = default;
+  BatchQueue(const BatchQueue&) = delete;
+  BatchQueue& operator=(const BatchQueue&) = delete;
+
+  ~BatchQueue()
+  {
+    for (const GLsync fence : this->Fences)
+    {
+      glDeleteSync(fence);
+    }
+  }
+
+  /// Waits until there is room for one more.
+  void MakeRoom()
+  {
+    if (this->Fences.size() == MaximumBatchesInFlight)
+    {
+      glClientWaitSync(this->Fences.front(), GL_SYNC_FLUSH_COMMANDS_BIT, LongestWait);
+      glDeleteSync(this->Fences.front());
+      this->Fences.pop_front();
+    }
+  }
+
+  void Add() { this->Fences.push_back(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
+
+private:
+  static constexpr GLuint64 LongestWait = GLuint64(60) * 1000 * 1000 * 1000; // nanoseconds
+
+  std::deque<GLsync> Fences;
+};
 
 /// What is set while cells are drawn, and set back.
 class DrawingState
@@ -228,6 +268,7 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   }
 
   Result result;
+  BatchQueue queue;
   const std::size_t size = scene.Order.size();
   for (std::size_t begin = 0; begin < size && !result.Aborted; begin += BatchSize)
   {
@@ -238,7 +279,9 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
     result.ProjectSeconds += stopwatch.GetSeconds();
     result.Cells += this->Cells.GetNumberOfCells();
     result.Triangles += static_cast<std::int64_t>(this->Cells.Triangles.size() / 3);
+    queue.MakeRoom();
     this->Drawer.Draw(this->Cells);
+    queue.Add();
     result.Aborted = progress &&
       !progress(static_cast<double>(std::min(begin + BatchSize, size)) / static_cast<double>(size));
   }

@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <stdexcept>
 
 namespace tetralux
 {
@@ -160,6 +161,16 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------------------------
+std::int64_t FindMostPasses(std::int64_t cells, int parts)
+{
+  constexpr std::int64_t Walks = 2;
+  constexpr std::int64_t Starts = 2;
+  // The last pass of a ray finds out that it is done, and counts are known some passes later.
+  constexpr auto Spare = static_cast<std::int64_t>(PassesAhead) + 2;
+  return Starts * parts * (Walks * cells + 1) + Spare;
+}
+
+//------------------------------------------------------------------------------------------------
 // The passes of one frame. What it changes of OpenGL's state is set back when it ends.
 class GpuRayCaster::Frame
 {
@@ -243,9 +254,17 @@ private:
     this->Self.Targets.Clear(this->Options.LargestScalar);
     std::vector<std::int64_t> fragments;
     PassCounts counts(fragments);
-    for (int pass = 0;; ++pass)
+    const int parts = this->Limits.GetNumberOfParts();
+    const std::int64_t most = FindMostPasses(this->Options.NumberOfAllCells, parts);
+    for (std::int64_t pass = 0;; ++pass)
     {
-      const int from = pass % 2;
+      if (pass == most)
+      {
+        throw std::runtime_error("rays on the graphics card do not end: " + std::to_string(most) +
+          " passes are the most that a mesh of " + std::to_string(this->Options.NumberOfAllCells) +
+          " tetrahedra needs");
+      }
+      const int from = static_cast<int>(pass % 2);
       if (pass == 0 || this->EntersAgain())
       {
         if (this->Options.Layers)

@@ -38,7 +38,8 @@ struct GpuRayCastOptions
   GpuReentry Reentry = GpuReentry::Boundary;
   /// Whether the boundary's faces tell rays that come in from those that leave, see OrientCells.
   bool Oriented = true;
-  std::int32_t NumberOfCells = 0; ///< that are not imaginary
+  std::int32_t NumberOfCells = 0;    ///< that are not imaginary
+  std::int64_t NumberOfAllCells = 0; ///< with imaginary ones, see FindMostPasses
   bool CellData = false;
   bool LargestScalar = false;            ///< look for the largest scalar, instead of compositing
   const GpuLighting* Lighting = nullptr; ///< nullptr: nothing is lit
@@ -67,6 +68,11 @@ struct GpuRayCastStatistics
   std::string Variant;    ///< of the shader that walks: its defines
 };
 
+/// The most passes that rays of so many parts can take through so many cells: each pass takes each
+/// ray that is not done through one more cell at least, or to its next part. A ray walks through a
+/// cell at most twice, to tell and to gather, and may start anew once, see RayWalkFS.glsl.
+TETRALUXRENDERING_EXPORT std::int64_t FindMostPasses(std::int64_t cells, int parts);
+
 /// Cell-to-cell ray casting on the graphics card (Weiler et al. 2003), see RayWalkFS.glsl: passes
 /// of a bounded number of steps, each for the rays that are not done.
 class TETRALUXRENDERING_EXPORT GpuRayCaster
@@ -74,7 +80,7 @@ class TETRALUXRENDERING_EXPORT GpuRayCaster
 public:
   /// Casts a picture of rays, whatever limits says of them. A band that the graphics card has no
   /// memory for is halved. Leaves OpenGL's state as it was. Throws std::runtime_error, with one
-  /// line, where the graphics card lacks something.
+  /// line, where the graphics card lacks something, or where rays do not end.
   GpuRayCastStatistics Cast(vtkOpenGLRenderWindow* window, int width, int height,
     GpuRayLimits& limits, WalkTextures& mesh, GpuSegmentIntegral& integral,
     const GpuRayCastOptions& options);

@@ -2,12 +2,12 @@
 #include "ImagePreparation/ImageFunctions.h"
 
 #include "Frame/RendererLights.h"
+#include "Preparation/ComponentsFromProperty.h"
 #include "Preparation/TransferFunctionFromProperty.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
-#include "vtkType.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -108,25 +108,7 @@ void SetIndependentComponents(
 void SetDependentComponents(int valueType, ImageOptics& optics)
 {
   optics.Components = ImageComponents::Dependent;
-  // As OpenGL's normalized formats have it; VTK's mapper takes all other types for floats.
-  const auto getLargest = [valueType]
-  {
-    switch (valueType)
-    {
-      case VTK_UNSIGNED_CHAR:
-        return static_cast<double>(VTK_UNSIGNED_CHAR_MAX);
-      case VTK_CHAR:
-      case VTK_SIGNED_CHAR:
-        return static_cast<double>(VTK_SIGNED_CHAR_MAX);
-      case VTK_UNSIGNED_SHORT:
-        return static_cast<double>(VTK_UNSIGNED_SHORT_MAX);
-      case VTK_SHORT:
-        return static_cast<double>(VTK_SHORT_MAX);
-      default:
-        return 1.;
-    }
-  };
-  std::fill_n(optics.ColorScale, 3, 1 / getLargest());
+  std::fill_n(optics.ColorScale, 3, 1 / GetLargestChannel(valueType));
 }
 
 void SetLabels(vtkVolumeProperty* property, FunctionRules& rules, ImageOptics& optics)

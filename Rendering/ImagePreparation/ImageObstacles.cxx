@@ -65,8 +65,9 @@ std::string DescribeUnused(vtkVolumeProperty* property, ImageBlend blend, int ar
   std::string unused;
   const auto add = [&unused](bool isUnused, const char* text)
   { unused += isUnused ? (unused.empty() ? "" : "; ") + std::string(text) : ""; };
-  add(blend != ImageBlend::Composite && property->GetShade(0) != 0,
-    "Shade is not used: there is light with composite blending only");
+  add(blend != ImageBlend::Composite && blend != ImageBlend::Isosurfaces &&
+      property->GetShade(0) != 0,
+    "Shade is not used: there is light with composite and isosurface blending only");
   add(blend != ImageBlend::Composite && HasGradientOpacity(property, 0),
     "gradient opacity is not used: composite blending has it only");
   add(property->GetNumberOfLabels() > 0 && !hasLabels,

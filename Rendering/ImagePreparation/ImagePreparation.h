@@ -58,6 +58,7 @@ public:
 
   const ImagePlacement& GetPlacement() const { return this->Placement; }
   const ImageScalars& GetScalars() const { return this->Scalars; }
+  const ImageOptics& GetOptics() const { return this->Optics; } ///< what the caster has
 
   /// The independent components behind the first one.
   const std::vector<ComponentOptics>& GetOtherComponents() const

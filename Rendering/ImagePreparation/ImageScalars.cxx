@@ -259,7 +259,8 @@ void AddFlags(vtkImageData* image, ImageVolume& volume)
 
 bool ImageScalars::Update(vtkImageData* image, const ScalarSelection& selection)
 {
-  CacheKey array = GetScalarsKey({ { image, 0, 0 } }, selection);
+  const std::vector<DataSetBlock> blocks = { { image, 0, 0 } };
+  CacheKey array = GetScalarsKey(blocks, selection);
   const SelectedArray selected = FindSelectedArray(image, selection);
   if (selected.Array && selected.Array->HasStandardMemoryLayout())
   {
@@ -267,9 +268,17 @@ bool ImageScalars::Update(vtkImageData* image, const ScalarSelection& selection)
     array.Add(selected.Array->GetVoidPointer(0));
     array.Add(selected.Array->GetNumberOfValues());
   }
-  CacheKey grid = GetCellsKey({ { image, 0, 0 } });
-  if (this->Array.Has(array) && this->Grid.Has(grid))
+  CacheKey grid = GetCellsKey(blocks);
+  const vtkMTimeType inputTime = GetInputTime(image, blocks);
+  const bool same = this->Array.Has(array) && this->Grid.Has(grid);
+  if (same && inputTime == this->InputTime)
   {
+    return false;
+  }
+  const Digest values = DigestScalars(blocks, selection);
+  if (same && values == this->Values)
+  {
+    this->InputTime = inputTime;
     return false;
   }
   this->Array.Reset();
@@ -292,6 +301,8 @@ bool ImageScalars::Update(vtkImageData* image, const ScalarSelection& selection)
   this->TypeName = selected.Array->GetDataTypeAsString();
   this->NumberOfComponents = selected.Array->GetNumberOfComponents();
   this->ValueType = selected.Array->GetDataType();
+  this->InputTime = inputTime;
+  this->Values = values;
   this->Array.Set(std::move(array));
   this->Grid.Set(std::move(grid));
   return true;

@@ -3,9 +3,12 @@
 #define tetralux_ImageScalars_h
 
 #include "Base/Cached.h"
+#include "Base/Digest.h"
 #include "Intake/ScalarExtraction.h"
 #include "TetraluxRenderingModule.h"
 #include "TriangleCaster/ImageVolume.h"
+
+#include "vtkType.h"
 
 #include <cstddef>
 #include <string>
@@ -39,6 +42,8 @@ public:
   std::size_t GetNumberOfCopiedBytes() const { return this->Copy.size(); }
 
 private:
+  vtkMTimeType InputTime = 0; ///< GetInputTime when the values were last compared
+  Digest Values{};            ///< of the array and of flags
   CacheStamp Array;
   CacheStamp Grid; ///< extent and ghosts
   ImageVolume Volume;

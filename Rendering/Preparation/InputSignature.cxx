@@ -9,6 +9,8 @@
 #include "vtkCellData.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
@@ -18,6 +20,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -88,14 +91,60 @@ void AddCells(CacheKey& key, vtkDataSet* dataSet)
 void Add(Digester& digester, vtkDataArray* array)
 {
   digester.Add(static_cast<std::uint64_t>(array ? array->GetDataType() : 0));
-  if (array)
+  if (!array)
   {
-    digester.Add(array->GetVoidPointer(0),
-      static_cast<std::size_t>(array->GetNumberOfValues()) * array->GetDataTypeSize());
+    return;
+  }
+  const auto values = static_cast<std::size_t>(array->GetNumberOfValues());
+  if (array->HasStandardMemoryLayout())
+  {
+    digester.Add(array->GetVoidPointer(0), values * array->GetDataTypeSize());
+    return;
+  }
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+    {
+      const double value = array->GetComponent(i, c);
+      digester.Add(&value, sizeof(value));
+    }
   }
 }
 
+void AddGhosts(Digester& digester, vtkDataSet* dataSet)
+{
+  const char* ghosts = vtkDataSetAttributes::GhostArrayName();
+  Add(digester, dataSet->GetPointData()->GetArray(ghosts));
+  Add(digester, dataSet->GetCellData()->GetArray(ghosts));
+}
+
+/// When an object was modified, whatever it holds.
+vtkMTimeType GetOwnTime(vtkObject* object)
+{
+  return object->vtkObject::GetMTime(); // NOLINT(bugprone-parent-virtual-call)
+}
+
 } // namespace
+
+vtkMTimeType GetInputTime(vtkDataObject* input, const std::vector<DataSetBlock>& blocks)
+{
+  vtkMTimeType time = GetOwnTime(input);
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(input))
+  {
+    auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+    iterator->VisitOnlyLeavesOff();
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      time = std::max(time, GetOwnTime(iterator->GetCurrentDataObject()));
+    }
+  }
+  for (const DataSetBlock& block : blocks)
+  {
+    time = std::max({ time, GetOwnTime(block.DataSet), GetOwnTime(block.DataSet->GetPointData()),
+      GetOwnTime(block.DataSet->GetCellData()) });
+  }
+  return time;
+}
 
 CacheKey GetCellsKey(const std::vector<DataSetBlock>& blocks)
 {
@@ -167,9 +216,47 @@ Digest DigestCells(const std::vector<DataSetBlock>& blocks)
     {
       digester.Add(MakeVersion()); // never the same
     }
-    const char* ghosts = vtkDataSetAttributes::GhostArrayName();
-    Add(digester, dataSet->GetPointData()->GetArray(ghosts));
-    Add(digester, dataSet->GetCellData()->GetArray(ghosts));
+    AddGhosts(digester, dataSet);
+  }
+  return digester.Get();
+}
+
+Digest DigestPoints(const std::vector<DataSetBlock>& blocks)
+{
+  Digester digester;
+  for (const DataSetBlock& block : blocks)
+  {
+    if (auto* grid = vtkPointSet::SafeDownCast(block.DataSet))
+    {
+      Add(digester, grid->GetPoints() ? grid->GetPoints()->GetData() : nullptr);
+    }
+    else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(block.DataSet))
+    {
+      Add(digester, rectilinear->GetXCoordinates());
+      Add(digester, rectilinear->GetYCoordinates());
+      Add(digester, rectilinear->GetZCoordinates());
+    }
+    else if (auto* image = vtkImageData::SafeDownCast(block.DataSet))
+    {
+      digester.Add(image->GetOrigin(), 3 * sizeof(double));
+      digester.Add(image->GetSpacing(), 3 * sizeof(double));
+      digester.Add(image->GetDirectionMatrix()->GetData(), 9 * sizeof(double));
+    }
+    else
+    {
+      digester.Add(MakeVersion()); // never the same
+    }
+  }
+  return digester.Get();
+}
+
+Digest DigestScalars(const std::vector<DataSetBlock>& blocks, const ScalarSelection& selection)
+{
+  Digester digester;
+  for (const DataSetBlock& block : blocks)
+  {
+    Add(digester, FindSelectedArray(block.DataSet, selection).Array);
+    AddGhosts(digester, block.DataSet);
   }
   return digester.Get();
 }
@@ -180,6 +267,7 @@ CacheKey GetScalarsKey(const std::vector<DataSetBlock>& blocks, const ScalarSele
   key.Add(selection.ScalarMode);
   key.Add(selection.VectorMode);
   key.Add(selection.VectorComponent);
+  key.Add(selection.VectorSize);
   for (const DataSetBlock& block : blocks)
   {
     int ofCells = 0;

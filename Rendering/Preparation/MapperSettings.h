@@ -47,6 +47,7 @@ struct MapperSettings
   double MaximumError = 1e-4; ///< of a channel, 0..1
   OpticalModel Model = OpticalModel::EmissionAbsorption;
   ScalarSelection Scalars;
+  bool DrawsComponents = false;          ///< several of an array, with composite blending
   std::optional<ScalarSelection> Colors; ///< what isosurfaces are coloured by, if not by Scalars
   PointMerging Merging = PointMerging::Automatic;
   TableWishes Table;

@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <stdexcept>
 
 namespace tetralux
@@ -33,6 +35,25 @@ double GetLargestScale(const vtkMatrix4x4* worldFromMesh)
   return MeasureStretch(rows).Largest;
 }
 
+/// Whether values are the same; those that are no numbers, too.
+bool HaveSameBits(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return a.size() == b.size() &&
+    (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+/// Where one of several scalars is not finite, none is.
+void LeaveOutInfinite(const std::vector<double>& other, std::vector<double>& first)
+{
+  for (std::size_t i = 0; i < other.size(); ++i)
+  {
+    if (!std::isfinite(other[i]))
+    {
+      first[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
 } // namespace
 
 ScenePreparation::ScenePreparation(vtkObject* source)
@@ -40,7 +61,7 @@ ScenePreparation::ScenePreparation(vtkObject* source)
 {
 }
 
-bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& input,
+bool ScenePreparation::Update(const MapperSettings& wanted, const SceneInput& input,
   const std::function<bool(double)>& progress)
 {
   this->Last = Record();
@@ -49,10 +70,16 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
     throw std::invalid_argument("there is no input");
   }
   const std::vector<DataSetBlock> blocks = CollectDataSets(input.Data);
+  const vtkMTimeType inputTime = GetInputTime(input.Data, blocks);
+  this->Touched = inputTime != this->InputTime;
+  this->ChooseComponents(wanted, blocks, input.Property);
+  MapperSettings settings = wanted;
+  settings.Scalars = this->Components.Select(0);
   InputKeys keys;
   keys.Cells = GetCellsKey(blocks);
   keys.Points = GetPointsKey(blocks);
   keys.Scalars = GetScalarsKey(blocks, settings.Scalars);
+  keys.Scalars.Add(this->Components.Components);
   keys.Colors = settings.Colors ? GetScalarsKey(blocks, *settings.Colors) : CacheKey();
   // Who is told of progress may change the input: what it consists of now is read.
   const vtkSmartPointer<vtkDataObject> data =
@@ -65,8 +92,9 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
   {
     return false;
   }
-  this->PrepareScalars(data, keys.Scalars, settings.Scalars);
+  this->PrepareScalars(data, keys.Scalars);
   this->PrepareColors(data, keys.Colors, settings.Colors);
+  this->InputTime = inputTime;
   this->PrepareFunction(settings, input);
   this->WarnOfShade(input.Property);
   this->Scene.Prepare({});
@@ -77,26 +105,70 @@ bool ScenePreparation::Update(const MapperSettings& settings, const SceneInput& 
 /// Whether the scene was made of that input.
 bool ScenePreparation::IsOf(const InputKeys& keys) const
 {
-  return this->Scene.Mesh.GetMesh() && keys.Cells == this->CellsKey &&
+  return !this->Touched && this->Scene.Mesh.GetMesh() && keys.Cells == this->CellsKey &&
     keys.Points == this->PointsKey && this->Scalars.Has(keys.Scalars) &&
     (keys.Colors == CacheKey() || this->Colors.Has(keys.Colors));
+}
+
+/// What is shown of the array; several components only if whoever draws them can.
+void ScenePreparation::ChooseComponents(const MapperSettings& settings,
+  const std::vector<DataSetBlock>& blocks, vtkVolumeProperty* property)
+{
+  ComponentUse use = FindComponentUse(blocks, settings.Scalars, property);
+  if (use.Shown != ComponentUse::Kind::One &&
+    !(settings.DrawsComponents && settings.Model == OpticalModel::EmissionAbsorption))
+  {
+    const std::string who = "only vtkTetrahedraRayCastMapper with composite blending draws";
+    if (use.Shown == ComponentUse::Kind::Dependent)
+    {
+      throw std::invalid_argument(
+        "IndependentComponents is off, and " + who + " dependent components");
+    }
+    use.Shown = ComponentUse::Kind::One;
+    use.Components = 1;
+    use.Warning = "functions of further components are not used, and the first component is "
+                  "shown: " +
+      who + " several components";
+  }
+  this->ComponentsWarning.Update(this->Source, use.Warning);
+  this->Components = std::move(use);
+}
+
+/// The points that are taken as one; where components disagree, none.
+CoincidentPoints ScenePreparation::ChooseMerged(
+  const MapperSettings& settings, vtkDataObject* input) const
+{
+  CoincidentPoints chosen = this->Merger.Choose(settings.Merging, input, settings.Scalars);
+  for (int c = 1; c < this->Components.Components; ++c)
+  {
+    if (!(this->Merger.Choose(settings.Merging, input, this->Components.Select(c)) == chosen))
+    {
+      return {};
+    }
+  }
+  return chosen;
 }
 
 bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject* input,
   const InputKeys& keys, const std::function<bool(double)>& progress)
 {
   const bool hasMesh = this->Scene.Mesh.GetMesh() != nullptr;
-  const bool sameCells = hasMesh && keys.Cells == this->CellsKey;
-  if (sameCells && keys.Points == this->PointsKey)
+  const bool isKnown = hasMesh && !this->Touched;
+  const bool sameCells = isKnown && keys.Cells == this->CellsKey;
+  const bool samePoints = isKnown && keys.Points == this->PointsKey;
+  if (sameCells && samePoints)
   {
     return true;
   }
   const Stopwatch intakeStopwatch;
-  const Digest digest = sameCells ? this->Cells : DigestCells(CollectDataSets(input));
-  if (hasMesh && digest == this->Cells && this->MovePoints(input))
+  const std::vector<DataSetBlock> blocks = CollectDataSets(input);
+  const Digest cells = sameCells ? this->Cells : DigestCells(blocks);
+  const Digest points = samePoints ? this->Points : DigestPoints(blocks);
+  if (hasMesh && cells == this->Cells && (points == this->Points || this->MovePoints(input)))
   {
     this->CellsKey = keys.Cells;
     this->PointsKey = keys.Points;
+    this->Points = points;
     this->Last.MeshSeconds = intakeStopwatch.GetSeconds();
     return true;
   }
@@ -115,10 +187,10 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   // What is found belongs to this input: if it is aborted, the mesh of the last one is of no use.
   this->CellsKey = CacheKey();
   this->PointsKey = CacheKey();
-  this->Cells = Digest();
+  this->Cells = this->Points = Digest();
   this->Merger.Start(settings.Merging, input, intake.Mesh);
   this->Merging.Reset();
-  const CoincidentPoints merged = this->Merger.Choose(settings.Merging, input, settings.Scalars);
+  const CoincidentPoints merged = this->ChooseMerged(settings, input);
   bool used = false;
   if (!merged.Points.empty() && !this->UseMerged(settings, input, merged, progress, used))
   {
@@ -134,7 +206,8 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   }
   this->CellsKey = keys.Cells;
   this->PointsKey = keys.Points;
-  this->Cells = digest;
+  this->Cells = cells;
+  this->Points = points;
   this->Last.MeshSeconds = meshStopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("mesh");
   return true;
@@ -161,7 +234,8 @@ bool ScenePreparation::MergePoints(const MapperSettings& settings, vtkDataObject
   CacheKey key = scalars;
   key.Add(settings.Merging);
   const bool isKnown = settings.Merging == PointMerging::Never || this->Merger.HasFound();
-  if ((isKnown && this->Merging.Has(key)) || this->Scene.Mesh.GetMesh()->GetNumberOfCells() == 0)
+  if ((isKnown && !this->Touched && this->Merging.Has(key)) ||
+    this->Scene.Mesh.GetMesh()->GetNumberOfCells() == 0)
   {
     return true;
   }
@@ -170,7 +244,7 @@ bool ScenePreparation::MergePoints(const MapperSettings& settings, vtkDataObject
   {
     this->Merger.Find(input, *this->Scene.Mesh.GetMesh());
   }
-  const CoincidentPoints wanted = this->Merger.Choose(settings.Merging, input, settings.Scalars);
+  const CoincidentPoints wanted = this->ChooseMerged(settings, input);
   const CoincidentPoints before = this->Merger.GetMerged();
   bool used = wanted == before;
   if (!used && !this->UseMerged(settings, input, wanted, progress, used))
@@ -238,62 +312,91 @@ bool ScenePreparation::MovePoints(vtkDataObject* input)
   return true;
 }
 
-void ScenePreparation::PrepareScalars(
-  vtkDataObject* input, const CacheKey& key, const ScalarSelection& selection)
+void ScenePreparation::PrepareScalars(vtkDataObject* input, const CacheKey& key)
 {
-  if (this->Scalars.Has(key))
+  const bool sameArrays = this->Scalars.Has(key);
+  if (sameArrays && !this->Touched)
   {
     return;
   }
   const Stopwatch stopwatch;
-  this->Scalars.Reset();
-  const TetrahedralMesh& mesh = this->Scene.Mesh.GetMesh()->GetMesh();
+  MeshScene& scene = this->Scene.Mesh;
+  const TetrahedralMesh& mesh = scene.GetMesh()->GetMesh();
+  // Without cells there is nothing to colour, so no array is missed either.
+  ExtractedScalars first;
+  first.CellData = true;
+  std::vector<std::vector<double>> others(this->Components.Components - 1);
   if (mesh.GetNumberOfCells() > 0)
   {
-    ExtractedScalars scalars = ExtractScalars(input, mesh, selection);
-    if (!scalars.Error.empty())
+    first = this->Extract(input, 0);
+    for (int c = 1; c < this->Components.Components; ++c)
     {
-      throw std::invalid_argument(scalars.Error);
+      others[c - 1] = this->Extract(input, c).Values;
+      LeaveOutInfinite(others[c - 1], first.Values);
     }
-    this->ArrayName = std::move(scalars.ArrayName);
-    if (scalars.CellData)
-    {
-      this->Scene.Mesh.SetCellScalars(std::move(scalars.Values));
-    }
-    else
-    {
-      this->Scene.Mesh.SetPointScalars(std::move(scalars.Values));
-    }
+  }
+  if (sameArrays && HaveSameBits(first.Values, scene.GetScalars()) &&
+    std::equal(others.begin(), others.end(), scene.GetOtherScalars().begin(),
+      scene.GetOtherScalars().end(), HaveSameBits))
+  {
+    return;
+  }
+  this->Scalars.Reset();
+  this->ArrayName = std::move(first.ArrayName);
+  if (first.CellData)
+  {
+    scene.SetCellScalars(std::move(first.Values));
   }
   else
   {
-    // Nothing to colour, so no array is missed either.
-    this->Scene.Mesh.SetCellScalars({});
+    scene.SetPointScalars(std::move(first.Values));
+  }
+  if (!others.empty())
+  {
+    scene.SetOtherScalars(std::move(others));
   }
   this->Scalars.Set(key);
   this->Last.ScalarsSeconds = stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("scalars");
 }
 
+/// One of the components that are shown.
+ExtractedScalars ScenePreparation::Extract(vtkDataObject* input, int component)
+{
+  ExtractedScalars scalars = ExtractScalars(
+    input, this->Scene.Mesh.GetMesh()->GetMesh(), this->Components.Select(component));
+  if (!scalars.Error.empty())
+  {
+    this->Scalars.Reset();
+    throw std::invalid_argument(scalars.Error);
+  }
+  return scalars;
+}
+
 void ScenePreparation::PrepareColors(
   vtkDataObject* input, const CacheKey& key, const std::optional<ScalarSelection>& selection)
 {
   const TetrahedralMesh& mesh = this->Scene.Mesh.GetMesh()->GetMesh();
-  if (this->Colors.Has(key) || (!selection && this->Scene.Mesh.GetColorScalars().empty()))
+  const bool sameArrays = this->Colors.Has(key);
+  if ((sameArrays && !this->Touched) || (!selection && this->Scene.Mesh.GetColorScalars().empty()))
   {
     return;
   }
   const Stopwatch stopwatch;
-  this->Colors.Reset();
   std::vector<double> values;
   if (selection && mesh.GetNumberOfCells() > 0)
   {
     ExtractedScalars scalars = ExtractScalars(input, mesh, *selection);
     if (!scalars.Error.empty())
     {
+      this->Colors.Reset();
       throw std::invalid_argument("the array to colour by: " + scalars.Error);
     }
     values = std::move(scalars.Values);
+  }
+  if (sameArrays && HaveSameBits(values, this->Scene.Mesh.GetColorScalars()))
+  {
+    return;
   }
   this->Scene.Mesh.SetColorScalars(std::move(values));
   this->Colors.Set(key);
@@ -312,6 +415,11 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
     std::max(MakeErrorBudget(settings.MaximumError, spending).Functions, SmallestFunctionError);
   CacheKey exactKey = GetPropertyKey(input.Property);
   exactKey.Add(settings.Model);
+  AddComponents(input.Property, this->Components, exactKey);
+  if (this->Components.Shown == ComponentUse::Kind::Dependent)
+  {
+    exactKey.Add(this->Scene.Mesh.GetScalarsVersion()); // red, green and blue are scalars
+  }
   CacheKey key = exactKey;
   key.Add(maximumError);
   key.Add(longestPath);
@@ -323,8 +431,7 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   const Stopwatch stopwatch;
   this->Function.Reset();
   this->Scene.Optics.SetModel(settings.Model);
-  PropertyTransferFunction function =
-    TransferFunctionFromProperty(input.Property, maximumError, longestPath);
+  PropertyTransferFunction function = this->MakeFunctions(input, maximumError, longestPath);
   if (settings.Model == OpticalModel::MaximumIntensity ||
     settings.Model == OpticalModel::Isosurfaces)
   {
@@ -341,13 +448,36 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   this->Last.Rebuilt.push_back("transfer function");
 }
 
+/// The function of the first component, and in the scene those of all if several are shown.
+PropertyTransferFunction ScenePreparation::MakeFunctions(
+  const SceneInput& input, double maximumError, double longestPath)
+{
+  SceneOptics& optics = this->Scene.Optics;
+  if (this->Components.Shown == ComponentUse::Kind::One)
+  {
+    optics.SetComponents({});
+    return TransferFunctionFromProperty(input.Property, maximumError, longestPath);
+  }
+  std::vector<const std::vector<double>*> values = { &this->Scene.Mesh.GetScalars() };
+  for (const std::vector<double>& other : this->Scene.Mesh.GetOtherScalars())
+  {
+    values.push_back(&other);
+  }
+  PropertyTransferFunction function;
+  ComponentFunctions components = ComponentsFromProperty(
+    input.Property, this->Components, values, maximumError, longestPath, function.Error);
+  function.Function = components.Functions.front();
+  optics.SetComponents(std::move(components));
+  return function;
+}
+
 void ScenePreparation::PrepareTable(const MapperSettings& settings, const SceneInput& input)
 {
   const TableWishes& wishes = settings.Table;
   SceneOptics& optics = this->Scene.Optics;
   const std::uint64_t function = optics.GetFunctionVersion();
   this->Use = wishes.Use;
-  if (wishes.Use == TableUse::Never || input.LightVaries ||
+  if (wishes.Use == TableUse::Never || input.LightVaries || this->Scene.HasComponents() ||
     optics.GetModel() != OpticalModel::EmissionAbsorption || this->Scene.Mesh.HasCellScalars() ||
     this->Scene.Mesh.GetMesh()->GetNumberOfCells() == 0 || this->Scene.GetPlan().ConstantColor ||
     this->Scene.GetPlan().Transparent)
@@ -419,6 +549,8 @@ void ScenePreparation::WarnOfShade(vtkVolumeProperty* property)
   {
     warning = this->Scene.Mesh.HasCellScalars()
       ? "Shade is not used: scalars at cells have no gradient"
+      : this->Scene.HasComponents()
+      ? "Shade is not used: several components are not lit"
       : "Shade is not used: there is light with composite and isosurface blending only";
   }
   if (property->GetDisableGradientOpacity(0) == 0 && property->HasGradientOpacity(0))
@@ -432,6 +564,7 @@ bool ScenePreparation::IsShaded(vtkVolumeProperty* property) const
 {
   const OpticalModel model = this->Scene.Optics.GetModel();
   return property->GetShade(0) != 0 && !this->Scene.Mesh.HasCellScalars() &&
+    !this->Scene.HasComponents() &&
     (model == OpticalModel::EmissionAbsorption || model == OpticalModel::Isosurfaces);
 }
 

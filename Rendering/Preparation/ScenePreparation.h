@@ -4,10 +4,12 @@
 
 #include "Base/Cached.h"
 #include "Intake/TetrahedraIntake.h"
+#include "Preparation/ComponentsFromProperty.h"
 #include "Preparation/InputSignature.h"
 #include "Preparation/MapperSettings.h"
 #include "Preparation/PointMerger.h"
 #include "Preparation/SegmentTable.h"
+#include "Preparation/TransferFunctionFromProperty.h"
 #include "Report/OnceWarning.h"
 #include "Scene/VolumeScene.h"
 #include "TetraluxRenderingModule.h"
@@ -44,10 +46,11 @@ public:
   /// source: gives the warnings, once for each cause.
   explicit ScenePreparation(vtkObject* source);
 
-  /// Brings the scene up to date. progress: told the share that is done, 0..1, while the mesh is
-  /// built; where it returns false, so does Update. Throws std::invalid_argument, with one line, if
-  /// the input or the property can't be rendered.
-  bool Update(const MapperSettings& settings, const SceneInput& input,
+  /// Brings the scene up to date, with what FindComponentUse says is shown
+  /// of the array. progress: told the share that is done, 0..1, while the mesh is built;
+  /// where it returns false, so does Update. Throws std::invalid_argument, with one line, if the
+  /// input or the property can't be rendered.
+  bool Update(const MapperSettings& wanted, const SceneInput& input,
     const std::function<bool(double)>& progress);
 
   VolumeScene Scene;
@@ -61,6 +64,7 @@ public:
   std::size_t GetNumberOfMergedPoints() const { return this->Merger.GetMerged().Points.size(); }
 
   const std::string& GetArrayName() const { return this->ArrayName; }
+  int GetNumberOfComponents() const { return this->Components.Components; } ///< that are shown
   const SegmentTable& GetTable() const { return this->Table; }
   TableUse GetTableUse() const { return this->Use; }
 
@@ -96,10 +100,16 @@ private:
     const CoincidentPoints& merged, const std::function<bool(double)>& progress, bool& used);
   void SetMesh(TetrahedraIntake intake);
   void SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeReport report);
-  void PrepareScalars(vtkDataObject* input, const CacheKey& key, const ScalarSelection& selection);
+  void ChooseComponents(const MapperSettings& settings, const std::vector<DataSetBlock>& blocks,
+    vtkVolumeProperty* property);
+  CoincidentPoints ChooseMerged(const MapperSettings& settings, vtkDataObject* input) const;
+  void PrepareScalars(vtkDataObject* input, const CacheKey& key);
+  ExtractedScalars Extract(vtkDataObject* input, int component);
   void PrepareColors(
     vtkDataObject* input, const CacheKey& key, const std::optional<ScalarSelection>& selection);
   void PrepareFunction(const MapperSettings& settings, const SceneInput& input);
+  PropertyTransferFunction MakeFunctions(
+    const SceneInput& input, double maximumError, double longestPath);
   void PrepareTable(const MapperSettings& settings, const SceneInput& input);
   void WarnOfMesh();
   void WarnOfShade(vtkVolumeProperty* property);
@@ -107,8 +117,12 @@ private:
   vtkObject* Source;
 
   // What the stages were made from.
+  vtkMTimeType InputTime = 0; ///< GetInputTime at the last Update that came to its end
+  bool Touched = true;        ///< since then: values may have changed in place
+  ComponentUse Components;
   CacheKey CellsKey;
   Digest Cells{};
+  Digest Points{};
   CacheKey PointsKey;
   CacheStamp Merging;
   PointMerger Merger;
@@ -122,6 +136,7 @@ private:
   TableUse Use = TableUse::Automatic;
   std::uint64_t TableOfFunction = 0; ///< version of the function that the scene has Table for
   OnceWarning ShadeWarning;
+  OnceWarning ComponentsWarning;
   OnceWarning MeshWarning;
   Record Last;
 };

@@ -56,6 +56,10 @@ std::string GetIntegrationReason(const ScenePreparation& preparation, Integrator
   {
     return "closed form: cells are constant";
   }
+  if (integrator == Integrator::Components)
+  {
+    return "several components have no table";
+  }
   if (preparation.GetTableUse() == TableUse::Never)
   {
     return "closed form: asked for";
@@ -91,6 +95,7 @@ Json DescribeInput(const ScenePreparation& preparation)
     DescribeLeftOutCells(intake, preparation.Scene.Mesh.GetMesh()->GetRemovedCells());
   input["skipped_blocks"] = intake.SkippedBlocks;
   input["array"] = preparation.GetArrayName();
+  input["components"] = preparation.GetNumberOfComponents();
   input["array_of"] = preparation.Scene.Mesh.HasCellScalars() ? "cells" : "points";
   return input;
 }

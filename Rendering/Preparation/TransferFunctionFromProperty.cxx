@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -44,6 +45,10 @@ bool IsLogarithmic(vtkColorTransferFunction* function)
 /// Colours taken of each interval in the one colour space that VTK searches a path through the
 /// space for: at every call, for a tenth of a second.
 constexpr int SearchedColors = 1024;
+
+/// What is thicker than this is opaque long before; products of it with colours and lengths are
+/// within single precision.
+constexpr double LargestOpticalDepth = 1e15;
 
 /// A function with linear intervals that goes through SearchedColors colours of each interval.
 /// Paths begin and end near the colours of the nodes, not at them.
@@ -87,12 +92,13 @@ vtkSmartPointer<vtkColorTransferFunction> SearchOnce(vtkColorTransferFunction* f
 class PropertyFunctions
 {
 public:
-  PropertyFunctions(vtkVolumeProperty* property, int component)
+  PropertyFunctions(vtkVolumeProperty* property, int component, double longestPath)
     : Opacity(property->GetScalarOpacity(component))
     , Color(property->GetColorChannels(component) == 3 ? property->GetRGBTransferFunction(component)
                                                        : nullptr)
     , Grey(this->Color ? nullptr : property->GetGrayTransferFunction(component))
     , UnitDistance(property->GetScalarOpacityUnitDistance(component))
+    , LargestAttenuation(LargestOpticalDepth / longestPath)
   {
     if (!(this->UnitDistance > 0) || !std::isfinite(this->UnitDistance))
     {
@@ -122,13 +128,24 @@ public:
     }
     double opacity = 0;
     this->Opacity->GetTable(scalar, scalar, 1, &opacity);
-    value.Attenuation = std::max(opacity, 0.) / this->UnitDistance;
+    value.Attenuation =
+      std::min(std::max(opacity, 0.) / this->UnitDistance, this->LargestAttenuation);
     if (!std::isfinite(value.Color[0]) || !std::isfinite(value.Color[1]) ||
       !std::isfinite(value.Color[2]) || !std::isfinite(opacity))
     {
       throw std::invalid_argument("colour or opacity of the volume property is not a finite number "
                                   "at scalar " +
         std::to_string(scalar));
+    }
+    for (const double channel : value.Color)
+    {
+      if (std::abs(channel) > LargestColor)
+      {
+        std::ostringstream error;
+        error << "a colour of the volume property is " << channel << " at scalar " << scalar
+              << ", and at most " << LargestColor << " can be drawn";
+        throw std::invalid_argument(error.str());
+      }
     }
     return value;
   }
@@ -221,6 +238,7 @@ private:
   vtkSmartPointer<vtkColorTransferFunction> Color;
   vtkPiecewiseFunction* Grey;
   double UnitDistance;
+  double LargestAttenuation;
 };
 
 /// How far an approximation may be off: an error c of the colour is one of at most c in the
@@ -249,9 +267,9 @@ struct Tolerance
     }
     // No colour is seen where nothing attenuates.
     return (exact.Attenuation == 0 && approximation.Attenuation == 0) ||
-      (std::abs(exact.Color[0] - approximation.Color[0]) <= this->Color &&
-        std::abs(exact.Color[1] - approximation.Color[1]) <= this->Color &&
-        std::abs(exact.Color[2] - approximation.Color[2]) <= this->Color);
+      std::equal(exact.Color, exact.Color + 3, approximation.Color,
+        [this](double a, double b)
+        { return std::abs(a - b) <= std::max(this->Color, SmallestStep * std::abs(a)); });
   }
 };
 
@@ -295,7 +313,7 @@ bool Subdivide(const PropertyFunctions& functions, const Tolerance& tolerance, d
 PropertyTransferFunction TransferFunctionFromProperty(
   vtkVolumeProperty* property, double maximumError, double longestPath, int component)
 {
-  const PropertyFunctions functions(property, component);
+  const PropertyFunctions functions(property, component, longestPath);
   const Tolerance tolerance(maximumError, longestPath);
   const std::vector<double> breaks = functions.GetBreaks();
 

@@ -14,6 +14,9 @@ namespace tetralux
 /// no less.
 constexpr double SmallestFunctionError = 1e-7;
 
+/// A channel that is larger may leave single precision on its way to the picture.
+constexpr double LargestColor = 1e20;
+
 struct PropertyTransferFunction
 {
   TransferFunction Function;
@@ -24,7 +27,8 @@ struct PropertyTransferFunction
 };
 
 /// Colour and scalar opacity of a property's component as VTK's functions define them, with
-/// attenuation = opacity / ScalarOpacityUnitDistance (opacities below 0 count as 0).
+/// attenuation = opacity / ScalarOpacityUnitDistance (opacities below 0 count as 0, and optical
+/// depths along longestPath are 1e15 at most).
 ///
 /// Nodes are at the exact scalars of the property's nodes; steps (duplicated nodes, sharpness 1,
 /// clamping off, colours above and below the range) stay steps. Where VTK's function is not linear
@@ -36,8 +40,8 @@ struct PropertyTransferFunction
 /// The colour space LabCIEDE2000 costs a tenth of a second an interval, and is represented by 1024
 /// colours of each, whose error is not known.
 ///
-/// Throws std::invalid_argument, with one line, where the unit distance is not positive or a
-/// function has values that are not finite.
+/// Throws std::invalid_argument, with one line, where the unit distance is not positive, or a
+/// function has values that are not finite, or colours above 1e20.
 TETRALUXRENDERING_EXPORT PropertyTransferFunction TransferFunctionFromProperty(
   vtkVolumeProperty* property, double maximumError, double longestPath, int component = 0);
 

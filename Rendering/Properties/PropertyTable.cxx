@@ -127,7 +127,7 @@ std::vector<MapperProperty> MakeProperties()
         { "off", 0, "points stay apart" }, { "on", 1, "all whose scalars agree" } },
       "Whether points at the same place are taken as one."),
     MakeEnumeration("VectorMode", AllKinds, Scalars, false,
-      { { "disabled", -1, "the first component; of image data all of up to four" },
+      { { "disabled", -1, "what the volume property says; of image data all of up to four" },
         { "magnitude", 0, "the Euclidean norm" }, { "component", 1, "component VectorComponent" } },
       "What of an array of several components is shown."),
     { "VectorComponent", PropertyType::Integer, AllKinds, Scalars, false, {}, 0,

@@ -21,6 +21,8 @@ inline const char* GetName(Integrator integrator)
       return "emission";
     case Integrator::Maximum:
       return "largest scalar";
+    case Integrator::Components:
+      return "several components";
     case Integrator::Isosurfaces:
       return "isosurfaces";
     default:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outputs that appear complete or not at all: after Commit, without it, and after a signal. Signals
-// end the process, so that they are sent to children of the test.
+// Outputs that appear complete or not at all: after Commit, without it, and after whatever ends the
+// process. That is done to children of the test, which their supervisors watch.
 
 #include "CommandLine/CommandErrors.h"
+#include "CommandLine/Supervisor.h"
+#include "CommandLine/Worker.h"
 #include "Files/AtomicOutput.h"
-#include "Files/Interrupts.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,11 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -41,14 +46,20 @@ std::string ReadFile(const fs::path& path)
   return { std::istreambuf_iterator<char>(file), {} };
 }
 
-/// The exit status of a child process that runs a function.
-int RunInChild(const std::function<void()>& function)
+/// The exit status of a child process that runs a function under supervision. Its line on standard
+/// error goes to a file.
+int RunInChild(const std::function<void()>& function, const std::string& errors = "/dev/null")
 {
   const pid_t child = fork();
   if (child == 0)
   {
-    function();
-    _exit(NotEnded);
+    dup2(open(errors.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    _exit(Supervise(
+      [&]
+      {
+        function();
+        return NotEnded;
+      }));
   }
   int status = 0;
   waitpid(child, &status, 0);
@@ -103,7 +114,6 @@ TEST_F(AtomicOutputTest, AFileAppearsWithCommit)
   WriteFile(this->GetPath("out.txt"), "old");
   {
     AtomicOutput output(this->GetPath("out.txt"));
-    EXPECT_EQ(fs::path(output.GetTemporaryName()).extension(), ".txt");
     WriteFile(output.GetTemporaryName(), "new");
     EXPECT_EQ(ReadFile(this->GetPath("out.txt")), "old");
     output.Commit();
@@ -131,9 +141,11 @@ TEST_F(AtomicOutputTest, AFolderReplacesAnOlderOne)
   WriteFile(this->GetPath("out/old"), "");
   EXPECT_THROW(AtomicOutput(this->GetPath("out"), Marker), WorkError);
   WriteFile(this->GetPath("out") + "/" + Marker, "");
-  AtomicOutput folder(this->GetPath("out") + "/", Marker);
-  FillFolder(folder);
-  folder.Commit();
+  {
+    AtomicOutput folder(this->GetPath("out") + "/", Marker);
+    FillFolder(folder);
+    folder.Commit();
+  }
   EXPECT_EQ(this->ListFiles(),
     (std::set<std::string>{ "out", std::string("out/") + Marker, "out/a", "out/a/deep",
       "out/a/deep/file", "out/a/file", "out/b", "out/b/deep", "out/b/deep/file", "out/b/file" }));
@@ -143,22 +155,149 @@ TEST_F(AtomicOutputTest, AFailedCommitKeepsTheOlderOutput)
 {
   fs::create_directory(this->GetPath("out"));
   WriteFile(this->GetPath("out") + "/" + Marker, "old");
-  WriteFile(this->GetPath("out.txt"), "old");
-  AtomicOutput folder(this->GetPath("out"), Marker);
-  fs::remove_all(folder.GetTemporaryName());
-  EXPECT_THROW(folder.Commit(), WorkError);
-  AtomicOutput file(this->GetPath("out.txt"));
-  fs::remove(file.GetTemporaryName());
-  EXPECT_THROW(file.Commit(), WorkError);
+  {
+    AtomicOutput folder(this->GetPath("out"), Marker);
+    fs::remove_all(folder.GetTemporaryName());
+    EXPECT_THROW(folder.Commit(), WorkError);
+    AtomicOutput file(this->GetPath("out.txt"));
+    fs::create_directory(this->GetPath("out.txt"));
+    EXPECT_THROW(file.Commit(), WorkError);
+  }
   EXPECT_EQ(ReadFile(this->GetPath("out") + "/" + Marker), "old");
-  EXPECT_EQ(ReadFile(this->GetPath("out.txt")), "old");
   EXPECT_EQ(
     this->ListFiles(), (std::set<std::string>{ "out", std::string("out/") + Marker, "out.txt" }));
 }
 
-TEST_F(AtomicOutputTest, ASignalRemovesEveryPendingOutput)
+TEST_F(AtomicOutputTest, ManyFilesMayBeOpenAtOnce)
 {
-  for (const int signal : { SIGINT, SIGTERM })
+  const auto getName = [this](int i) { return this->GetPath("file-" + std::to_string(i)); };
+  constexpr int NumberOfFiles = 200;
+  rlimit before;
+  getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit fewer = { NumberOfFiles / 2, before.rlim_max };
+  setrlimit(RLIMIT_NOFILE, &fewer);
+  {
+    std::list<AtomicOutput> outputs;
+    for (int i = 0; i < NumberOfFiles; ++i)
+    {
+      WriteFile(outputs.emplace_back(getName(i)).GetTemporaryName(), std::to_string(i));
+    }
+    for (AtomicOutput& output : outputs)
+    {
+      output.Commit();
+    }
+  }
+  setrlimit(RLIMIT_NOFILE, &before);
+  EXPECT_EQ(this->ListFiles().size(), static_cast<std::size_t>(NumberOfFiles));
+  for (const int i : { 0, 1, NumberOfFiles - 1 })
+  {
+    EXPECT_EQ(ReadFile(getName(i)), std::to_string(i));
+  }
+}
+
+TEST_F(AtomicOutputTest, PermissionsAreKeptOrTheUsualOnes)
+{
+  const mode_t mask = umask(027);
+  const auto write = [this](const std::string& name)
+  {
+    AtomicOutput output(this->GetPath(name));
+    output.Commit();
+    return fs::status(this->GetPath(name)).permissions();
+  };
+  EXPECT_EQ(write("new"), fs::perms(0640));
+  fs::permissions(this->GetPath("new"), fs::perms(0604));
+  EXPECT_EQ(write("new"), fs::perms(0604));
+  umask(mask);
+}
+
+TEST_F(AtomicOutputTest, LinksAreFollowed)
+{
+  fs::create_directory(this->GetPath("there"));
+  WriteFile(this->GetPath("there/file"), "old");
+  fs::create_symlink("there/file", this->GetPath("link"));
+  fs::create_symlink("link", this->GetPath("second"));
+  fs::create_symlink("there/nothing-yet", this->GetPath("dangling"));
+  fs::create_symlink("loop", this->GetPath("loop"));
+  for (const char* name : { "second", "dangling" })
+  {
+    AtomicOutput output(this->GetPath(name));
+    WriteFile(output.GetTemporaryName(), "new");
+    output.Commit();
+    EXPECT_TRUE(fs::is_symlink(this->GetPath(name)));
+  }
+  EXPECT_EQ(ReadFile(this->GetPath("there/file")), "new");
+  EXPECT_EQ(ReadFile(this->GetPath("there/nothing-yet")), "new");
+  EXPECT_THROW(AtomicOutput(this->GetPath("loop")), WorkError);
+}
+
+TEST_F(AtomicOutputTest, APipeGetsACopy)
+{
+  ASSERT_EQ(mkfifo(this->GetPath("pipe").c_str(), 0600), 0);
+  std::string read;
+  std::thread reader([&] { read = ReadFile(this->GetPath("pipe")); });
+  {
+    AtomicOutput output(this->GetPath("pipe"));
+    WriteFile(output.GetTemporaryName(), "text");
+    output.Commit();
+  }
+  reader.join();
+  EXPECT_EQ(read, "text");
+  EXPECT_EQ(this->ListFiles(), std::set<std::string>{ "pipe" });
+}
+
+TEST_F(AtomicOutputTest, TheLongestNameIsNoLonger)
+{
+  const std::string longest(255, 'x');
+  AtomicOutput output(this->GetPath(longest));
+  output.Commit();
+  EXPECT_EQ(this->ListFiles(), std::set<std::string>{ longest });
+  EXPECT_THROW(AtomicOutput(this->GetPath(longest + "x")), WorkError);
+}
+
+namespace
+{
+
+/// What ends a process.
+struct End
+{
+  const char* Name;
+  std::function<void()> Make;
+  int Status;
+};
+
+std::vector<End> ListEnds()
+{
+  const auto raising = [](int signal) { return [signal] { raise(signal); }; };
+  return {
+    { "SIGHUP", raising(SIGHUP), 128 + SIGHUP },
+    { "SIGINT", raising(SIGINT), 128 + SIGINT },
+    { "SIGQUIT", raising(SIGQUIT), 128 + SIGQUIT },
+    { "SIGTERM", raising(SIGTERM), 128 + SIGTERM },
+    { "SIGTERM to the supervisor",
+      []
+      {
+        kill(getppid(), SIGTERM);
+        pause();
+      },
+      128 + SIGTERM },
+    { "SIGINT on another thread", [] { std::thread([] { raise(SIGINT); }).join(); }, 128 + SIGINT },
+    { "SIGSEGV", raising(SIGSEGV), 1 },
+    { "SIGABRT", [] { std::abort(); }, 1 },
+    { "SIGKILL", raising(SIGKILL), 1 },
+    { "SIGXCPU", raising(SIGXCPU), 1 },
+    { "exit", [] { std::exit(0); }, 1 },
+    { "_exit", [] { _exit(0); }, 1 },
+    { "SIGPIPE", raising(SIGPIPE), NotEnded },
+    { "SIGXFSZ", raising(SIGXFSZ), NotEnded },
+    { "its own end", [] {}, NotEnded },
+  };
+}
+
+} // namespace
+
+TEST_F(AtomicOutputTest, WhateverEndsTheProcessLeavesNothing)
+{
+  for (const End& end : ListEnds())
   {
     const int status = RunInChild(
       [&]
@@ -166,40 +305,36 @@ TEST_F(AtomicOutputTest, ASignalRemovesEveryPendingOutput)
         AtomicOutput kept(this->GetPath("kept.txt"));
         WriteFile(kept.GetTemporaryName(), "whole");
         std::list<AtomicOutput> outputs;
-        for (int i = 0; i < 20; ++i)
+        for (int i = 0; i < 70; ++i) // more than are without a name
         {
           outputs.emplace_back(this->GetPath("file-" + std::to_string(i)));
-          outputs.emplace_back(this->GetPath("folder-" + std::to_string(i)), Marker);
-          FillFolder(outputs.back());
         }
+        outputs.emplace_back(this->GetPath("folder"), Marker);
+        FillFolder(outputs.back());
         kept.Commit();
-        raise(signal);
+        end.Make();
       });
-    EXPECT_EQ(status, 128 + signal);
-    EXPECT_EQ(this->ListFiles(), std::set<std::string>{ "kept.txt" });
-    EXPECT_EQ(ReadFile(this->GetPath("kept.txt")), "whole");
+    EXPECT_EQ(status, end.Status) << end.Name;
+    EXPECT_EQ(this->ListFiles(), std::set<std::string>{ "kept.txt" }) << end.Name;
+    EXPECT_EQ(ReadFile(this->GetPath("kept.txt")), "whole") << end.Name;
+    fs::remove(this->GetPath("kept.txt"));
   }
 }
 
-TEST_F(AtomicOutputTest, ASignalWaitsForTheLastHold)
+TEST_F(AtomicOutputTest, ASignalThatIsIgnoredStaysSo)
 {
   const int status = RunInChild(
-    [&]
+    []
     {
-      AtomicOutput output(this->GetPath("out.txt"));
-      const Interrupts::Hold outer;
-      {
-        const Interrupts::Hold inner;
-        raise(SIGTERM);
-      }
-      WriteFile(this->GetPath("reached"), "");
+      signal(SIGHUP, SIG_IGN); // as by nohup
+      kill(getppid(), SIGHUP);
+      raise(SIGHUP);
     });
-  EXPECT_EQ(status, 128 + SIGTERM);
-  EXPECT_EQ(this->ListFiles(), std::set<std::string>{ "reached" });
+  EXPECT_EQ(status, NotEnded);
 }
 
-/// A signal that another thread gets, at any moment of the life of an output.
-TEST_F(AtomicOutputTest, ASignalMayComeToAnotherThread)
+/// A crash at any moment of the life of an output.
+TEST_F(AtomicOutputTest, ASignalMayComeAtAnyMoment)
 {
   for (int round = 0; round < 30; ++round)
   {
@@ -226,5 +361,27 @@ TEST_F(AtomicOutputTest, ASignalMayComeToAnotherThread)
       });
     ASSERT_EQ(status, 128 + SIGINT) << "round " << round;
     ASSERT_EQ(this->ListFiles(), std::set<std::string>{}) << "round " << round;
+  }
+}
+
+TEST_F(AtomicOutputTest, ACrashOfAReaderNamesItsFile)
+{
+  for (const End& end : ListEnds())
+  {
+    if (end.Status == 1)
+    {
+      const std::string errors = this->GetPath("errors");
+      RunInChild(
+        [&]
+        {
+          const Worker::Reading reading("mesh\n.vtk");
+          end.Make();
+        },
+        errors);
+      const std::string line = ReadFile(errors);
+      EXPECT_EQ(line.find("tetralux: cannot read 'mesh\\n.vtk': "), 0u) << end.Name << ": " << line;
+      EXPECT_EQ(line.find('\n') + 1, line.size()) << end.Name;
+      fs::remove(errors);
+    }
   }
 }

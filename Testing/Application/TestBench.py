@@ -12,14 +12,20 @@ import signal
 import subprocess
 import unittest
 
+import numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGReader
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 import tool
 from tool import ToolTest
 
 PEERS = [
     "vtk-projected-tetrahedra", "vtk-bunyk", "vtk-bunyk-preintegration", "vtk-bunyk-closed-form",
+]
+IMAGE_PEERS = [
+    "vtk-fixed-point-0.5", "vtk-fixed-point-0.125", "vtk-gpu-0.5", "vtk-gpu-0.125",
 ]
 COLUMNS = [
     "method", "setting", "properties", "largest_error", "rms_error", "error_99.9",
@@ -107,7 +113,10 @@ class Bench(ToolTest):
         self.assertEqual(
             set(images),
             {row["difference"] for row in rows if "difference" in row}
-            | {row["picture"] for row in rows if row["setting"] in ("reference", *PEERS)},
+            | {
+                row["picture"] for row in rows
+                if row["setting"] in ("reference", *PEERS, *IMAGE_PEERS)
+            },
         )
         for image in images.values():
             start = "data:image/png;base64,"
@@ -144,7 +153,8 @@ class Bench(ToolTest):
         for row in rows:
             self.assertIn(f"<b>{row['setting']}</b>", shown)
         self.assertEqual(shown.count("<tr class=\"front\">"), sum(row["pareto"] for row in rows))
-        self.assertEqual(shown.count('<img src="data:image/png'), len(rows) - 1 + 1 + len(PEERS))
+        peers = [row for row in rows if row["method"].startswith("vtk-")]
+        self.assertEqual(shown.count('<img src="data:image/png'), len(rows) - 1 + 1 + len(peers))
         # The chart: every setting but the reference, and each group once more in the legend.
         groups = {row["group"] for row in rows if row["setting"] != "reference"}
         self.assertEqual(shown.count("<svg"), 1)
@@ -220,6 +230,58 @@ class Bench(ToolTest):
             self.assertEqual(difference.shape[2], 1)
             if settings[name]["largest_error"] > 0.1:  # not amplified
                 self.assertLess((error - difference[:, :, 0]).max(), 1.01 / 255, name)
+
+    def test_image_data(self):
+        self.succeed("bench", "--quick", "--scene", "signal-smooth", "--output", "out")
+        rows = self.read_rows("out")
+        settings = {row["setting"]: row for row in rows}
+        self.assertEqual(len(settings), len(rows), "no setting comes twice")
+        self.assertEqual([row["setting"] for row in rows[:2]], ["reference", "default"])
+        self.assertEqual([row["setting"] for row in rows[-len(IMAGE_PEERS):]], IMAGE_PEERS)
+        self.assertEqual(settings["reference"]["method"], "integral")
+        self.assertEqual({row["method"] for row in rows[1:-len(IMAGE_PEERS)]}, {"triangle-caster"})
+        self.check_page("out", rows)
+        if BROWSER:
+            self.check_shown_page("out", rows)
+        # The caster's pictures approach the integral as slices come closer.
+        errors = [settings[f"slices-{d}"]["largest_error"] for d in (2, 1, 0.5, 0.25, 0.125)]
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertLess(20 * errors[-1], errors[0])
+        for row in rows:
+            asked = re.search(r"MaximumError=(\S+)", row["properties"])
+            if row["setting"].startswith("error-"):
+                self.assertLessEqual(row["largest_error"], float(asked[1]), row["setting"])
+        # VTK's mappers show the same, in 8 bits and less exactly.
+        for peer in IMAGE_PEERS:
+            self.assertEqual(settings[peer]["bits"], 8)
+            self.assertLess(settings[peer]["rms_error"], 0.06, peer)
+
+    def test_image_data_of_the_user(self):
+        axis = numpy.arange(9) - 4.0
+        z, y, x = numpy.meshgrid(axis, axis, axis, indexing="ij")
+        image = vtkImageData()
+        image.SetDimensions(9, 9, 9)
+        image.SetSpacing(0.5, 1, 1)
+        array = numpy_to_vtk(numpy.sqrt(x * x + y * y + z * z).ravel(), deep=True)
+        array.SetName("radius")
+        image.GetPointData().AddArray(array)
+        writer = vtkXMLImageDataWriter()
+        writer.SetInputData(image)
+        writer.SetFileName(self.path("ball.vti"))
+        writer.Write()
+        arguments = ["bench", "ball.vti", "--quick", "--output", "out", "--setting"]
+        self.succeed(*arguments, "triangle-caster SampleDistance=0.01")
+        rows = self.read_rows("out")
+        self.assertEqual(
+            [row["setting"] for row in rows],
+            ["reference", "default", "triangle-caster-SampleDistance-0.01", *IMAGE_PEERS],
+        )
+        self.assertLess(rows[2]["largest_error"], rows[1]["largest_error"])
+        # Settings of cells split the voxels into tetrahedra.
+        self.succeed(*arguments, "MaximumError=1e-3")
+        rows = self.read_rows("out")
+        self.assertEqual(rows[0]["method"], "ray-cast")
+        self.assertEqual([row["setting"] for row in rows[-len(PEERS):]], PEERS)
 
     def test_a_file_and_settings_of_the_user(self):
         self.succeed(
@@ -317,6 +379,10 @@ class Bench(ToolTest):
             (["--output", "out", "--scene", "boll"], ["--scene", "'boll'", "ball-smooth"]),
             (["--output", "out", "--setting", "Foo=1"], ["'Foo'", "MaximumError"]),
             (["--output", "out", "--setting", " "], ["--setting", "Property=Value"]),
+            (["--output", "out", "--setting", "triangle-caster", "--setting", "ray-cast"],
+             ["--setting", "'triangle-caster'", "'ray-cast'", "one kind"]),
+            (["--output", "out", "--setting", "triangle-caster", "--scene", "ball-smooth"],
+             ["'ball-smooth'", "signal-smooth"]),
             (["--output", "out", "--setting", "MaximumError=2"], ["MaximumError", "from 0 to 1"]),
             (["--output", "out", "--frames", "0"], ["--frames", "from 1"]),
             (["--output", "out", "--size", "0,1"], ["--size", "W,H"]),
@@ -338,6 +404,8 @@ class Bench(ToolTest):
             (["--output", "missing/out"], ["'missing/out'", "No such file"]),
             (["missing.vtu", "--output", "out"], ["'missing.vtu'"]),
             (["ball.vtu", "--array", "Temp", "--output", "out"], ["'Temp'", "Field"]),
+            (["ball.vtu", "--setting", "triangle-caster TileSize=8", "--output", "out"],
+             ["'ball.vtu'", "vtkImageData", "vtkUnstructuredGrid"]),
         ]:
             with self.subTest(arguments=arguments):
                 self.expect_failure(1, "bench", "--quick", *arguments, says=says)

@@ -279,10 +279,6 @@ class FailedWork(ToolTest):
                     2, "render", "ball.vtu", "--output", "out.png", "--method", "triangle-caster",
                     *arguments, says=says,
                 )
-        self.expect_failure(
-            2, "bench", "ball.vtu", "--setting", "triangle-caster TileSize=8", "--output", "bench",
-            says=["--setting", "triangle-caster"],
-        )
 
     def test_transfer_functions(self):
         self.render_fails("--transfer", "missing.json", says="'missing.json'")
@@ -344,13 +340,11 @@ class FailedWork(ToolTest):
             for number in (signal.SIGINT, signal.SIGTERM):
                 with self.subTest(command=arguments[0], signal=number):
                     self.interrupt(
-                        number, *arguments, until=lambda _: self.count_hidden() == outputs
+                        number, *arguments,
+                        until=lambda process: self.count_unnamed(process) == outputs,
                     )
         with open(self.path("out.png"), encoding="utf-8") as file:
             self.assertEqual(file.read(), "older")
-
-    def count_hidden(self):
-        return sum(name.startswith(".") for name in self.files())
 
 
 if __name__ == "__main__":

@@ -5,6 +5,8 @@ import json
 import os
 import pty
 import re
+import threading
+import time
 import unittest
 
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -418,10 +420,12 @@ class Commands(ToolTest):
                 1, "render", "scaled.vtu", "--method", method, *view, says="too large"
             )
 
-    def test_progress_on_a_terminal_only(self):
+    def run_on_a_terminal(self, *arguments):
+        """What the tool says on a terminal."""
         process, terminal = pty.fork()
         if process == 0:
-            os.execv(tool.TOOL, [tool.TOOL, "generate", "ball", "--output", self.path("ball.vtu")])
+            os.chdir(self.folder)
+            os.execv(tool.TOOL, [tool.TOOL, *map(str, arguments)])
         said = b""
         while True:
             try:
@@ -433,9 +437,31 @@ class Commands(ToolTest):
             said += part
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]), 0)
         os.close(terminal)
-        self.assertIn(b"generating ball", said)
+        return said
+
+    def test_progress_on_a_terminal_only(self):
+        self.succeed("generate", "ball", "--cells", 4, "--output", "ball.vtu")
+        with open(self.path("ball.vtu"), "rb") as file:
+            ball = file.read()
+        os.mkfifo(self.path("pipe"))
+
+        def write_slowly():
+            with open(self.path("pipe"), "wb") as pipe:
+                pipe.write(ball[:100])
+                pipe.flush()
+                time.sleep(0.8)
+                pipe.write(ball[100:])
+
+        writer = threading.Thread(target=write_slowly)
+        writer.start()
+        said = self.run_on_a_terminal("render", "pipe", "--size", "4,4", "--output", "out.png")
+        writer.join()
+        self.assertIn(b"reading pipe ..., 0 s", said)
         self.assertTrue(said.endswith(b"\r\x1b[K"), "the line is gone at the end")
-        self.succeed("generate", "ball", "--output", "ball.vtu")
+        self.assertIn("out.png", self.files())
+        large = ("generate", "ball", "--cells", 150, "--output", "large.vtu")
+        self.assertIn(b"generating ball ...", self.run_on_a_terminal(*large))
+        self.succeed(*large)
 
     def test_threads_do_not_change_a_bit(self):
         self.succeed("generate", "ball", "--cells", 10, "--output", "ball.vtu")

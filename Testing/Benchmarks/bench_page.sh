@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Measures again what Documentation/bench shows, with one command on a quiet machine (about a
-# quarter of an hour on two cores):
+# Measures again what Documentation/bench shows, with one command on a quiet machine (about
+# half an hour on two cores):
 #
 #   TETRALUX_DATA=FOLDER Testing/Benchmarks/bench_page.sh [build/bin/tetralux [OPTIONS OF bench...]]
 #
@@ -16,7 +16,7 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 tool=${1:-$root/build/bin/tetralux}
 [ $# -gt 0 ] && shift
-: "${TETRALUX_DATA:?must name the folder with bluntfinxyz.bin, bluntfinq.bin and can.vtu}"
+: "${TETRALUX_DATA:?must name the folder of bluntfinxyz.bin, bluntfinq.bin, can.vtu, engine.vti}"
 page=${PAGE:-$root/Documentation/bench}
 largest=2000 # kilobytes, for all that is committed
 

@@ -3,6 +3,7 @@
 
 #include "CellPatch.h"
 #include "GhostArray.h"
+#include "Intake/DataSetCheck.h"
 #include "Intake/ScalarExtraction.h"
 #include "Mesh/FaceNeighbors.h"
 
@@ -11,6 +12,7 @@
 #include "vtkCellType.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
@@ -19,9 +21,12 @@
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkSMPTools.h"
+#include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
@@ -763,6 +768,75 @@ TEST(TetrahedraIntake, DamagedGridsAreRefused)
   auto grid = patch.MakeGrid(1, KeepPosition);
   grid->GetCellTypesArray()->SetNumberOfValues(1);
   expectError(grid, "2 cells, but types for 1");
+}
+
+TEST(TetrahedraIntake, DamagedPolyhedraAreLeftOut)
+{
+  const std::vector<vtkIdType> cube = { 6, 4, 0, 2, 3, 1, 4, 4, 5, 7, 6, 4, 0, 1, 5, 4, 4, 2, 6, 7,
+    3, 4, 0, 4, 6, 2, 4, 1, 3, 7, 5 };
+  const auto countTetrahedra =
+    [](const std::vector<vtkIdType>& faces, const std::vector<vtkIdType>& locations)
+  {
+    vtkNew<vtkPoints> points;
+    for (int i = 0; i < 8; ++i)
+    {
+      points->InsertNextPoint(i & 1, i >> 1 & 1, i >> 2);
+    }
+    const auto makeArray = [](const std::vector<vtkIdType>& values)
+    {
+      auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+      for (const vtkIdType value : values)
+      {
+        array->InsertNextValue(value);
+      }
+      return array;
+    };
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(makeArray({ 0, 8 }), makeArray({ 0, 1, 2, 3, 4, 5, 6, 7 }));
+    vtkNew<vtkUnsignedCharArray> types;
+    types->InsertNextValue(VTK_POLYHEDRON);
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points);
+    grid->SetCells(types, cells, makeArray(locations), makeArray(faces));
+    return TakeInTetrahedra(grid).Mesh.GetNumberOfCells();
+  };
+  const auto change = [&cube](std::size_t at, vtkIdType value)
+  {
+    std::vector<vtkIdType> faces = cube;
+    faces[at] = value;
+    return faces;
+  };
+  EXPECT_GT(countTetrahedra(cube, { 0 }), 4u);
+  constexpr vtkIdType Beyond = 1000000000;
+  for (const vtkIdType location : { vtkIdType(-2), vtkIdType(31), Beyond })
+  {
+    EXPECT_EQ(countTetrahedra(cube, { location }), 0u) << location;
+  }
+  EXPECT_EQ(countTetrahedra(cube, {}), 0u);
+  EXPECT_EQ(countTetrahedra({}, { 0 }), 0u);
+  EXPECT_EQ(countTetrahedra({ cube.begin(), cube.begin() + 9 }, { 0 }), 0u);
+  EXPECT_EQ(countTetrahedra(change(0, -1), { 0 }), 0u);
+  EXPECT_EQ(countTetrahedra(change(1, Beyond), { 0 }), 0u);
+  EXPECT_EQ(countTetrahedra(change(6, VTK_ID_MAX), { 0 }), 0u);
+  EXPECT_EQ(countTetrahedra(change(0, Beyond), { 0 }), countTetrahedra(cube, { 0 }));
+}
+
+TEST(TetrahedraIntake, CellsOutsideOfTheirArrayAreFound)
+{
+  const auto describe = [](vtkIdType offset)
+  {
+    CellPatch patch;
+    patch.AddBoxes(VTK_HEXAHEDRON, 0, 0, 0, 3, 1, 1);
+    auto grid = patch.MakeGrid(1, KeepPosition);
+    grid->GetCells()->ConvertTo64BitStorage();
+    vtkTypeInt64Array* offsets = grid->GetCells()->GetOffsetsArray64();
+    offsets->SetValue(1, offset == -1 ? offsets->GetValue(1) : offset);
+    return FindDamageOfCells(grid);
+  };
+  EXPECT_EQ(describe(-1), "");
+  EXPECT_EQ(describe(-8), "the points of its cell 0 are not in its array of them");
+  EXPECT_EQ(describe(17), "the points of its cell 1 are not in its array of them");
+  EXPECT_EQ(describe(VTK_ID_MAX), "the points of its cell 0 are not in its array of them");
 }
 
 TEST(TetrahedraIntake, CollapsedHexahedronKeepsItsVolume)

@@ -12,7 +12,7 @@ import sys
 
 ARCHITECTURE = pathlib.Path("Documentation/Architecture.md")
 DRAWING = pathlib.Path("Documentation/rooms.svg")
-TOPS = ("Module", "Filters", "Rendering", "Evaluation", "Application")
+TOPS = ("Module", "Filters", "Rendering", "Evaluation", "Application", "ParaView")
 PRIVATE_TREES = ("Testing/Reference",)
 SUFFIXES = (".h", ".cxx", ".inl", ".glsl")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
@@ -177,7 +177,7 @@ def draw(tree):
     print('  node [shape=box, style="rounded,filled", fontname=Helvetica, fontsize=10,')
     print("    height=0.25, margin=0.06, color=gray40];")
     print("  edge [color=gray50, arrowsize=0.5];")
-    colors = ["#d8e8f4", "#dcefd8", "#f6ead0", "#eadff0", "#f4dcd8", "#e8e8e8"]
+    colors = ["#d8e8f4", "#dcefd8", "#f6ead0", "#eadff0", "#f4dcd8", "#d8efec", "#e8e8e8"]
     for room in table:
         top = room.split("/")[0]
         color = colors[TOPS.index(top)] if top in TOPS else colors[-1]

@@ -52,7 +52,8 @@ def make_property(colors, opacities, unit_distance=1):
 class MapperScene:
     """What a mapper draws by a property, alone in a window."""
 
-    def __init__(self, mapper, volume_property, width, height):
+    def __init__(self, mapper, volume_property, width, height, window=None):
+        """window: of VTK; None for one without a display"""
         self.mapper = mapper
         volume = vtkVolume()
         volume.SetMapper(mapper)
@@ -60,7 +61,7 @@ class MapperScene:
         self.renderer = vtkRenderer()
         self.renderer.AddVolume(volume)
         self.camera = self.renderer.GetActiveCamera()
-        self.window = tetralux.vtkHeadlessRenderWindow()
+        self.window = window or tetralux.vtkHeadlessRenderWindow()
         self.window.SetMultiSamples(0)  # there is no geometry to smooth
         self.window.SetSize(width, height)
         self.window.AddRenderer(self.renderer)

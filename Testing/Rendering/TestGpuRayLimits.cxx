@@ -163,8 +163,9 @@ public:
     std::copy_n(&this->MeshFromWorld[0][0], 12, &grid.MeshFromWorld[0][0]);
     tetralux::RayLimits limits = this->Limits;
     rays.AddClippingRange(limits);
-    const std::vector<float> distances =
-      opaque ? tetralux::ReadOpaqueDistances(this->Evaluator.Renderer, rays) : std::vector<float>();
+    const std::vector<float> distances = opaque
+      ? tetralux::ReadOpaqueDistances(this->Opaque, this->Evaluator.Window, rays)
+      : std::vector<float>();
     const OpenGLSnapshot before = TakeOpenGLSnapshot(this->Evaluator.Window);
     this->GpuLimits.Update(
       this->Evaluator.Window, rays, grid, limits, opaque, this->Center.data(), this->Radius);
@@ -236,6 +237,7 @@ public:
 
   GlslEvaluator Evaluator;
   tetralux::GpuRayLimits GpuLimits;
+  tetralux::OpaqueDepth Opaque;
   tetralux::RayLimits Limits;
   Vector Center = { 0.3, 0.2, 0.1 };
   double Radius = 1.5;
@@ -326,7 +328,7 @@ TEST_F(GpuRayLimitsTest, OpaqueGeometryOfAMultisampledWindow)
   this->Draw();
   const tetralux::CameraRays rays(this->Evaluator.Renderer, 1);
   const std::vector<float> distances =
-    tetralux::ReadOpaqueDistances(this->Evaluator.Renderer, rays);
+    tetralux::ReadOpaqueDistances(this->Opaque, this->Evaluator.Window, rays);
   this->Draw();
   this->GpuLimits.Update(this->Evaluator.Window, rays, rays.GetGrid(), this->Limits, true,
     this->Center.data(), this->Radius);

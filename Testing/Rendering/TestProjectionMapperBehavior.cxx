@@ -240,6 +240,17 @@ TEST(ProjectionMapper, CorrectionsOff)
 }
 
 // Emission is only added up: random rounding is right on the average, whatever the scene.
+// The face's z on the screen, 1 / depth, has no bound there.
+TEST(ProjectionMapper, EyeCloseToABoundaryFace)
+{
+  ProjectionMapperScene scene;
+  for (const double distance : { 0., 1e-12, 1e-9, 3e-9, 1e-8, 1e-7, 1e-6, -1e-9, -1e-7 })
+  {
+    scene.SetCamera({ 0.5, 0.45, 1 + distance }, { 0.5, 0.45, 0.5 }, { 0.01, 1, 0 }, 1e-3);
+    EXPECT_LT(FindLargestDifference(scene.Render(), scene.RenderByRays()), Exact) << distance;
+  }
+}
+
 TEST(ProjectionMapper, EmissionIsDitheredWithoutBias)
 {
   ProjectionMapperScene scene;

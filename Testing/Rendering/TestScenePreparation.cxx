@@ -153,6 +153,45 @@ TEST_F(ScenePreparationTest, TimeStepsRebuildWhatTheyChange)
   }
 }
 
+TEST_F(ScenePreparationTest, WhatChangedInPlaceIsFoundOnceTheInputSaysSo)
+{
+  vtkSmartPointer<vtkUnstructuredGrid> grid = MakeCells(VTK_TETRA);
+  this->Update(grid);
+  grid->Modified();
+  EXPECT_EQ(this->Update(grid), Stages()) << "nothing changed";
+
+  auto* field = vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetScalars());
+  *field->GetPointer(3) = 0.4;
+  EXPECT_EQ(this->Update(grid), Stages()) << "nobody said so";
+  grid->Modified();
+  EXPECT_EQ(this->Update(grid), Stages({ "scalars" }));
+  *field->GetPointer(3) = std::nan("");
+  grid->GetPointData()->Modified();
+  EXPECT_EQ(this->Update(grid), Stages({ "scalars" }));
+  grid->Modified();
+  EXPECT_EQ(this->Update(grid), Stages()) << "what is no number is the same number";
+
+  // Of vtkPoints that are floats or doubles.
+  vtkDataArray* points = grid->GetPoints()->GetData();
+  points->GetDataType() == VTK_FLOAT
+    ? void(*static_cast<float*>(points->GetVoidPointer(1)) -= 0.1f)
+    : void(*static_cast<double*>(points->GetVoidPointer(1)) -= 0.1);
+  grid->Modified();
+  EXPECT_EQ(this->Update(grid), Stages({ "points" }));
+
+  vtkNew<vtkIdList> first;
+  grid->GetCellPoints(0, first);
+  vtkCellArray* cells = grid->GetCells();
+  ASSERT_TRUE(cells->IsStorage64Bit());
+  for (vtkIdType k = 0; k < first->GetNumberOfIds(); ++k)
+  {
+    *cells->GetConnectivityArray64()->GetPointer(4 + k) = first->GetId(k); // the same cell twice
+  }
+  grid->Modified();
+  EXPECT_EQ(this->Update(grid), Stages({ "mesh", "scalars" }));
+  EXPECT_EQ(this->Preparation.Scene.Mesh.GetMesh()->GetRemovedCells().Duplicates, 1);
+}
+
 TEST_F(ScenePreparationTest, CellsThatDependOnPointsAreTakenInAnew)
 {
   this->Settings.Merging = tetralux::PointMerging::Never; // the source's prisms touch
@@ -194,6 +233,8 @@ TEST_F(ScenePreparationTest, CellsThatDependOnPointsAreTakenInAnew)
     }
     ASSERT_GT(step->GetNumberOfCells(), 0);
     this->Update(step);
+    step->Modified();
+    EXPECT_EQ(this->Update(step), Stages()) << "nothing changed";
     step = CopyAll(step.Get());
     double x[3];
     step->GetPoint(0, x);

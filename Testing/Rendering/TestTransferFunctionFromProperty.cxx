@@ -255,6 +255,34 @@ TEST_F(TransferFunctionFromProperty, LargeScalars)
   EXPECT_NEAR(result.Function.Nodes[1].Left.Color[0], 0.5, 1e-12);
 }
 
+// Below what single precision holds, in shaders too.
+TEST_F(TransferFunctionFromProperty, OpticalDepthsAreBounded)
+{
+  this->Opacity->AddPoint(7, 1e300);
+  for (const double unitDistance : { UnitDistance, 1e-300 })
+  {
+    this->Property->SetScalarOpacityUnitDistance(unitDistance);
+    const tetralux::PropertyTransferFunction result =
+      tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath);
+    EXPECT_EQ(result.Function.Nodes.back().Left.Attenuation, 1e15 / LongestPath) << unitDistance;
+  }
+}
+
+// Rounding of large colours is no curve.
+TEST_F(TransferFunctionFromProperty, LargeColorsKeepTheirNodes)
+{
+  this->Color->RemoveAllPoints();
+  this->Color->AddRGBPoint(0, 0.3, 0.7e20, 0.1);
+  this->Color->AddRGBPoint(1. / 3, 0.9e20, 0.1e20, 0.3);
+  this->Color->AddRGBPoint(1, 0.7, 0.3e20, 1e20);
+  const tetralux::PropertyTransferFunction result =
+    tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath);
+  EXPECT_EQ(result.Function.Nodes.size(), 5u);
+  this->Color->AddRGBPoint(1, 0.7, 0.3e20, 1.1e20);
+  EXPECT_THROW(tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath),
+    std::invalid_argument);
+}
+
 TEST_F(TransferFunctionFromProperty, RefusesWhatMakesNoSense)
 {
   for (const double distance : { 0., -1., std::numeric_limits<double>::quiet_NaN() })

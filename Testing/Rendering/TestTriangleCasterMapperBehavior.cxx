@@ -39,6 +39,41 @@ std::string RenderAndGetRebuilt(ImageScene& scene)
   return scene.Get("rebuilt");
 }
 
+TEST(TriangleCasterMapperBehavior, KeepsTheDistanceThatItChose)
+{
+  ImageScene scene;
+  scene.Mapper->SampleDistanceByErrorOn();
+  scene.Mapper->SetMaximumError(1e-2);
+  const std::string distance = "[\"distance of slices\"]";
+  EXPECT_EQ(
+    RenderAndGetRebuilt(scene), "[\"scalars\",\"transfer function\",\"distance of slices\"]");
+  const std::string chosen = scene.Get("distance");
+  EXPECT_EQ(RenderAndGetRebuilt(scene), Nothing);
+  EXPECT_EQ(scene.Get("distance"), chosen);
+  scene.Mapper->SetTileSize(16);
+  scene.Mapper->SetNumberOfThreads(2);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), Nothing);
+
+  scene.Renderer->GetActiveCamera()->Azimuth(10);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), distance);
+  scene.Mapper->SetMaximumError(1e-3);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), distance);
+  scene.Mapper->SetSampleDistance(1.5);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), distance);
+  scene.Mapper->SetFarColor(0.5, 0.5, 0.5);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), distance);
+  scene.AddSphere(6, 5, 4, 2);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), distance);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), Nothing);
+
+  // What changes while another distance is used.
+  scene.Mapper->SampleDistanceByErrorOff();
+  scene.Opacity->AddPoint(50, 0.9);
+  EXPECT_EQ(RenderAndGetRebuilt(scene), Function);
+  scene.Mapper->SampleDistanceByErrorOn();
+  EXPECT_EQ(RenderAndGetRebuilt(scene), distance);
+}
+
 TEST(TriangleCasterMapperBehavior, RebuildsWhatChanged)
 {
   ImageScene scene;

@@ -207,6 +207,20 @@ TEST(TriangleCasterMapperBlends, AveragesOfAConstantVolumeAreBlack)
   EXPECT_EQ(picture[middle + 3], 1);
 }
 
+TEST(TriangleCasterMapperBlends, IsosurfacesAreLit)
+{
+  ImageScene scene;
+  scene.Mapper->SetBlendModeToIsoSurface();
+  scene.Mapper->SetSampleDistance(Distance);
+  scene.Volume->GetProperty()->GetIsoSurfaceValues()->SetValue(0, 75);
+  scene.Opacity->AddPoint(75, 1);
+  const std::vector<float> flat = scene.Render();
+  scene.Volume->GetProperty()->ShadeOn();
+  EXPECT_EQ(RenderMessages(scene, vtkCommand::WarningEvent), "");
+  EXPECT_GT(FindDifference(scene.Render(), flat), 0.1);
+  EXPECT_EQ(scene.Get("left_out").find("shading"), std::string::npos);
+}
+
 TEST(TriangleCasterMapperBlends, WarnOfWhatCompositingHasOnly)
 {
   ImageScene scene;

@@ -26,9 +26,9 @@ using namespace tetralux;
 
 constexpr std::uint64_t Seed = 6021023;
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int DefaultRounds = 1500; // each takes six times as long
+constexpr int DefaultRounds = 600; // each takes six times as long
 #else
-constexpr int DefaultRounds = 6000;
+constexpr int DefaultRounds = 4000;
 #endif
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();

@@ -81,6 +81,7 @@ LaneOperations GetLaneOperationsGeneric();
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
 LaneOperations GetLaneOperationsAvx2();
 #endif
+LaneOperations GetLaneOperationsAvx512(); ///< of 16 lanes, in a program of their own
 
 /// Of the test of Polynomial.
 constexpr float LaneCoefficients[] = { 1.f, -0.5f, 0.3f, 1e-3f };

@@ -340,6 +340,13 @@ class Lanes : public testing::TestWithParam<InstructionSet>
 protected:
   void SetUp() override
   {
+#if TETRALUX_LANE_COUNT == 16
+    if (GetWidestInstructionSet() != InstructionSet::Avx512)
+    {
+      GTEST_SKIP() << "this processor has no AVX-512";
+    }
+    this->Tested = GetLaneOperationsAvx512();
+#else
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
     if (this->GetParam() == InstructionSet::Avx2)
     {
@@ -352,6 +359,7 @@ protected:
     }
 #endif
     this->Tested = GetLaneOperationsGeneric();
+#endif
   }
 
   LaneOperations Tested{};
@@ -620,15 +628,19 @@ TEST_P(Lanes, LookUpTables)
 
 std::vector<InstructionSet> GetCompiledSets()
 {
+#if TETRALUX_LANE_COUNT == 16
+  return { InstructionSet::Avx512 };
+#else
   std::vector<InstructionSet> sets{ InstructionSet::Generic };
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
   sets.push_back(InstructionSet::Avx2);
 #endif
   return sets;
+#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, Lanes, testing::ValuesIn(GetCompiledSets()),
   [](const testing::TestParamInfo<InstructionSet>& set)
-  { return std::string(GetName(set.param)); });
+  { return std::string(set.param == InstructionSet::Avx512 ? "AVX512Wide" : GetName(set.param)); });
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "BlendScene.h"
 
 #include "Optics/IntervalTable.h"
+#include "PlainRays.h"
 
 #include <gtest/gtest.h>
 
@@ -77,13 +78,13 @@ std::vector<std::array<double, 2>> FindParts(
   };
   for (int a = 0; a < 3; ++a)
   {
-    cut(ray.IndexStart.X[a], ray.IndexDirection.X[a]);
-    cut(scene.Dimensions[a] - 1 - ray.IndexStart.X[a], -ray.IndexDirection.X[a]);
+    cut(ray.IndexStart[a], ray.IndexDirection[a]);
+    cut(scene.Dimensions[a] - 1 - ray.IndexStart[a], -ray.IndexDirection[a]);
   }
   for (const std::array<double, 4>& plane : scene.Limits.Planes)
   {
-    const double normal[3] = { plane[0], plane[1], plane[2] };
-    cut(Dot(normal, ray.Start.X) + plane[3], Dot(normal, ray.Direction.X));
+    const PlainVector normal = { plane[0], plane[1], plane[2] };
+    cut(Dot(normal, ray.Start) + plane[3], Dot(normal, ray.Direction));
   }
   if (!scene.MaximumDistances.empty())
   {
@@ -101,7 +102,7 @@ std::vector<std::array<double, 2>> FindParts(
   for (int p = 0; p < 6; ++p)
   {
     const double t =
-      (scene.Limits.CroppingPlanes[p] - ray.IndexStart.X[p / 2]) / ray.IndexDirection.X[p / 2];
+      (scene.Limits.CroppingPlanes[p] - ray.IndexStart[p / 2]) / ray.IndexDirection[p / 2];
     if (begin < t && t < end)
     {
       cuts.push_back(t);
@@ -115,7 +116,7 @@ std::vector<std::array<double, 2>> FindParts(
     int region = 0;
     for (int a = 2; a >= 0; --a)
     {
-      const double x = ray.IndexStart.X[a] + t * ray.IndexDirection.X[a];
+      const double x = ray.IndexStart[a] + t * ray.IndexDirection[a];
       const double* planes = scene.Limits.CroppingPlanes + 2 * a;
       region = 3 * region + (x >= planes[0] ? 1 : 0) + (x >= planes[1] ? 1 : 0);
     }
@@ -158,37 +159,23 @@ struct PlainPixel
 /// The scalar at a world distance. close: set if another cell is about as close.
 double FindScalar(const BlendScene& scene, const PlainRay& ray, double t, bool& close)
 {
-  int cell[3];
-  double w[3];
-  for (int a = 0; a < 3; ++a)
+  const PlainPlace place(scene.Dimensions, ray.GetIndex(t));
+  for (const double share : place.Share)
   {
-    const double x = ray.IndexStart.X[a] + t * ray.IndexDirection.X[a];
-    cell[a] = static_cast<int>(std::clamp(std::floor(x), 0., scene.Dimensions[a] - 2.));
-    w[a] = x - cell[a];
-    close = close || w[a] < Doubt || w[a] > 1 - Doubt;
+    close = close || share < Doubt || share > 1 - Doubt;
   }
-  double sum = 0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    double weight = 1;
-    int point[3];
-    for (int a = 0; a < 3; ++a)
+  bool finite = true;
+  const double value = place.Interpolate(
+    [&](const std::array<int, 3>& point)
     {
-      const int upper = corner >> a & 1;
-      point[a] = cell[a] + upper;
-      weight *= upper != 0 ? w[a] : 1 - w[a];
-    }
-    const float value =
-      scene.Values[(static_cast<std::size_t>(point[2]) * scene.Dimensions[1] + point[1]) *
-          scene.Dimensions[0] +
-        point[0]];
-    if (!std::isfinite(value))
-    {
-      return NotANumber;
-    }
-    sum += weight * value;
-  }
-  return scene.Offset + scene.Scale * sum;
+      const float v =
+        scene.Values[(static_cast<std::size_t>(point[2]) * scene.Dimensions[1] + point[1]) *
+            scene.Dimensions[0] +
+          point[0]];
+      finite = finite && std::isfinite(v);
+      return v;
+    });
+  return finite ? scene.Offset + scene.Scale * value : NotANumber;
 }
 
 class PlainCaster
@@ -444,8 +431,8 @@ private:
   void FindSlice(const PlainRay& ray, const std::vector<std::array<double, 2>>& parts)
   {
     const std::array<double, 4>& plane = this->S.Optics.SlicePlane;
-    const double normal[3] = { plane[0], plane[1], plane[2] };
-    const double t = -(Dot(normal, ray.Start.X) + plane[3]) / Dot(normal, ray.Direction.X);
+    const PlainVector normal = { plane[0], plane[1], plane[2] };
+    const double t = -(Dot(normal, ray.Start) + plane[3]) / Dot(normal, ray.Direction);
     for (const std::array<double, 2>& part : parts)
     {
       this->Pixel.Doubtful =
@@ -540,32 +527,6 @@ BlendPicture Cast(const BlendScene& scene)
   return picture;
 }
 
-PlainRay MakePlainRay(const RayGrid& grid, const SlicePlanes& slices, int i, int j)
-{
-  PlainRay ray;
-  for (int a = 0; a < 3; ++a)
-  {
-    ray.Start.X[a] = grid.Origin[a] + i * grid.OriginStepX[a] + j * grid.OriginStepY[a];
-    ray.Direction.X[a] =
-      grid.Direction[a] + i * grid.DirectionStepX[a] + j * grid.DirectionStepY[a];
-  }
-  const double length = std::sqrt(Dot(ray.Direction.X, ray.Direction.X));
-  for (double& x : ray.Direction.X)
-  {
-    x /= length;
-  }
-  for (int a = 0; a < 3; ++a)
-  {
-    const double* row = grid.MeshFromWorld[a];
-    const double linear[3] = { row[0], row[1], row[2] };
-    ray.IndexStart.X[a] = Dot(linear, ray.Start.X) + row[3];
-    ray.IndexDirection.X[a] = Dot(linear, ray.Direction.X);
-  }
-  ray.DepthOfDirection =
-    slices.Shape == SliceShape::Planes ? Dot(ray.Direction.X, slices.Normal) : 1;
-  return ray;
-}
-
 int ExpectPlain(const BlendScene& scene, const BlendPicture& picture)
 {
   PlainCaster plain(scene);
@@ -637,13 +598,13 @@ void SetView(BlendScene& scene, std::mt19937& random, bool parallel)
     }
     grid.MeshFromWorld[a][3] = 0.5 * (scene.Dimensions[a] - 1) - sum;
   }
-  double n[3];
+  PlainVector n;
   for (double& x : n)
   {
     x = Uniform(random, -1, 1);
   }
   const double length = std::sqrt(Dot(n, n));
-  double right[3] = { -n[1], n[0], 0 };
+  PlainVector right = { -n[1], n[0], 0 };
   const double across = std::sqrt(Dot(right, right));
   for (int a = 0; a < 3; ++a)
   {
@@ -713,8 +674,7 @@ BlendScene MakeBlendScene(std::mt19937& random, ImageBlend blend, bool parallel,
     { 150.f, { 1.f, 1.f, 1.f }, 1.f }, { 30.7f, { 0.4f, 0.4f, 0.2f }, 0.f } };
   // Through the middle of the volume, about which the picture is.
   const RayGrid& grid = scene.Grid;
-  double normal[3];
-  double middle[3];
+  PlainVector normal, middle;
   for (int a = 0; a < 3; ++a)
   {
     const double half[2] = { 0.5 * grid.Width, 0.5 * grid.Height };

@@ -79,30 +79,9 @@ struct BlendPicture
   }
 };
 
-/// The same in plain loops.
-struct PlainVector
-{
-  double X[3];
-};
-
-struct PlainRay
-{
-  PlainVector Start, Direction;           ///< in the world, of length 1
-  PlainVector IndexStart, IndexDirection; ///< in the volume
-  double DepthOfDirection;
-};
-
-inline double Dot(const double (&a)[3], const double (&b)[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 const char* GetName(ImageBlend blend);
 
 BlendPicture Cast(const BlendScene& scene);
-
-/// Where the ray of a pixel goes.
-PlainRay MakePlainRay(const RayGrid& grid, const SlicePlanes& slices, int i, int j);
 
 /// Compares a picture with the plain loops, pixels without doubt. Returns how many pixels show
 /// anything.

@@ -2,6 +2,7 @@
 #include "ComponentScene.h"
 
 #include "Optics/IntervalTable.h"
+#include "PlainRays.h"
 #include "ReferenceScenes.h"
 
 #include <algorithm>
@@ -14,15 +15,7 @@ namespace tetralux
 namespace
 {
 
-using Vector = std::array<double, 3>;
-
-double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector Normalize(const Vector& v)
-{
-  const double length = std::hypot(v[0], v[1], v[2]);
-  return { v[0] / length, v[1] / length, v[2] / length };
-}
+using Vector = PlainVector;
 
 template <class Value>
 void Store(const std::vector<double>& shares, ComponentScene& scene)
@@ -44,13 +37,6 @@ void Store(const std::vector<double>& shares, ComponentScene& scene)
   scene.Offset = -low / (high - low);
 }
 
-/// Where a sample is.
-struct Place
-{
-  std::array<int, 3> Cell;
-  Vector Share; ///< where in the cell
-};
-
 class Loops
 {
 public:
@@ -63,46 +49,12 @@ public:
 
   std::array<double, 4> Show(int i, int j) const
   {
-    const RayGrid& grid = this->Scene.Grid;
-    Vector start, direction;
-    for (int a = 0; a < 3; ++a)
-    {
-      start[a] = grid.Origin[a] + i * grid.OriginStepX[a] + j * grid.OriginStepY[a];
-      direction[a] = grid.Direction[a] + i * grid.DirectionStepX[a] + j * grid.DirectionStepY[a];
-    }
-    direction = Normalize(direction);
-    Vector from, step; // in coordinates of the volume
-    double enter = 0;
-    double leave = std::numeric_limits<double>::infinity();
-    for (int a = 0; a < 3; ++a)
-    {
-      const double* row = grid.MeshFromWorld[a];
-      from[a] = row[0] * start[0] + row[1] * start[1] + row[2] * start[2] + row[3];
-      step[a] = row[0] * direction[0] + row[1] * direction[1] + row[2] * direction[2];
-      const double last = this->Scene.Dimensions[a] - 1;
-      const double ends[2] = { -from[a] / step[a], (last - from[a]) / step[a] };
-      enter = std::max(enter, std::min(ends[0], ends[1]));
-      leave = std::min(leave, std::max(ends[0], ends[1]));
-    }
-    const double* normal = this->Planes.Normal;
-    const double slope = Dot(direction, { normal[0], normal[1], normal[2] });
+    const PlainRay ray = MakePlainRay(this->Scene.Grid, this->Planes, i, j);
     std::array<double, 4> pixel{};
     double translucency = 1;
-    for (int n = 0; n < this->Planes.Count; ++n)
+    for (const PlainSlab& slab : FindPlainSlabs(this->Scene.Dimensions, this->Planes, ray))
     {
-      const double depth = this->Planes.Origin + n * this->Planes.Distance;
-      const double begin = std::max(enter, depth / slope);
-      const double end = std::min(leave, (depth + this->Planes.Distance) / slope);
-      if (!(begin < end))
-      {
-        continue;
-      }
-      Vector point;
-      for (int a = 0; a < 3; ++a)
-      {
-        point[a] = from[a] + (begin + end) / 2 * step[a];
-      }
-      const Gathered gathered = this->Gather(point, direction, end - begin);
+      const Gathered gathered = this->Gather(ray, slab);
       for (int c = 0; c < 3; ++c)
       {
         pixel[c] += translucency * gathered.Emitted[c];
@@ -123,7 +75,7 @@ private:
   /// Colour and opacity of a step.
   struct Shown
   {
-    double Color[3] = { 0, 0, 0 };
+    Vector Color = { 0, 0, 0 };
     double Alpha = 0;
   };
 
@@ -138,56 +90,20 @@ private:
     return this->Scene.Numbers[this->GetIndex(x, y, z) * this->Scene.Components + component];
   }
 
-  template <class OfPoint>
-  static double Interpolate(const Place& place, const OfPoint& ofPoint)
+  double GetScalar(int component, const PlainPlace& place) const
   {
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      std::array<int, 3> at = place.Cell;
-      double weight = 1;
-      for (int a = 0; a < 3; ++a)
-      {
-        const bool upper = (corner >> a & 1) != 0;
-        at[a] += upper ? 1 : 0;
-        weight *= upper ? place.Share[a] : 1 - place.Share[a];
-      }
-      sum += weight * ofPoint(at);
-    }
-    return sum;
-  }
-
-  double GetScalar(int component, const Place& place) const
-  {
-    const double number = Interpolate(place,
-      [&](const std::array<int, 3>& at)
+    const double number = place.Interpolate([&](const std::array<int, 3>& at)
       { return this->GetNumber(component, at[0], at[1], at[2]); });
     return this->Scene.Offset + this->Scene.Scale * number;
   }
 
   /// The gradient of the scalar in the world.
-  Vector GetGradient(int component, const Place& place) const
+  Vector GetGradient(int component, const PlainPlace& place) const
   {
-    Vector gradient{};
-    for (int a = 0; a < 3; ++a)
-    {
-      const double ofIndex = this->Scene.Scale *
-        Interpolate(place,
-          [&](std::array<int, 3> at)
-          {
-            std::array<int, 3> before = at;
-            before[a] = std::max(at[a] - 1, 0);
-            at[a] = std::min(at[a] + 1, this->Scene.Dimensions[a] - 1);
-            return (this->GetNumber(component, at[0], at[1], at[2]) -
-                     this->GetNumber(component, before[0], before[1], before[2])) /
-              (at[a] - before[a]);
-          });
-      for (int b = 0; b < 3; ++b)
-      {
-        gradient[b] += this->Scene.Grid.MeshFromWorld[a][b] * ofIndex;
-      }
-    }
-    return gradient;
+    return ToWorld(this->Scene.Grid,
+      place.FindGradient(this->Scene.Dimensions,
+        [&](const std::array<int, 3>& at)
+        { return this->Scene.Scale * this->GetNumber(component, at[0], at[1], at[2]); }));
   }
 
   double GetAlpha(double scalarOpacity, double length) const
@@ -205,35 +121,7 @@ private:
       : Evaluate(function, length * this->Scene.Optics.GradientLength).Attenuation;
   }
 
-  /// Distant lights only.
-  void Light(
-    const Material& surface, const Vector& gradient, const Vector& view, double (&color)[3]) const
-  {
-    Vector normal = Normalize(gradient);
-    if (Dot(normal, view) > 0)
-    {
-      normal = { -normal[0], -normal[1], -normal[2] };
-    }
-    double lit[3] = { 0, 0, 0 };
-    for (const tetralux::Light& light : this->Scene.Options.Lights)
-    {
-      const Vector toLight = { light.Position[0], light.Position[1], light.Position[2] };
-      const double cosine = std::max(0., Dot(normal, toLight));
-      const Vector halfway =
-        Normalize({ toLight[0] - view[0], toLight[1] - view[1], toLight[2] - view[2] });
-      const double shine =
-        cosine > 0 ? std::pow(std::max(0., Dot(normal, halfway)), surface.SpecularPower) : 0;
-      for (int c = 0; c < 3; ++c)
-      {
-        lit[c] += color[c] *
-            (surface.Ambient * light.Ambient[c] + surface.Diffuse * light.Diffuse[c] * cosine) +
-          surface.Specular * light.Specular[c] * shine;
-      }
-    }
-    std::copy(lit, lit + 3, color);
-  }
-
-  bool IsHidden(const Place& place) const
+  bool IsHidden(const PlainPlace& place) const
   {
     const auto& n = this->Scene.Dimensions;
     const auto& cell = place.Cell;
@@ -260,14 +148,14 @@ private:
   {
     const TransferFunction::Value value = Evaluate(function, scalar);
     Shown shown;
-    std::copy(value.Color, value.Color + 3, shown.Color);
+    std::copy(value.Color, value.Color + 3, shown.Color.begin());
     shown.Alpha = this->GetAlpha(
       value.Attenuation * this->GetGradientFactor(gradientOpacity, gradient), length);
     return shown;
   }
 
   /// Of one function at each sample.
-  Shown ShowOne(const Place& place, std::size_t nearest, double length) const
+  Shown ShowOne(const PlainPlace& place, std::size_t nearest, double length) const
   {
     const ImageOptics& optics = this->Scene.Optics;
     const int last = this->Scene.Components - 1;
@@ -278,7 +166,7 @@ private:
     if (this->Scene.Components == 2)
     {
       const TransferFunction::Value value = Evaluate(optics.Function, this->GetScalar(0, place));
-      std::copy(value.Color, value.Color + 3, shown.Color);
+      std::copy(value.Color, value.Color + 3, shown.Color.begin());
     }
     for (int c = 0; this->Scene.Components == 4 && c < 3; ++c)
     {
@@ -301,19 +189,23 @@ private:
     return shown;
   }
 
-  Gathered Gather(const Vector& point, const Vector& view, double length) const
+  Gathered Gather(const PlainRay& ray, const PlainSlab& slab) const
   {
     const ComponentScene& scene = this->Scene;
     const ImageOptics& optics = scene.Optics;
-    Place place;
+    const double length = slab.GetLength();
+    const Vector index = ray.GetIndex(slab.GetMiddle());
+    const PlainPlace place(scene.Dimensions, index);
     std::array<int, 3> near;
     for (int a = 0; a < 3; ++a)
     {
-      place.Cell[a] =
-        std::clamp(static_cast<int>(std::floor(point[a])), 0, scene.Dimensions[a] - 2);
-      place.Share[a] = point[a] - place.Cell[a];
-      near[a] = static_cast<int>(std::floor(point[a] + 0.5));
+      near[a] = static_cast<int>(std::floor(index[a] + 0.5));
     }
+    const auto light = [&](const Material& surface, const Vector& gradient, Vector& color)
+    {
+      const Vector point = ray.GetPoint(slab.GetMiddle());
+      color = Shine(scene.Options.Lights, surface, color, gradient, point, ray.Direction);
+    };
     const std::size_t nearest = this->GetIndex(near[0], near[1], near[2]);
     Gathered gathered;
     if ((!scene.Mask.empty() && scene.Mask[nearest] == 0) || this->IsHidden(place))
@@ -325,8 +217,7 @@ private:
       Shown shown = this->ShowOne(place, nearest, length / optics.UnitDistance);
       if (shown.Alpha > 0 && scene.Options.Shaded)
       {
-        this->Light(
-          scene.Options.Surface, this->GetGradient(scene.Components - 1, place), view, shown.Color);
+        light(scene.Options.Surface, this->GetGradient(scene.Components - 1, place), shown.Color);
       }
       for (int c = 0; c < 3 && shown.Alpha > 0; ++c)
       {
@@ -354,7 +245,7 @@ private:
       }
       if (part.Shaded)
       {
-        this->Light(part.Surface, gradient, view, shown.Color);
+        light(part.Surface, gradient, shown.Color);
       }
       weighted += part.Weight * shown.Alpha;
       squares += shown.Alpha * shown.Alpha;

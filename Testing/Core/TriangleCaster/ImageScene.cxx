@@ -272,6 +272,7 @@ private:
     options.Triangles = this->Chance(0.5);
     options.NumberOfThreads = this->Chance(0.2) ? 3 : 1;
     options.PortableKernels = this->Chance(0.3);
+    options.WideKernels = this->Chance(0.5);
   }
 
   std::mt19937_64& Generator;

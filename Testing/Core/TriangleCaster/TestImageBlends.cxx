@@ -3,6 +3,7 @@
 // Blend modes of the triangle caster: against plain loops in double precision, and closed forms.
 
 #include "BlendScene.h"
+#include "PlainRays.h"
 
 #include <gtest/gtest.h>
 
@@ -127,7 +128,7 @@ void ForEachLimit(BlendScene& scene, std::mt19937& random, const std::function<v
 {
   const BlendScene unlimited = scene;
   const RayGrid& grid = scene.Grid;
-  double n[3], middle[3];
+  PlainVector n, middle;
   for (int a = 0; a < 3; ++a)
   {
     n[a] = Uniform(random, -1, 1);
@@ -577,8 +578,8 @@ TEST(ImageBlends, SliceOfALinearField)
       const double weights[3] = { 1, 0.5, 1.5 };
       for (int a = 0; a < 3; ++a)
       {
-        height += plane[a] * (ray.Start.X[a] + picture.Depths[p] * ray.Direction.X[a]);
-        scalar += weights[a] * (ray.IndexStart.X[a] + picture.Depths[p] * ray.IndexDirection.X[a]);
+        height += plane[a] * (ray.Start[a] + picture.Depths[p] * ray.Direction[a]);
+        scalar += weights[a] * (ray.IndexStart[a] + picture.Depths[p] * ray.IndexDirection[a]);
       }
       const double length = std::hypot(plane[0], plane[1], plane[2]);
       EXPECT_NEAR(height / length, 0, 1e-5); // the depth in single precision

@@ -6,6 +6,7 @@
 #include "ImageScene.h"
 
 #include "ReferenceScenes.h"
+#include "Simd/InstructionSet.h"
 
 #include <gtest/gtest.h>
 
@@ -561,6 +562,33 @@ TEST(ImageCaster, PortableKernelsDifferByRounding)
     EXPECT_LE(ExpectReference(scene, picture).Off, 0.05 * scene.GetNumberOfPixels());
     EXPECT_EQ(picture.Statistics.InstructionSet, "generic");
   }
+}
+
+TEST(ImageCaster, WideKernelsAreTheSameBits)
+{
+  if (!HasFastGathers())
+  {
+    GTEST_SKIP() << "this processor has no AVX-512, or slow gathers";
+  }
+  std::set<ImageScalar> types;
+  std::set<bool> few;
+  for (ImageScene& scene : MakeScenes(60))
+  {
+    scene.Options.PortableKernels = false;
+    scene.Options.WideKernels = true;
+    scene.Options.Threshold = 0.01;
+    const CastPicture wide = Cast(scene);
+    EXPECT_EQ(wide.Statistics.InstructionSet, "AVX-512");
+    scene.Options.WideKernels = false;
+    const CastPicture picture = Cast(scene);
+    EXPECT_EQ(picture.Statistics.InstructionSet, "AVX2");
+    EXPECT_TRUE(IsSame(wide, picture));
+    EXPECT_EQ(wide.Statistics.Rays, picture.Statistics.Rays);
+    types.insert(scene.Type);
+    few.insert(scene.Optics.Function.Nodes.size() < 10);
+  }
+  EXPECT_EQ(types.size(), 5u);
+  EXPECT_EQ(few.size(), 2u);
 }
 
 TEST(ImageCaster, ForgetsWhatChanged)

@@ -218,6 +218,21 @@ TEST(ImageSlabs, AreTheSameBitsForAnyTilesAndThreads)
   }
 }
 
+TEST(ImageSlabs, DoNotDependOnThePictureBefore)
+{
+  ImageScene scene = MakeScene();
+  scene.Options.PreIntegrated = true;
+  ImageCaster caster;
+  caster.SetVolume(scene.GetVolume());
+  caster.SetOptics(scene.Optics);
+  for (const double distance : { 1., 1.06, 1.12, 0.95, 1.06 })
+  {
+    SCOPED_TRACE(distance);
+    scene.Options.SampleDistance = distance;
+    EXPECT_TRUE(IsSame(Cast(caster, scene), Cast(scene)));
+  }
+}
+
 TEST(ImageSlabs, RefuseGradients)
 {
   ImageScene scene = MakeScene();

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTetrahedraRepresentation
+ * @brief   what representations of unstructured grids by the mappers of Tetralux have in common
+ *
+ * Takes any vtkDataSet, or a composite of them, whose chosen blocks are appended. Cells are
+ * rendered as they are. In a parallel run they are split into tetrahedra first, since those that
+ * touch the border between two processes are cut at it: parts of a tetrahedron have the scalars of
+ * the whole, parts of other cells do not.
+ *
+ * A frame of an interaction is that of the mapper, too; mappers for the processor cast fewer rays
+ * for it. There is no other level of detail.
+ *
+ * @warning Of a composite, only arrays that all chosen blocks have can be shown. Smooth shading
+ * takes its normals from the cells of one process, which shows along a border between two.
+ *
+ * @sa vtkTetrahedraVolumeMapper
+ */
+#ifndef vtkTetrahedraRepresentation_h
+#define vtkTetrahedraRepresentation_h
+
+#include "TetraluxRepresentationsModule.h" // For export macro
+#include "vtkVolumeRepresentation.h"
+
+#include <memory> // For std::unique_ptr
+#include <string> // For std::string
+
+class vtkDataArray;
+class vtkDataObject;
+class vtkImplicitFunction;
+class vtkObject;
+class vtkRenderWindow;
+class vtkTetrahedraVolumeMapper;
+
+class TETRALUXREPRESENTATIONS_EXPORT vtkTetrahedraRepresentation : public vtkVolumeRepresentation
+{
+public:
+  vtkTypeMacro(vtkTetrahedraRepresentation, vtkVolumeRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Set a property of the mappers by its name, as SetMapperProperty("MaximumError", 1e-4). Mappers
+   * that do not have the property, or do not honour the value of an enumeration, keep theirs.
+   */
+  void SetMapperProperty(const char* name, double value);
+  void SetMapperProperty(
+    const char* name, double v0, double v1, double v2, double v3, double v4, double v5);
+  ///@}
+
+  ///@{
+  /**
+   * Of the volume property, see vtkVolumeProperty. Defaults 0 (off), 0, 1, 0 and 100.
+   */
+  void SetShade(int shade);
+  void SetAmbient(double ambient);
+  void SetDiffuse(double diffuse);
+  void SetSpecular(double specular);
+  void SetSpecularPower(double power);
+  ///@}
+
+  ///@{
+  /**
+   * Set the isovalues of surfaces, in units of the scalars. Default: one, 0.
+   */
+  void SetNumberOfIsosurfaces(int number);
+  void SetIsosurfaceValue(int index, double value);
+  ///@}
+
+  /**
+   * Set what is shown: what is inside of a vtkBox, or on the side that the normal of a vtkPlane
+   * points away from. Default nullptr: everything.
+   */
+  void SetClipFunction(vtkImplicitFunction* function);
+
+  ///@{
+  /**
+   * Set which blocks of a composite are shown, by selectors in an assembly. Default: all.
+   */
+  void SetActiveAssembly(const char* name);
+  void AddBlockSelector(const char* selector);
+  void RemoveAllBlockSelectors();
+  ///@}
+
+  /**
+   * Set whether the data of each process of a parallel run stay where they are. The boxes around
+   * them must not overlap. Default off: ParaView distributes the data anew, by boxes.
+   */
+  void SetUseDataPartitions(bool use);
+
+  /**
+   * Return the statistics of the last frame of this process, as JSON, see
+   * vtkTetrahedraVolumeMapper::GetStatistics. "{}" before the first frame.
+   */
+  const char* GetStatistics();
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
+
+protected:
+  vtkTetrahedraRepresentation();
+  ~vtkTetrahedraRepresentation() override;
+
+  /**
+   * Register a mapper whose properties the panel sets; to be called in constructors.
+   */
+  void AddMapper(vtkTetrahedraVolumeMapper* mapper);
+
+  /**
+   * Return the mapper for the next frame, one of those that were added. Called when the window's
+   * context is there and current.
+   */
+  virtual vtkTetrahedraVolumeMapper* ChooseMapper(vtkRenderWindow* window) = 0;
+
+  /**
+   * Prepare the chosen mapper for a frame: its array, and what else a subclass has.
+   */
+  virtual void UpdateMapper(vtkTetrahedraVolumeMapper* mapper, vtkDataObject* input);
+
+  /**
+   * Let a mapper show an array: the magnitude or the component that the colour map shows.
+   */
+  void SelectArray(vtkTetrahedraVolumeMapper* mapper, vtkDataObject* input, const char* name,
+    int association, int mode, int component);
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
+
+private:
+  vtkTetrahedraRepresentation(const vtkTetrahedraRepresentation&) = delete;
+  void operator=(const vtkTetrahedraRepresentation&) = delete;
+
+  void UseMapper(vtkTetrahedraVolumeMapper* mapper);
+  void OnFrame(vtkObject* renderer, unsigned long event, void* data);
+
+  class Internals;
+  std::unique_ptr<Internals> Private;
+};
+
+#endif

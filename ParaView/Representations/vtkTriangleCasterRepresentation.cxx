@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTriangleCasterRepresentation.h"
+
+#include "MapperGroup.h"
+#include "vtkTriangleCasterMapper.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkVolumeProperty.h"
+
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkTriangleCasterRepresentation);
+
+//------------------------------------------------------------------------------------------------
+class vtkTriangleCasterRepresentation::Internals
+{
+public:
+  vtkNew<vtkTriangleCasterMapper> Mapper;
+  tetralux::MapperGroup Group;
+  std::vector<double> CroppingRegionPlanes; ///< as they were set; empty before that
+  std::string Statistics = "{}";
+};
+
+//------------------------------------------------------------------------------------------------
+vtkTriangleCasterRepresentation::vtkTriangleCasterRepresentation()
+  : Private(std::make_unique<Internals>())
+{
+  this->VolumeMapper = this->Private->Mapper;
+  this->Private->Group.Add(this->Private->Mapper);
+}
+
+//------------------------------------------------------------------------------------------------
+vtkTriangleCasterRepresentation::~vtkTriangleCasterRepresentation() = default;
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::SetValues(const char* name, const std::vector<double>& values)
+{
+  try
+  {
+    this->Private->Group.SetProperty(name, values);
+  }
+  catch (const std::out_of_range& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return;
+  }
+  if (std::string(name) == "CroppingRegionPlanes")
+  {
+    this->Private->CroppingRegionPlanes = values;
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::SetMapperProperty(const char* name, double value)
+{
+  this->SetValues(name, { value });
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::SetMapperProperty(const char* name, double v0, double v1)
+{
+  this->SetValues(name, { v0, v1 });
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::SetMapperProperty(
+  const char* name, double v0, double v1, double v2)
+{
+  this->SetValues(name, { v0, v1, v2 });
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::SetMapperProperty(
+  const char* name, double v0, double v1, double v2, double v3, double v4, double v5)
+{
+  this->SetValues(name, { v0, v1, v2, v3, v4, v5 });
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::SetClipFunction(vtkImplicitFunction* function)
+{
+  this->Private->Group.SetClipFunction(function);
+}
+
+//------------------------------------------------------------------------------------------------
+const char* vtkTriangleCasterRepresentation::GetStatistics()
+{
+  this->Private->Statistics = this->Private->Mapper->GetStatistics();
+  return this->Private->Statistics.c_str();
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::UpdateMapperParameters()
+{
+  this->Superclass::UpdateMapperParameters();
+  vtkTriangleCasterMapper* mapper = this->Private->Mapper;
+  // The superclass takes the planes for relative ones, of the part of the data that a process has.
+  if (!this->Private->CroppingRegionPlanes.empty())
+  {
+    mapper->SetCroppingRegionPlanes(this->Private->CroppingRegionPlanes.data());
+  }
+  this->Private->Group.UpdateClippingPlanes();
+
+  // And it tells only mappers of its own what the colour map shows of vectors.
+  vtkColorTransferFunction* colors = this->Property->GetRGBTransferFunction(0);
+  vtkImageData* image = vtkImageData::SafeDownCast(mapper->GetDataObjectInput());
+  int ofCells = 0;
+  vtkDataArray* array = image
+    ? vtkAbstractMapper::GetScalars(image, mapper->GetScalarMode(), mapper->GetArrayAccessMode(),
+        mapper->GetArrayId(), mapper->GetArrayName(), ofCells)
+    : nullptr;
+  if (!array || array->GetNumberOfComponents() == 1 || !this->Property->GetIndependentComponents())
+  {
+    mapper->SetVectorMode(vtkTriangleCasterMapper::DISABLED_MODE);
+  }
+  else if (colors->GetVectorMode() == vtkScalarsToColors::COMPONENT)
+  {
+    mapper->SetVectorMode(vtkTriangleCasterMapper::COMPONENT_MODE);
+    mapper->SetVectorComponent(colors->GetVectorComponent());
+  }
+  else
+  {
+    mapper->SetVectorMode(vtkTriangleCasterMapper::MAGNITUDE_MODE);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mapper:\n";
+  this->Private->Mapper->PrintSelf(os, indent.GetNextIndent());
+}
