@@ -38,6 +38,11 @@ public:
    */
   void SetBlendMode(int mode) override;
 
+  /**
+   * The same with ColorArrayName.
+   */
+  void ShallowCopy(vtkAbstractMapper* mapper) override;
+
   ///@{
   /**
    * Set whether surfaces block the light of the renderer's lights, where the property's Shade is on

@@ -84,6 +84,13 @@ public:
   vtkTypeMacro(vtkTetrahedraVolumeMapper, vtkUnstructuredGridVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /**
+   * Copy the input, the choice of the array, clipping planes, and of a mapper of this project all
+   * properties that both have. Values that this mapper does not honour stay as they are. The data
+   * are shared.
+   */
+  void ShallowCopy(vtkAbstractMapper* mapper) override;
+
   ///@{
   /**
    * The input, where it does not come through SetInputConnection. GetInput() of the superclass
@@ -543,9 +550,9 @@ public:
    * Each time the render window is asked whether to abort: an aborted frame is not drawn. Draws
    * nothing where a vtkHardwareSelector looks for what is under the cursor: volumes have no ids.
    *
-   * Observers may change input, properties and props, which counts from the next frame on; VTK
-   * itself does not stand it if they take the renderer out of its window, destroy other props, or
-   * leave the volume without a mapper. A frame that they ask of the same mapper is not drawn.
+   * Observers may change input, properties and props: what is read is held until the frame ends.
+   * VTK itself does not stand it if they take the renderer out of its window, destroy other props,
+   * or leave the volume without a mapper. A frame that they ask of the same mapper is not drawn.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 

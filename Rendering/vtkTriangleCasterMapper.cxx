@@ -136,6 +136,9 @@ public:
   /// more.
   double MeasureSlices();
 
+  /// The same of the last picture, whose input is there.
+  double EstimateSlices();
+
   vtkTriangleCasterMapper* Self;
   tetralux::ImagePreparation Preparation;
   tetralux::FrameRecord Record;
@@ -169,8 +172,10 @@ private:
     vtkWeakPointer<vtkDataObject> Input;
     vtkMTimeType InputTime = 0;
   };
-  std::optional<LastPicture> Last; ///< until it was measured
-  double SliceError = 0;           ///< beside what the record has
+  std::optional<LastPicture> Last;     ///< until it was measured
+  vtkWeakPointer<vtkDataObject> Input; ///< of the last frame
+  vtkMTimeType InputTime = 0;          ///< when that frame began
+  double SliceError = 0;               ///< beside what the record has
 };
 
 //------------------------------------------------------------------------------------------------
@@ -188,6 +193,8 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(MapperFrame& frame)
   // Values are read where they are.
   const vtkSmartPointer<vtkDataObject> contents = tetralux::HoldContents(data);
   const vtkSmartPointer<vtkDataObject> maskContents = tetralux::HoldContents(mask);
+  this->Input = data;
+  this->InputTime = data ? data->GetMTime() : 0;
   input.Data = data;
   input.Property = frame.Property;
   input.Matrix = frame.Volume->GetMatrix();
@@ -304,13 +311,12 @@ PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
   if (!frame.Aborted)
   {
     options.Progress = nullptr; // of the frame
-    vtkDataObject* input = this->Self->GetDataObjectInput();
     this->Last = { grid, limits, picture.OpaqueDistances, options,
-      tetralux::Span<const float>(picture.Colors), input, input->GetMTime() };
+      tetralux::Span<const float>(picture.Colors), this->Input, this->InputTime };
     if (this->Self->SampleDistanceByError != 0 && !frame.IsInteractive())
     {
-      frame.Errors.emplace_back("slices", this->MeasureSlices());
-      this->SliceError = 0; // in the record now
+      frame.Errors.emplace_back("slices", this->EstimateSlices());
+      this->Last.reset(); // in the record now
     }
   }
   return frame.Aborted ? PixelRectangle() : FindCovered(picture);
@@ -396,13 +402,20 @@ double vtkTriangleCasterMapper::Internals::MeasureSlices()
     if (last.Input && last.Input == this->Self->GetDataObjectInput() &&
       last.Input->GetMTime() == last.InputTime)
     {
-      this->SliceError = tetralux::EstimateImageError(
-        this->Preparation.Caster, last.Grid, last.Limits, last.Options, last.Colors)
-                           .Largest;
+      this->SliceError = this->EstimateSlices();
     }
     this->Last.reset();
   }
   return this->SliceError;
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTriangleCasterMapper::Internals::EstimateSlices()
+{
+  const LastPicture& last = *this->Last;
+  return tetralux::EstimateImageError(
+    this->Preparation.Caster, last.Grid, last.Limits, last.Options, last.Colors)
+    .Largest;
 }
 
 //------------------------------------------------------------------------------------------------

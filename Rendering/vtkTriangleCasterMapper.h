@@ -66,6 +66,13 @@ public:
   vtkTypeMacro(vtkTriangleCasterMapper, vtkVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /**
+   * Copy the input, the choice of the array, clipping planes, and of a mapper of this project all
+   * properties that both have, with MaskInput. Values that this mapper does not honour stay as they
+   * are. The data are shared.
+   */
+  void ShallowCopy(vtkAbstractMapper* mapper) override;
+
   ///@{
   /**
    * Set what rays gather, as vtkGPUVolumeRayCastMapper shows it. Default COMPOSITE_BLEND.

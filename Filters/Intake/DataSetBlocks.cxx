@@ -4,6 +4,7 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
+#include "vtkExplicitStructuredGrid.h"
 #include "vtkSmartPointer.h"
 
 namespace tetralux
@@ -17,6 +18,11 @@ std::vector<DataSetBlock> CollectDataSets(vtkDataObject* input, std::int64_t* sk
   std::int64_t skipped = 0;
   const auto add = [&](vtkDataObject* object)
   {
+    auto* grid = vtkExplicitStructuredGrid::SafeDownCast(object);
+    if (grid && !grid->GetCells())
+    {
+      return; // it says that it has a cell
+    }
     if (auto dataSet = vtkDataSet::SafeDownCast(object))
     {
       blocks.push_back({ dataSet, points, cells });

@@ -23,7 +23,8 @@ struct DataSetBlock
 
 /// The data sets of an input in the order in which their points and cells are numbered: the input
 /// itself, or the leaves of a composite in traversal order without those that are missing or no
-/// data sets. skippedBlocks, where not null, receives the number of leaves that are no data sets.
+/// data sets; without explicit structured grids that have no cells. skippedBlocks, where not null,
+/// receives the number of leaves that are no data sets.
 TETRALUXFILTERS_EXPORT std::vector<DataSetBlock> CollectDataSets(
   vtkDataObject* input, std::int64_t* skippedBlocks = nullptr);
 

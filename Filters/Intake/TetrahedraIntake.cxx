@@ -63,7 +63,7 @@ public:
       structuredTetrahedra += CountStructuredTetrahedra(block.DataSet);
     }
     this->Report.Blocks = static_cast<std::int64_t>(blocks.size());
-    if (blocks.empty() && !vtkCompositeDataSet::SafeDownCast(input))
+    if (!vtkDataSet::SafeDownCast(input) && !vtkCompositeDataSet::SafeDownCast(input))
     {
       this->Result.Error = input ? std::string("the input is a ") + input->GetClassName() +
           ", not a data set or a composite of data sets"

@@ -201,6 +201,7 @@ MapperFrame FrameRecord::Begin(vtkRenderer* renderer, vtkVolume* volume)
                                 "VolumetricPass");
   }
   this->Context.Set(frame.Window);
+  frame.Window->MakeCurrent(); // an observer may have rendered another one
   frame.Image = this->Image;
   frame.HasPicture = this->HasPicture;
   frame.Progress = [this, window = frame.Window](double fraction)
@@ -211,7 +212,12 @@ MapperFrame FrameRecord::Begin(vtkRenderer* renderer, vtkVolume* volume)
 bool FrameRecord::ReportProgress(vtkRenderWindow* window, unsigned long event, double fraction)
 {
   this->Mapper->InvokeEvent(event, &fraction);
-  return !window->CheckAbortStatus();
+  const bool goOn = !window->CheckAbortStatus();
+  if (!window->IsCurrent())
+  {
+    window->MakeCurrent(); // an observer rendered another one
+  }
+  return goOn;
 }
 
 void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebuilt, Json seconds,
