@@ -2,6 +2,10 @@
 
 // The kernels of the common case for AVX-512, with 16 lanes; this file is compiled for it, and
 // called where it exists.
+#ifdef __clang__ // tables over gradients come with the model, and are not of this case
+#pragma clang diagnostic ignored "-Wunneeded-internal-declaration"
+#endif
+
 #include "TriangleCaster/CompositeModel.h"
 #include "TriangleCaster/TileCasting.h"
 
