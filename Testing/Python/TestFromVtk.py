@@ -67,25 +67,59 @@ def make_grid(cell=VTK_TETRA, blocks=5):
     return grid
 
 
+OPACITIES = numpy.array([(0, 0), (80, 0), (120, 0.3), (255, 0.9)])
+COLORS = numpy.array([(0, 0, 0, 1), (64, 0, 1, 1), (128, 0, 1, 0), (192, 1, 1, 0), (255, 1, 0, 0)])
+UNIT_DISTANCE = 0.3
+
+
 def make_property():
     opacity = vtkPiecewiseFunction()
-    opacity.AddPoint(0, 0)
-    opacity.AddPoint(80, 0)
-    opacity.AddPoint(120, 0.3)
-    opacity.AddPoint(255, 0.9)
+    for node in OPACITIES:
+        opacity.AddPoint(*node)
     color = vtkColorTransferFunction()
-    color.AddRGBPoint(0, 0, 0, 1)
-    color.AddRGBPoint(64, 0, 1, 1)
-    color.AddRGBPoint(128, 0, 1, 0)
-    color.AddRGBPoint(192, 1, 1, 0)
-    color.AddRGBPoint(255, 1, 0, 0)
+    for node in COLORS:
+        color.AddRGBPoint(*node)
     volume_property = vtkVolumeProperty()
     volume_property.SetColor(color)
     volume_property.SetScalarOpacity(opacity)
-    volume_property.SetScalarOpacityUnitDistance(0.3)
+    volume_property.SetScalarOpacityUnitDistance(UNIT_DISTANCE)
     volume_property.ShadeOff()
     volume_property.SetInterpolationTypeToLinear()
     return volume_property
+
+
+POSITION = numpy.array((1.8, 1.5, 2.4))
+FOCAL_POINT = numpy.array((0.5, 0.5, 0.5))
+VIEW_UP = numpy.array((0, 1, 0.1))
+VIEW_ANGLE = 30
+
+
+def march(steps=4000):
+    """What a camera sees whose volume is the unit cube with a scalar of 255 y: by small steps."""
+    width, height = SIZE
+    forward = FOCAL_POINT - POSITION
+    forward /= numpy.linalg.norm(forward)
+    right = numpy.cross(forward, VIEW_UP)
+    right /= numpy.linalg.norm(right)
+    up = numpy.cross(right, forward)
+    half = numpy.tan(numpy.radians(VIEW_ANGLE) / 2)
+    x = (2 * (numpy.arange(width) + 0.5) / width - 1) * half * width / height
+    y = (2 * (numpy.arange(height) + 0.5) / height - 1) * half
+    rays = forward + x[None, :, None] * right + y[:, None, None] * up
+    rays /= numpy.linalg.norm(rays, axis=2, keepdims=True)
+    sides = (numpy.array((0, 1))[:, None, None, None] - POSITION) / rays
+    near, far = sides.min(axis=0).max(axis=2), sides.max(axis=0).min(axis=2)
+    length = numpy.maximum(far - near, 0) / steps
+    picture = numpy.zeros((height, width, 4))
+    for step in range(steps):
+        scalar = 255 * (POSITION[1] + (near + (step + 0.5) * length) * rays[..., 1])
+        attenuation = numpy.interp(scalar, *OPACITIES.T) / UNIT_DISTANCE
+        visible = (1 - picture[..., 3]) * -numpy.expm1(-attenuation * length)
+        for channel in range(3):
+            color = numpy.interp(scalar, COLORS[:, 0], COLORS[:, channel + 1])
+            picture[..., channel] += visible * color
+        picture[..., 3] += visible
+    return picture
 
 
 class Scene:
@@ -115,9 +149,9 @@ class Scene:
 
     def render(self):
         camera = self.renderer.GetActiveCamera()
-        camera.SetPosition(1.8, 1.5, 2.4)
-        camera.SetFocalPoint(0.5, 0.5, 0.5)
-        camera.SetViewUp(0, 1, 0.1)
+        camera.SetPosition(POSITION)
+        camera.SetFocalPoint(FOCAL_POINT)
+        camera.SetViewUp(VIEW_UP)
         self.renderer.ResetCameraClippingRange()
         self.window.Render()
         return tetralux.picture(self.mapper)[0].copy()
@@ -266,7 +300,9 @@ def test_scenes():
     compare(projected_tetrahedra)
     compare(transformed)
     compare(z_sweep)
-    compare(vector_component)
+    expected = march()
+    for picture in compare(vector_component):
+        assert numpy.abs(picture - expected).max() < TOLERANCE
     compare(blocks)
     compare(clipped)
     pictures = compare(exercise)
