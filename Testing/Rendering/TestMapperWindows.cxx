@@ -2,8 +2,10 @@
 // Mappers that live longer than their window, or are in several: what is on the graphics card
 // belongs to a context, and is known to be gone with it.
 #include "AnyMapperScene.h"
+#include "Observer.h"
 
 #include "vtkActor.h"
+#include "vtkCommand.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkSphereSource.h"
 
@@ -81,6 +83,30 @@ TEST_P(AnyMapper, DrawsInTwoWindowsByTurns)
   EXPECT_EQ(GetPicture(mapper), expected); // of the window that stays
   EXPECT_EQ(stays.Render(), expected);
   EXPECT_EQ(stays.Grab(), window);
+}
+
+TEST_P(AnyMapper, KeepsThePictureOfAnInputThatHasGone)
+{
+  AnyMapperScene other(MakeMapper(this->GetParam()));
+  AnyMapperScene scene(MakeMapper(this->GetParam()));
+  const std::vector<float> expected = other.Render();
+  scene.Window->Render();
+  scene.GetMapper()->SetInputDataObject(nullptr);
+  EXPECT_EQ(GetPicture(scene.GetMapper()), expected);
+}
+
+TEST_P(AnyMapper, LeavesNoPictureOfAnAbortedFrame)
+{
+  AnyMapperScene scene(MakeMapper(this->GetParam()), 400, 300); // not made at a stroke
+  {
+    const Observer abort(scene.GetMapper(), vtkCommand::VolumeMapperRenderProgressEvent,
+      [&](const char*) { scene.Window->SetAbortRender(1); });
+    EXPECT_TRUE(scene.Render().empty());
+    EXPECT_EQ(scene.Get("aborted"), "true");
+  }
+  const std::vector<float> picture = scene.Render();
+  EXPECT_EQ(scene.Get("aborted"), "false");
+  EXPECT_FALSE(picture.empty());
 }
 
 // What a mapper deletes is in its own context, whichever is current.
