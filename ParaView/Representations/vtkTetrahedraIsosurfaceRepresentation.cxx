@@ -71,10 +71,9 @@ void vtkTetrahedraIsosurfaceRepresentation::UpdateMapper(
   {
     this->Mapper->SetColorArrayName(nullptr);
   }
-  this->SelectArray(mapper, input, contourArray.c_str(),
+  this->SelectArray(mapper, input, contourArray,
     this->UseContourArray ? vtkDataObject::FIELD_ASSOCIATION_POINTS : colorAssociation,
     byAnother ? vtkScalarsToColors::MAGNITUDE : mode, component);
-  this->Actor->SetVisibility(!contourArray.empty());
 }
 
 //------------------------------------------------------------------------------------------------

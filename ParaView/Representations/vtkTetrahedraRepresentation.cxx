@@ -63,6 +63,7 @@ public:
   vtkTetrahedraVolumeMapper* Last = nullptr;  ///< the mapper of the last frame
   vtkSmartPointer<vtkUnstructuredGrid> Drawn; ///< what this process draws, maybe redistributed
   unsigned long FrameObserver = 0;
+  std::string Warning; ///< why nothing was drawn in the last frame; empty if it was
   std::string Statistics = "{}";
 };
 
@@ -363,22 +364,30 @@ void vtkTetrahedraRepresentation::UpdateMapper(
   vtkInformation* info = this->GetInputArrayInformation(0);
   const char* name = info->Get(vtkDataObject::FIELD_NAME());
   vtkColorTransferFunction* colors = this->Property->GetRGBTransferFunction(0);
-  this->SelectArray(mapper, input, name, info->Get(vtkDataObject::FIELD_ASSOCIATION()),
+  this->SelectArray(mapper, input, name ? name : "", info->Get(vtkDataObject::FIELD_ASSOCIATION()),
     colors->GetVectorMode(), colors->GetVectorComponent());
-  this->Actor->SetVisibility(name && name[0]);
 }
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraRepresentation::SelectArray(vtkTetrahedraVolumeMapper* mapper,
-  vtkDataObject* input, const char* name, int association, int mode, int component)
+  vtkDataObject* input, const std::string& name, int association, int mode, int component)
 {
   const bool ofCells = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
   mapper->SetScalarMode(
     ofCells ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
-  mapper->SelectScalarArray(name);
+  mapper->SelectScalarArray(name.c_str());
   vtkDataSetAttributes* attributes = input->GetAttributes(
     ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS);
-  vtkDataArray* array = name ? attributes->GetArray(name) : nullptr;
+  vtkDataArray* array = attributes->GetArray(name.c_str());
+  const std::string warning = array ? ""
+    : name.empty()                  ? "no array is chosen: nothing is drawn"
+                   : "no array " + name + " in all blocks that are shown: nothing is drawn";
+  if (warning != this->Private->Warning && !warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  this->Private->Warning = warning;
+  this->Actor->SetVisibility(array != nullptr);
   if (!array || array->GetNumberOfComponents() == 1)
   {
     // The magnitude of a scalar would lose its sign.

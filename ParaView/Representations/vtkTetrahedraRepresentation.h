@@ -118,9 +118,10 @@ protected:
   virtual void UpdateMapper(vtkTetrahedraVolumeMapper* mapper, vtkDataObject* input);
 
   /**
-   * Let a mapper show an array: the magnitude or the component that the colour map shows.
+   * Let a mapper show an array: the magnitude or the component that the colour map shows. If there
+   * is none of that name, nothing is drawn, and one warning says so.
    */
-  void SelectArray(vtkTetrahedraVolumeMapper* mapper, vtkDataObject* input, const char* name,
+  void SelectArray(vtkTetrahedraVolumeMapper* mapper, vtkDataObject* input, const std::string& name,
     int association, int mode, int component);
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
