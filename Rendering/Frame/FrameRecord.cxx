@@ -108,9 +108,10 @@ void FrameRecord::Render(vtkRenderer* renderer, vtkVolume* volume,
   this->Drawing = true;
   mapper->InvokeEvent(vtkCommand::VolumeMapperRenderStartEvent);
   std::string error;
+  bool kept = false;
   try
   {
-    this->Draw(renderer, volume, draw);
+    kept = this->Draw(renderer, volume, draw);
     this->LastError.clear();
   }
   catch (const std::bad_alloc&)
@@ -130,7 +131,7 @@ void FrameRecord::Render(vtkRenderer* renderer, vtkVolume* volume,
       vtkErrorWithObjectMacro(mapper, << error);
     }
   }
-  seconds = stopwatch.GetSeconds();
+  seconds = kept ? seconds : stopwatch.GetSeconds();
   mapper->InvokeEvent(vtkCommand::VolumeMapperRenderEndEvent);
   this->Drawing = false;
   for (const auto& released : std::exchange(this->ToRelease, {}))
@@ -143,7 +144,7 @@ void FrameRecord::Render(vtkRenderer* renderer, vtkVolume* volume,
   }
 }
 
-void FrameRecord::Draw(
+bool FrameRecord::Draw(
   vtkRenderer* renderer, vtkVolume* volume, const std::function<void(MapperFrame&)>& draw)
 {
   vtkAlgorithm* const input = this->Mapper->GetInputAlgorithm();
@@ -156,6 +157,7 @@ void FrameRecord::Draw(
   MapperFrame frame = this->Begin(renderer, volume);
   frame.Property = property;
   draw(frame);
+  return frame.Kept;
 }
 
 bool FrameRecord::MayRelease(vtkWindow* window)

@@ -46,9 +46,10 @@ public:
   /// window, volume and property live until the frame has ended, and draw holds what it reads. A
   /// frame that an observer asks for during another one is not drawn, with a warning. What draw
   /// throws becomes an error of one line, which is not given again until a frame succeeds; then
-  /// nothing is left of the frame. Draw is given a frame with this picture, and with progress by
-  /// VolumeMapperRenderProgressEvent. seconds: receives what it took, before the second event.
-  /// A renderer without a window of OpenGL and a render pass that peels volumes are such errors.
+  /// nothing is left of the frame. A renderer without a window of OpenGL and a render pass that
+  /// peels volumes are such errors. Draw is given a frame with this picture, and with progress by
+  /// VolumeMapperRenderProgressEvent. seconds: receives what it took, before the second event;
+  /// where the picture was kept, it stays what that took, as another one would.
   void Render(vtkRenderer* renderer, vtkVolume* volume,
     const std::function<void(MapperFrame&)>& draw, double& seconds);
 
@@ -82,7 +83,8 @@ public:
   bool IsErrorKept(double maximumError, double further = 0) const;
 
 private:
-  void Draw(
+  /// Returns whether the picture was kept.
+  bool Draw(
     vtkRenderer* renderer, vtkVolume* volume, const std::function<void(MapperFrame&)>& draw);
   MapperFrame Begin(vtkRenderer* renderer, vtkVolume* volume);
   void Clear();

@@ -14,7 +14,7 @@ vtkSmartPointer<vtkDataObject> HoldContents(vtkDataObject* data)
   {
     return nullptr;
   }
-  const auto held = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
+  auto held = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);
   if (!composite)
   {

@@ -153,12 +153,16 @@ TEST_P(KeptPictures, OfAnUnchangedScene)
   ASSERT_FALSE(picture.empty());
   EXPECT_EQ(scene.Get("kept"), "false");
   const std::string rays = scene.Get("width");
+  const double seconds = scene.GetMapper()->GetTimeToDraw();
+  EXPECT_GT(seconds, 0);
   for (int frame = 0; frame < 2; ++frame)
   {
     EXPECT_EQ(scene.Render(), picture);
     EXPECT_EQ(scene.Grab(), window);
     EXPECT_EQ(scene.Get("kept"), "true");
     EXPECT_EQ(scene.Get("width"), rays);
+    // By which VTK tells what another picture costs.
+    EXPECT_EQ(scene.GetMapper()->GetTimeToDraw(), seconds);
   }
   // None of these is in the picture.
   scene.Renderer->SetBackground(0.2, 0.3, 0.4);
