@@ -31,7 +31,7 @@ import tool
 from formats import FormatFiles, make_cube
 from tool import TOOL, ToolTest
 
-ROUNDS = int(os.environ.get("TETRALUX_DAMAGED_FILES", "150"))
+ROUNDS = int(os.environ.get("TETRALUX_DAMAGED_FILES", "250"))
 SEED = int(os.environ.get("TETRALUX_DAMAGE_SEED", "1"))
 
 # Bytes of memory that a reader may ask for: more would slow down everything else on the machine.
