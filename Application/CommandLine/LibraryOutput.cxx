@@ -42,11 +42,12 @@ LibraryOutput::LibraryOutput()
   if (this->File >= 0)
   {
     Flush();
-    fcntl(this->File, F_SETFL, O_APPEND); // both streams write to it
     SavedOutput = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     SavedError = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    dup2(this->File, STDOUT_FILENO);
     dup2(this->File, STDERR_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDOUT_FILENO);
+    close(nowhere);
   }
 }
 

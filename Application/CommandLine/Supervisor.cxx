@@ -227,7 +227,6 @@ int Supervise(const std::function<int()>& work)
   }
   close(channel[1]);
   const int signals = signalfd(-1, &watched, SFD_CLOEXEC | SFD_NONBLOCK);
-  const int status = Watch(worker, channel[0], signals).WaitForEnd();
-  sigprocmask(SIG_SETMASK, &before, nullptr);
-  return status;
+  // Signals stay blocked: one that comes too late for the work does not change its status.
+  return Watch(worker, channel[0], signals).WaitForEnd();
 }

@@ -11,8 +11,9 @@
 ///
 /// Call it before any thread is started. Signals that ask the process to end are passed on.
 ///
-/// Returns the exit status, in the watching process alone: what work returns; 128 + signal after a signal that
-/// asked it to end, as shells report it; 1, with one line on standard error, after all else.
+/// Returns the exit status, in the watching process alone: what work returns; 128 + signal after a
+/// signal that asked it to end, as shells report it; 1, with one line on standard error, after all
+/// else.
 int Supervise(const std::function<int()>& work);
 
 #endif

@@ -9,6 +9,7 @@
 #include "vtkTextureObject.h"
 #include "vtk_glew.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -96,6 +97,13 @@ void FloatTarget::Allocate(vtkOpenGLRenderWindow* window, const Settings& settin
 {
   const std::string size =
     std::to_string(settings.Width) + " x " + std::to_string(settings.Height) + " pixels";
+  int largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (std::max(settings.Width, settings.Height) > largest)
+  {
+    throw std::runtime_error("the picture has " + size + ", and this OpenGL draws at most " +
+      std::to_string(largest) + " x " + std::to_string(largest));
+  }
   vtkOpenGLState* state = window->GetState();
   const vtkOpenGLState::ScopedglActiveTexture unit(state);
   const GraphicsMemoryCheck memory;

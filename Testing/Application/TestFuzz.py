@@ -2,8 +2,9 @@
 """Damaged files of every format that the tool reads: each run ends with status 0 or 1, at most one
 line of an error, and nothing left.
 
-The environment variable TETRALUX_DAMAGED_FILES sets how many files are tried, TETRALUX_DAMAGE_SEED with
-which seed. The seed of a file that fails is printed; it is the file's number.
+The environment variable TETRALUX_DAMAGED_FILES sets how many files are tried, and
+TETRALUX_DAMAGE_SEED the seed of the first; each has the next one's. The seeds of files that crash
+or hang their readers are printed, and of those that fail.
 """
 
 import collections
@@ -30,7 +31,7 @@ import tool
 from formats import FormatFiles, make_cube
 from tool import TOOL, ToolTest
 
-ROUNDS = int(os.environ.get("TETRALUX_DAMAGED_FILES", "150"))
+ROUNDS = int(os.environ.get("TETRALUX_DAMAGED_FILES", "250"))
 SEED = int(os.environ.get("TETRALUX_DAMAGE_SEED", "1"))
 
 # Bytes of memory that a reader may ask for: more would slow down everything else on the machine.

@@ -15,6 +15,8 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace
 {
@@ -61,6 +63,30 @@ public:
   vtkNew<vtkRenderer> Renderer;
   FloatTarget Target;
 };
+
+TEST_F(FloatTargetTest, RefusesMoreThanOpenGLDraws)
+{
+  int largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  FloatTarget::Settings settings;
+  settings.Pictures = { { 1, ChannelFormat::UNorm8 } };
+  for (const auto& [width, height] : { std::pair(largest + 1, 1), std::pair(1, largest + 1) })
+  {
+    settings.Width = width;
+    settings.Height = height;
+    try
+    {
+      this->Target.Prepare(this->Window, settings);
+      ADD_FAILURE() << "no error";
+    }
+    catch (const std::runtime_error& error)
+    {
+      EXPECT_NE(
+        std::string(error.what()).find("at most " + std::to_string(largest)), std::string::npos)
+        << error.what();
+    }
+  }
+}
 
 TEST_F(FloatTargetTest, HoldsWhatIsDrawn)
 {
