@@ -15,8 +15,8 @@ import time
 
 from paraview import simple
 
-FRAMES = 6
-TURNS = 3
+FRAMES = 4
+TURNS = 2
 
 plugin, *files, array_name = sys.argv[1:]
 simple.LoadPlugin(plugin, remote=False, ns=globals())
