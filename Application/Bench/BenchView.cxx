@@ -91,7 +91,8 @@ double BenchView::Render()
 {
   const MessageCapture messages;
   this->Renderer->GetActiveCamera()->Modified();
-  if (this->Mapper->IsA("vtkTetrahedraVolumeMapper"))
+  if (this->Mapper->IsA("vtkTetrahedraVolumeMapper") ||
+    this->Mapper->IsA("vtkTriangleCasterMapper"))
   {
     this->Mapper->Modified(); // else the picture is kept
   }

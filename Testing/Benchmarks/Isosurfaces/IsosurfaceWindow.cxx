@@ -5,6 +5,7 @@
 #include "Setup/SceneCamera.h"
 #include "Setup/SceneOptions.h"
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkCameraPass.h"
@@ -15,6 +16,8 @@
 #include "vtkShadowMapBakerPass.h"
 #include "vtkShadowMapPass.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVolume.h"
+#include "vtkVolumeCollection.h"
 
 #include <algorithm>
 
@@ -108,6 +111,12 @@ void IsosurfaceWindow::SetShadows(bool shadows)
 double IsosurfaceWindow::DrawFrame()
 {
   this->Renderer->GetActiveCamera()->Modified();
+  vtkVolumeCollection* volumes = this->Renderer->GetVolumes();
+  vtkCollectionSimpleIterator next;
+  for (volumes->InitTraversal(next); vtkVolume* volume = volumes->GetNextVolume(next);)
+  {
+    volume->GetMapper()->Modified(); // else the picture is kept
+  }
   const Stopwatch stopwatch;
   this->Window->Render();
   this->Window->WaitForCompletion();
