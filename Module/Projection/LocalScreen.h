@@ -14,9 +14,9 @@
 namespace tetralux
 {
 
-/// How far rays pass the centres of pixels above them, of how far they do to the right: below, as
-/// RayAcross.h says. No line that meshes are aligned with has this slope.
-constexpr double ShiftSlope = -0.38;
+/// How far rays pass beside the centres of pixels above them, of how far they do beside them: no
+/// line that meshes are aligned with has this slope.
+constexpr double ShiftSlope = 0.38;
 
 struct Vector
 {

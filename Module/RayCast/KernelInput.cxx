@@ -2,7 +2,6 @@
 #include "RayCast/KernelInput.h"
 
 #include "Optics/LightSteps.h"
-#include "View/RayAcross.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,8 +103,6 @@ void FillLighting(const VolumeScene& scene, const RayGrid& grid, const RayCastOp
 void FillRays(const RayGrid& grid, const RayLimits& limits, KernelInput& in)
 {
   in.Grid = &grid;
-  const std::array<double, 3> across = FindRayAcross(grid);
-  std::copy(across.begin(), across.end(), in.Across);
   in.Planes = limits.Planes.empty() ? nullptr : &limits.Planes.front();
   in.NumberOfPlanes = static_cast<int>(limits.Planes.size());
   in.CroppingPlanes = limits.Cropping ? &limits.CroppingPlanes : nullptr;

@@ -174,40 +174,13 @@ TETRALUX_INLINE Rays<Real> MakeRays(const KernelInput& in, const WorldRays& worl
     o[a] = o[a] - start * d[a];
     n[a] = d[a] / dLength;
   }
-  // Two vectors across the ray.
-  Double8 u[3], v[3];
-  if (in.Across[0] == 0 && in.Across[1] == 0 && in.Across[2] == 0)
-  {
-    // Duff et al., Building an Orthonormal Basis, Revisited, 2017
-    const Double8 one = 1.;
-    const Double8 sign = Select(n[2] < Double8(0.), Double8(-1.), one);
-    const Double8 p = Double8(-1.) / (sign + n[2]);
-    const Double8 q = n[0] * n[1] * p;
-    u[0] = one + sign * n[0] * n[0] * p;
-    u[1] = sign * q;
-    u[2] = Double8(0.) - sign * n[0];
-    v[0] = q;
-    v[1] = sign + n[1] * n[1] * p;
-    v[2] = Double8(0.) - n[1];
-  }
-  else
-  {
-    // The first one to the right in the picture.
-    const Double8 right[3] = { in.Across[0], in.Across[1], in.Across[2] };
-    const Double8 along = Dot(n, right[0], right[1], right[2]);
-    for (int a = 0; a < 3; ++a)
-    {
-      u[a] = right[a] - along * n[a];
-    }
-    const Double8 length = Sqrt(Dot(u, u[0], u[1], u[2]));
-    for (Double8& component : u)
-    {
-      component = component / length;
-    }
-    v[0] = n[1] * u[2] - n[2] * u[1];
-    v[1] = n[2] * u[0] - n[0] * u[2];
-    v[2] = n[0] * u[1] - n[1] * u[0];
-  }
+  // Two vectors across the ray (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+  const Double8 one = 1.;
+  const Double8 sign = Select(n[2] < Double8(0.), Double8(-1.), one);
+  const Double8 p = Double8(-1.) / (sign + n[2]);
+  const Double8 q = n[0] * n[1] * p;
+  const Double8 u[3] = { one + sign * n[0] * n[0] * p, sign * q, Double8(0.) - sign * n[0] };
+  const Double8 v[3] = { q, sign + n[1] * n[1] * p, Double8(0.) - n[1] };
 
   Rays<Real> rays;
   const auto convert = [](Double8 value)

@@ -88,7 +88,6 @@ struct KernelInput
 
   // The scene.
   const RayGrid* Grid;
-  double Across[3]; ///< FindRayAcross
   const std::array<double, 4>* Planes;
   int NumberOfPlanes;
   const double (*CroppingPlanes)[6]; ///< nullptr: no cropping

@@ -9,7 +9,6 @@ uniform vec2 rayMiddle;    // of the picture, pixels
 uniform vec3 rayPoints[3]; // in the middle, and the changes for a pixel to the right and up
 uniform vec3 rayDirections[3];
 uniform vec3 rayWorldDirections[3];
-uniform vec3 rayAcross; // see View/RayAcross.h
 uniform float rayTime; // from where a ray starts to its point, in units and world directions
 uniform float rayLengthUnit; // world length of a unit
 

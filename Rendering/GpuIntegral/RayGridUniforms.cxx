@@ -2,7 +2,6 @@
 #include "GpuIntegral/RayGridUniforms.h"
 
 #include "View/MeshToWorld.h"
-#include "View/RayAcross.h"
 
 #include "vtkShaderProgram.h"
 
@@ -103,9 +102,6 @@ RayGridUniforms::RayGridUniforms(
   transform(point.X, false);
   transform(point.Y, false);
 
-  const Vector across = FindRayAcross(grid);
-  std::transform(
-    across.begin(), across.end(), this->Across, [](double x) { return static_cast<float>(x); });
   const double time =
     -Dot(point.Middle, direction.Middle) / Dot(direction.Middle, direction.Middle);
   this->Time = static_cast<float>(time);
@@ -170,7 +166,6 @@ void RayGridUniforms::Set(vtkShaderProgram* program) const
   program->SetUniform3fv("rayPoints", 3, this->Points);
   program->SetUniform3fv("rayDirections", 3, this->Directions);
   program->SetUniform3fv("rayWorldDirections", 3, this->WorldDirections);
-  program->SetUniform3f("rayAcross", this->Across);
   program->SetUniformf("rayTime", this->Time);
   program->SetUniformf("rayLengthUnit", this->LengthUnit);
   const int planes = static_cast<int>(this->PlaneHeights.size() / 3);

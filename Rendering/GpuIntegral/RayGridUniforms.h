@@ -39,7 +39,6 @@ private:
   float Points[3][3];
   float Directions[3][3];
   float WorldDirections[3][3];
-  float Across[3];
   float Time;
   float LengthUnit;
   std::vector<float> PlaneHeights, PlaneSlopes; ///< three each

@@ -45,25 +45,12 @@ RayFrame MakeRayFrame(Ray ray)
   SAME_EVERYWHERE float nearest = -dot(ray.Direction, ray.Point) / squared;
   SAME_EVERYWHERE vec3 point = ray.Point + nearest * ray.Direction;
   SAME_EVERYWHERE vec3 n = ray.Direction * inversesqrt(squared);
-  // Two vectors across.
-  SAME_EVERYWHERE vec3 u;
-  SAME_EVERYWHERE vec3 v;
-  if (rayAcross == vec3(0.0))
-  {
-    // Duff et al., Building an Orthonormal Basis, Revisited, 2017
-    float side = n.z < 0.0 ? -1.0 : 1.0;
-    SAME_EVERYWHERE float p = -1.0 / (side + n.z);
-    SAME_EVERYWHERE float q = n.x * n.y * p;
-    u = GridScale * vec3(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
-    v = GridScale * vec3(q, side + n.y * n.y * p, -n.y);
-  }
-  else
-  {
-    // The first one to the right in the picture.
-    SAME_EVERYWHERE vec3 right = rayAcross - dot(rayAcross, n) * n;
-    u = GridScale * inversesqrt(dot(right, right)) * right;
-    v = cross(n, u);
-  }
+  // Two vectors across (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+  float side = n.z < 0.0 ? -1.0 : 1.0;
+  SAME_EVERYWHERE float p = -1.0 / (side + n.z);
+  SAME_EVERYWHERE float q = n.x * n.y * p;
+  SAME_EVERYWHERE vec3 u = GridScale * vec3(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
+  SAME_EVERYWHERE vec3 v = GridScale * vec3(q, side + n.y * n.y * p, -n.y);
   RayFrame frame;
   frame.Across[0] = vec4(u, -dot(u, point));
   frame.Across[1] = vec4(v, -dot(v, point));

@@ -12,7 +12,6 @@
 #include "ComparisonMeshes.h"
 #include "OwnedCrossings.h"
 #include "RayCast/RayCastKernel.inl"
-#include "View/RayAcross.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -51,8 +50,6 @@ KernelInput MakeInput(const WalkMesh& mesh, const RayGrid& grid)
   std::copy_n(mesh.GetCenter(), 3, in.Center);
   in.Radius = mesh.GetRadius();
   in.Grid = &grid;
-  const std::array<double, 3> across = FindRayAcross(grid);
-  std::copy(across.begin(), across.end(), in.Across);
   return in;
 }
 
