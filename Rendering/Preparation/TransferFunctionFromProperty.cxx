@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -98,7 +99,8 @@ public:
                                                        : nullptr)
     , Grey(this->Color ? nullptr : property->GetGrayTransferFunction(component))
     , UnitDistance(property->GetScalarOpacityUnitDistance(component))
-    , LargestAttenuation(LargestOpticalDepth / longestPath)
+    , LargestAttenuation(longestPath > 0 ? LargestOpticalDepth / longestPath
+                                         : std::numeric_limits<double>::infinity())
   {
     if (!(this->UnitDistance > 0) || !std::isfinite(this->UnitDistance))
     {
