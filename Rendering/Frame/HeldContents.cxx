@@ -4,6 +4,7 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
+#include "vtkExplicitStructuredGrid.h"
 
 namespace tetralux
 {
@@ -18,7 +19,12 @@ vtkSmartPointer<vtkDataObject> HoldContents(vtkDataObject* data)
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);
   if (!composite)
   {
-    held->ShallowCopy(data);
+    // Without cells its extent was never set, and a copy would allocate cells by it.
+    auto* grid = vtkExplicitStructuredGrid::SafeDownCast(data);
+    if (!grid || grid->GetCells())
+    {
+      held->ShallowCopy(data);
+    }
     return held;
   }
   auto* copy = vtkCompositeDataSet::SafeDownCast(held);
