@@ -60,6 +60,7 @@ constexpr double OverRelaxation = 1.5;
 std::vector<Vector> GetCorners(const std::vector<std::int64_t>& polygon, const double* points)
 {
   std::vector<Vector> corners;
+  corners.reserve(polygon.size());
   for (const std::int64_t id : polygon)
   {
     corners.push_back(Subtract(At(points, id), At(points, polygon[0])));
