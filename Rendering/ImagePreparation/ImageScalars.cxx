@@ -269,7 +269,7 @@ bool ImageScalars::Update(vtkImageData* image, const ScalarSelection& selection)
     array.Add(selected.Array->GetNumberOfValues());
   }
   CacheKey grid = GetCellsKey(blocks);
-  const vtkMTimeType inputTime = GetInputTime(image, blocks);
+  const vtkMTimeType inputTime = std::max(GetInputTime(image, blocks), GetAttributesTime(blocks));
   const bool same = this->Array.Has(array) && this->Grid.Has(grid);
   if (same && inputTime == this->InputTime)
   {

@@ -42,7 +42,7 @@ public:
   std::size_t GetNumberOfCopiedBytes() const { return this->Copy.size(); }
 
 private:
-  vtkMTimeType InputTime = 0; ///< GetInputTime when the values were last compared
+  vtkMTimeType InputTime = 0; ///< of input and attributes, when values were last compared
   Digest Values{};            ///< of the array and of flags
   CacheStamp Array;
   CacheStamp Grid; ///< extent and ghosts

@@ -140,7 +140,17 @@ vtkMTimeType GetInputTime(vtkDataObject* input, const std::vector<DataSetBlock>&
   }
   for (const DataSetBlock& block : blocks)
   {
-    time = std::max({ time, GetOwnTime(block.DataSet), GetOwnTime(block.DataSet->GetPointData()),
+    time = std::max(time, GetOwnTime(block.DataSet));
+  }
+  return time;
+}
+
+vtkMTimeType GetAttributesTime(const std::vector<DataSetBlock>& blocks)
+{
+  vtkMTimeType time = 0;
+  for (const DataSetBlock& block : blocks)
+  {
+    time = std::max({ time, GetOwnTime(block.DataSet->GetPointData()),
       GetOwnTime(block.DataSet->GetCellData()) });
   }
   return time;

@@ -21,10 +21,14 @@ namespace tetralux
 // has changed. Pointers are never followed; a new object at an old address has a later time.
 
 /// The latest time at which somebody said that an input was modified: of the input, of composites
-/// in it, of its data sets and of their attributes, each by itself. What an array says is in the
-/// keys below. A change means that anything may have changed in place, in arrays that say nothing,
-/// as VTK's mappers take it.
+/// in it and of its data sets, each by itself. What an array says is in the keys below. A change
+/// means that anything may have changed in place, in arrays that say nothing, as VTK's mappers take
+/// it.
 vtkMTimeType GetInputTime(vtkDataObject* input, const std::vector<DataSetBlock>& blocks);
+
+/// The same of the attributes of its data sets: a change means that their values may have changed.
+/// A time step that brings other values says so here, so that cells and points need no comparison.
+vtkMTimeType GetAttributesTime(const std::vector<DataSetBlock>& blocks);
 
 /// Of the cells that tetrahedra are made of: cells and ghost flags of each data set, but neither
 /// points nor any other array. Data sets that are none of VTK's grids are changed by anything.

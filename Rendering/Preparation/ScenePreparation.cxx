@@ -71,7 +71,9 @@ bool ScenePreparation::Update(const MapperSettings& wanted, const SceneInput& in
   }
   const std::vector<DataSetBlock> blocks = CollectDataSets(input.Data);
   const vtkMTimeType inputTime = GetInputTime(input.Data, blocks);
+  const vtkMTimeType attributesTime = GetAttributesTime(blocks);
   this->Touched = inputTime != this->InputTime;
+  this->ValuesTouched = this->Touched || attributesTime != this->AttributesTime;
   this->ChooseComponents(wanted, blocks, input.Property);
   MapperSettings settings = wanted;
   settings.Scalars = this->Components.Select(0);
@@ -95,6 +97,7 @@ bool ScenePreparation::Update(const MapperSettings& wanted, const SceneInput& in
   this->PrepareScalars(data, keys.Scalars);
   this->PrepareColors(data, keys.Colors, settings.Colors);
   this->InputTime = inputTime;
+  this->AttributesTime = attributesTime;
   this->PrepareFunction(settings, input);
   this->WarnOfShade(input.Property);
   this->Scene.Prepare({});
@@ -105,7 +108,7 @@ bool ScenePreparation::Update(const MapperSettings& wanted, const SceneInput& in
 /// Whether the scene was made of that input.
 bool ScenePreparation::IsOf(const InputKeys& keys) const
 {
-  return !this->Touched && this->Scene.Mesh.GetMesh() && keys.Cells == this->CellsKey &&
+  return !this->ValuesTouched && this->Scene.Mesh.GetMesh() && keys.Cells == this->CellsKey &&
     keys.Points == this->PointsKey && this->Scalars.Has(keys.Scalars) &&
     (keys.Colors == CacheKey() || this->Colors.Has(keys.Colors));
 }
@@ -234,7 +237,7 @@ bool ScenePreparation::MergePoints(const MapperSettings& settings, vtkDataObject
   CacheKey key = scalars;
   key.Add(settings.Merging);
   const bool isKnown = settings.Merging == PointMerging::Never || this->Merger.HasFound();
-  if ((isKnown && !this->Touched && this->Merging.Has(key)) ||
+  if ((isKnown && !this->ValuesTouched && this->Merging.Has(key)) ||
     this->Scene.Mesh.GetMesh()->GetNumberOfCells() == 0)
   {
     return true;
@@ -315,7 +318,7 @@ bool ScenePreparation::MovePoints(vtkDataObject* input)
 void ScenePreparation::PrepareScalars(vtkDataObject* input, const CacheKey& key)
 {
   const bool sameArrays = this->Scalars.Has(key);
-  if (sameArrays && !this->Touched)
+  if (sameArrays && !this->ValuesTouched)
   {
     return;
   }
@@ -378,7 +381,8 @@ void ScenePreparation::PrepareColors(
 {
   const TetrahedralMesh& mesh = this->Scene.Mesh.GetMesh()->GetMesh();
   const bool sameArrays = this->Colors.Has(key);
-  if ((sameArrays && !this->Touched) || (!selection && this->Scene.Mesh.GetColorScalars().empty()))
+  if ((sameArrays && !this->ValuesTouched) ||
+    (!selection && this->Scene.Mesh.GetColorScalars().empty()))
   {
     return;
   }

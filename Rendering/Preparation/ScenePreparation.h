@@ -117,8 +117,10 @@ private:
   vtkObject* Source;
 
   // What the stages were made from.
-  vtkMTimeType InputTime = 0; ///< GetInputTime at the last Update that came to its end
-  bool Touched = true;        ///< since then: values may have changed in place
+  vtkMTimeType InputTime = 0;      ///< GetInputTime at the last Update that came to its end
+  vtkMTimeType AttributesTime = 0; ///< GetAttributesTime at that Update
+  bool Touched = true;             ///< since then: all may have changed in place
+  bool ValuesTouched = true;       ///< since then: values of arrays may have
   ComponentUse Components;
   CacheKey CellsKey;
   Digest Cells{};
