@@ -28,6 +28,7 @@ vtkMTimeType GetInputTime(vtkDataObject* input, const std::vector<DataSetBlock>&
 
 /// The same of the attributes of its data sets: a change means that their values may have changed.
 /// A time step that brings other values says so here, so that cells and points need no comparison.
+/// Ghost flags that change in place belong to the cells: their array or the data set has to say so.
 vtkMTimeType GetAttributesTime(const std::vector<DataSetBlock>& blocks);
 
 /// Of the cells that tetrahedra are made of: cells and ghost flags of each data set, but neither
