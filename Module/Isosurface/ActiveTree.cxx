@@ -14,7 +14,7 @@ namespace
 {
 
 /// Polygons of a leaf at most. Measured on the blunt fin and a ring of 3 million cells.
-constexpr std::int32_t LeafSize = 4;
+constexpr std::int32_t LeafSize = 8;
 
 /// Nodes of the whole tree below which a subtree is one task.
 constexpr std::int32_t TaskSize = 1024;

@@ -10,6 +10,7 @@
 #include "Isosurface/FramePolygon.h"
 #include "Isosurface/IsopolygonExtraction.h"
 #include "Isosurface/PlacedPolygon.h"
+#include "Isosurface/PolygonLanes.h"
 #include "Isosurface/PolygonLimits.h"
 #include "Isosurface/TraceInput.h"
 
@@ -20,7 +21,7 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// A polygon takes two cache lines.
+/// Asks for the polygons of a leaf, before they are needed.
 TETRALUX_INLINE void PrefetchPolygons(const TraceTree& tree, const MinMaxTree::Node& node)
 {
   for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
@@ -34,7 +35,7 @@ TETRALUX_INLINE void PrefetchPolygons(const TraceTree& tree, const MinMaxTree::N
 class PacketFrustum
 {
 public:
-  PacketFrustum(const RayFrame& frame, const RayPacket& packet, const TraceLimits& limits)
+  PacketFrustum(const RayFrame& frame, const RayBounds& packet, const TraceLimits& limits)
     : Limits(limits)
   {
     const double(&rows)[3][4] = frame.Rows;
@@ -88,10 +89,9 @@ public:
       (this->Limits.Cropping && IsCroppedAway(this->Limits, node.Lower, node.Upper));
   }
 
-  /// The least key that may still change the packet.
-  void SetFarthest(const RayFrame& frame, const RayPacket& packet)
+  /// key: the least one that may still change the packet.
+  void SetFarthest(const RayFrame& frame, float key)
   {
-    const float key = GetLeastFar(packet);
     const double depth = frame.Parallel ? -static_cast<double>(key)
       : key > 0                         ? 1 / static_cast<double>(key)
                                         : InfiniteKey;
@@ -127,7 +127,7 @@ class TreeWalk
 {
 public:
   TreeWalk(const TraceTree& tree, const RayFrame& frame, const TraceLimits& limits,
-    const RayPacket& packet, TraceCounts& counts)
+    const RayBounds& packet, TraceCounts& counts)
     : Frustum(frame, packet, limits)
     , Tree(tree)
     , Counts(counts)
@@ -182,6 +182,11 @@ public:
             const bool firstIsNear = firstNearness >= secondNearness;
             stack[depth++] = { firstIsNear ? second : first,
               firstIsNear ? secondNearness : firstNearness };
+            const MinMaxTree::Node& later = this->Tree.Nodes[stack[depth - 1].Node];
+            if (later.Count > 0 && this->Tree.Polygons)
+            {
+              PrefetchPolygons(this->Tree, later);
+            }
           }
           if (hitsFirst || hitsSecond)
           {
@@ -249,7 +254,7 @@ private:
 };
 
 /// The largest |u| and |v| within the bounds of a packet, at least 1.
-TETRALUX_INLINE double GetLargest(const RayPacket& packet)
+TETRALUX_INLINE double GetLargest(const RayBounds& packet)
 {
   const double bounds[4] = { packet.LowU, packet.HighU, packet.LowV, packet.HighV };
   double largest = 1;
@@ -259,6 +264,51 @@ TETRALUX_INLINE double GetLargest(const RayPacket& packet)
     largest = size > largest ? size : largest;
   }
   return largest;
+}
+
+/// Calls hit(polygons, ids, count) with the polygons of a leaf, at most LaneCount at a time. Returns
+/// whether any call did.
+template <class Hit>
+TETRALUX_INLINE bool ForEachLeafBatch(
+  const TraceTree& tree, const MinMaxTree::Node& node, TraceCounts& counts, const Hit& hit)
+{
+  std::int64_t ids[LaneCount];
+  bool any = false;
+  if (tree.Polygons)
+  {
+    PrefetchPolygons(tree, node);
+    for (std::int32_t begin = 0; begin < node.Count; begin += LaneCount)
+    {
+      const std::int32_t first = node.First + begin;
+      for (int lane = 0; lane < LaneCount; ++lane)
+      {
+        ids[lane] = first + lane;
+      }
+      any |= hit(tree.Polygons + first, ids,
+        node.Count - begin < LaneCount ? node.Count - begin : LaneCount);
+    }
+    return any;
+  }
+  Isopolygon polygons[LaneCount];
+  int count = 0;
+  for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+  {
+    const std::int32_t cell = tree.LeafCells[i];
+    ForEachIsopolygon(tree.Source, cell,
+      [&](const Isopolygon& polygon)
+      {
+        ++counts.Extractions;
+        polygons[count] = polygon;
+        ids[count] = PackHit(cell, polygon.Surface);
+        ++count;
+        if (count == LaneCount)
+        {
+          any |= hit(polygons, ids, count);
+          count = 0;
+        }
+      });
+  }
+  return (count > 0 && hit(polygons, ids, count)) || any;
 }
 
 /// A packet that is traced through a tree.
@@ -274,72 +324,66 @@ public:
     , Packet(packet)
     , Counts(counts)
     , Walk(tree, frame, limits, packet, counts)
-    , Largest(GetLargest(packet))
-    , Margin(GetPacketMargin(this->Largest))
+    , Lanes(frame, packet, GetLargest(packet))
+    , Margin(GetPacketMargin(GetLargest(packet)))
   {
-    this->Walk.Frustum.SetFarthest(frame, packet);
+    this->SetFarthest();
   }
 
   void Trace()
   {
-    this->Walk.Walk([this](const MinMaxTree::Node& node) { this->HitLeaf(node); });
+    this->Walk.Walk(
+      [this](const MinMaxTree::Node& node)
+      {
+        const bool changed = ForEachLeafBatch(this->Tree, node, this->Counts,
+          [this](const Isopolygon* polygons, const std::int64_t* ids, int count)
+          { return this->HitLanes(polygons, ids, count); });
+        if (changed)
+        {
+          this->SetFarthest();
+        }
+      });
   }
 
 private:
-  TETRALUX_INLINE void HitLeaf(const MinMaxTree::Node& node)
+  TETRALUX_INLINE void SetFarthest()
   {
-    const bool changed = this->Tree.Polygons ? this->HitPolygons(node) : this->HitCells(node);
-    if (changed)
-    {
-      this->Walk.Frustum.SetFarthest(this->Frame, this->Packet);
-    }
+    this->LeastFar = GetLeastFar(this->Packet);
+    this->Walk.Frustum.SetFarthest(this->Frame, this->LeastFar);
   }
 
-  TETRALUX_INLINE bool HitPolygons(const MinMaxTree::Node& node)
+  /// Intersects polygons, LaneCount at most. Returns whether any ray may have hit one.
+  TETRALUX_NOINLINE bool HitLanes(const Isopolygon* polygons, const std::int64_t* ids, int count)
   {
-    PrefetchPolygons(this->Tree, node);
-    bool changed = false;
-    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
-    {
-      changed |= this->HitPolygon(this->Tree.Polygons[i], i);
-    }
-    return changed;
-  }
-
-  TETRALUX_INLINE bool HitCells(const MinMaxTree::Node& node)
-  {
-    bool changed = false;
-    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
-    {
-      const std::int32_t cell = this->Tree.LeafCells[i];
-      ForEachIsopolygon(this->Tree.Source, cell,
-        [&](const Isopolygon& polygon)
-        {
-          ++this->Counts.Extractions;
-          changed |= this->HitPolygon(polygon, PackHit(cell, polygon.Surface));
-        });
-    }
-    return changed;
-  }
-
-  TETRALUX_INLINE bool HitPolygon(const Isopolygon& polygon, std::int64_t id)
-  {
-    PlacedPolygon placed;
-    placed.Id = id;
-    FrameCorners corners;
+    PlacedPolygon placed[LaneCount];
+    std::uint32_t chunks[LaneCount];
+    unsigned hit = 0;
     // Most polygons are hidden or small: where no chunk may hit one, its edges are not needed.
-    const std::uint32_t chunks = PlaceCorners(this->Frame, this->Packet, this->Largest,
-                                   this->Margin, polygon, corners, placed.Polygon)
-      ? FindChunks(this->Packet, placed.Polygon)
-      : 0;
-    if (chunks == 0 || !PlaceEdges(this->Frame, this->Largest, corners, placed.Polygon))
+    for (unsigned rest = this->Lanes.PlaceCorners(polygons, count, this->LeastFar); rest != 0;
+         rest &= rest - 1)
     {
-      ++this->Counts.Polygons;
-      ++this->Counts.PolygonMisses;
-      return false;
+      const int lane = __builtin_ctz(rest);
+      FramePolygon& polygon = placed[lane].Polygon;
+      this->Lanes.GetCorners(lane, polygon);
+      chunks[lane] = FindChunks(this->Packet, this->Margin, polygon);
+      hit |= chunks[lane] != 0 ? 1u << lane : 0u;
     }
-    placed.Part = FindLimitedPart(this->Limits, polygon);
-    return HitPlaced<AnyHit>(this->Limits, this->Frame, placed, chunks, this->Packet, this->Counts);
+    hit = hit != 0 ? hit & this->Lanes.PlaceEdges() : 0;
+    const int missed = count - __builtin_popcount(hit);
+    this->Counts.Polygons += missed;
+    this->Counts.PolygonMisses += missed;
+    bool changed = false;
+    for (; hit != 0; hit &= hit - 1)
+    {
+      const int lane = __builtin_ctz(hit);
+      PlacedPolygon& polygon = placed[lane];
+      this->Lanes.GetEdges(lane, polygon.Polygon);
+      polygon.Id = ids[lane];
+      polygon.Part = FindLimitedPart(this->Limits, polygons[lane]);
+      changed |= HitPlaced<AnyHit>(
+        this->Limits, this->Frame, polygon, chunks[lane], this->Packet, this->Counts);
+    }
+    return changed;
   }
 
   const TraceTree& Tree;
@@ -348,8 +392,9 @@ private:
   RayPacket& Packet;
   TraceCounts& Counts;
   TreeWalk Walk;
-  double Largest; ///< |u| and |v|
+  PolygonLanes Lanes;
   float Margin;
+  float LeastFar; ///< of the packet's rays
 };
 
 } // namespace

@@ -104,7 +104,7 @@ TETRALUX_INLINE void FindGradients(const IsosurfaceInput& in, std::int64_t id, s
 /// Fills the points and, where there is light, the gradients of a chunk's hits.
 TETRALUX_INLINE void FindHitPoints(const IsosurfaceInput& in, IsosurfaceScratch& scratch, int chunk)
 {
-  const RayPacket& rays = scratch.Rays;
+  const RayPacket& rays = *scratch.Rays;
   const int first = chunk * LaneCount;
   const RayFrame& frame = in.Frame;
   const Double8 far = LoadDouble8(rays.Far + first);

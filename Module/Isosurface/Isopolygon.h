@@ -13,8 +13,8 @@ namespace tetralux
 {
 
 /// A triangle or a quadrilateral; of a triangle the last corner is there twice. Corners follow each
-/// other around it, in any direction.
-struct Isopolygon
+/// other around it, in any direction. Two cache lines, whose rows are loaded as vectors.
+struct alignas(64) Isopolygon
 {
   double X[4], Y[4], Z[4]; ///< of the corners, in the mesh's frame
   std::int32_t Cell;

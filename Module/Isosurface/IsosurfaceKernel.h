@@ -8,6 +8,7 @@
 
 #include "Isosurface/CellField.h"
 #include "Isosurface/PlacedTree.h"
+#include "Isosurface/RayBlock.h"
 #include "Isosurface/TraceInput.h"
 #include "Lighting/KernelLighting.h"
 #include "Optics/IntervalTable.h"
@@ -69,7 +70,6 @@ struct IsosurfaceInput
   double OcclusionRadius;   ///< what is farther blocks no ambient light; in the world
   double OcclusionOffset;   ///< what is nearer blocks none either; in the world
   TraceLimits ShadowLimits; ///< what is cut away blocks no light
-  const PlacedTree* Placed; ///< of Frame; nullptr: each packet prepares what it meets
   int MaximumLayers;        ///< surfaces that a ray meets at most
   float MaximumOpacity;     ///< a ray ends where it is this opaque
 
@@ -95,21 +95,19 @@ struct IsosurfaceCounts
   double LostOpacity = 0;    ///< largest share of light that such a ray lets through
 };
 
-/// Packets along the edge of a block, which a thread draws at a time.
-constexpr int BlockPackets = 4;
-constexpr int BlockEdge = BlockPackets * RayPacket::Edge;
-
 /// Memory of a thread.
 struct IsosurfaceScratch
 {
-  RayPacket Rays;
+  RayBlock Block;
   RayPacket ShadowRays;
-  double StartFar[RayPacket::MaximumRays];
-  float Colors[4][RayPacket::MaximumRays];
-  float Depths[RayPacket::MaximumRays];
-  float WindowDepths[RayPacket::MaximumRays];
 
-  // The hits of a layer.
+  /// The present packet of the block.
+  ///@{
+  RayPacket* Rays;
+  PacketPixels* Pixels;
+  ///@}
+
+  // The hits of a layer of it.
   std::uint8_t HitRays[RayPacket::MaximumChunks]; ///< those of a chunk that hit, one bit each
   double Points[3][RayPacket::MaximumRays];       ///< in the mesh's frame
   float Gradients[3][RayPacket::MaximumRays];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Draws packets of pixels: finds the nearest surface, its lights and its colour, then the next one
+// Draws blocks of pixels: finds the nearest surface, its lights and its colour, then the next one
 // behind it, as long as the ray is not opaque (Wald et al. 2007, section 7: depth peeling by the
 // same packet with a least distance for each ray).
 
-#include "Isosurface/FrustumTraversal.h"
+#include "Isosurface/BlockTraversal.h"
 #include "Isosurface/HitPoints.h"
 #include "Isosurface/IsosurfaceKernel.h"
 #include "Isosurface/OcclusionRays.h"
@@ -44,14 +44,19 @@ TETRALUX_INLINE double FindEnd(const IsosurfaceInput& in, int x, int y)
   return in.Frame.Parallel ? -depth : depth > 0 ? 1 / depth : InfiniteKey;
 }
 
-/// Fills the rays of a packet and its bounds. Returns whether any takes part.
-TETRALUX_INLINE bool StartRays(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
-  float margin, IsosurfaceScratch& scratch)
+/// Fills the rays of a packet of the block.
+TETRALUX_NOINLINE void StartPacket(const IsosurfaceInput& in, RayBlock& block, int p)
 {
-  RayPacket& packet = scratch.Rays;
+  RayPacket& packet = block.Rays[p];
+  double* startFar = block.Pixels[p].StartFar;
+  const int x0 = block.X0 + p % RayBlock::Packets * RayPacket::Edge;
+  const int y0 = block.Y0 + p / RayBlock::Packets * RayPacket::Edge;
   const double end = in.Frame.Parallel ? -InfiniteKey : 0;
-  const bool whole = x0 + RayPacket::Edge <= x1 && y0 + RayPacket::Edge <= y1;
-  ClearBounds(packet);
+  const bool whole = x0 + RayPacket::Edge <= block.X1 && y0 + RayPacket::Edge <= block.Y1;
+  packet.LowU = x0;
+  packet.HighU = x0 + RayPacket::Edge - 1;
+  packet.LowV = y0;
+  packet.HighV = y0 + RayPacket::Edge - 1;
   for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
   {
     const int x = x0 + GetChunkColumn(chunk);
@@ -64,61 +69,35 @@ TETRALUX_INLINE bool StartRays(const IsosurfaceInput& in, int x0, int y0, int x1
       packet.Hit[first + i] = -1;
       packet.Near[first + i] = InfiniteKey;
       packet.Far[first + i] = end;
-      scratch.StartFar[first + i] = end;
+      startFar[first + i] = end;
     }
-    SetChunkBounds(
-      packet, chunk, x, x + RayPacket::ChunkWidth - 1, y, y + RayPacket::ChunkHeight - 1, margin);
     packet.ChunkFar[chunk] = in.Frame.Parallel ? -std::numeric_limits<float>::infinity() : 0;
   }
-  if (whole && !in.MaximumDistances)
+  block.Started |= 1u << p;
+  if (!whole || in.MaximumDistances)
   {
-    return true;
-  }
-  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
-  {
-    for (int i = 0; i < LaneCount; ++i)
+    for (int ray = 0; ray < RayPacket::MaximumRays; ++ray)
     {
-      const int x = x0 + GetChunkColumn(chunk) + i % RayPacket::ChunkWidth;
-      const int y = y0 + GetChunkRow(chunk) + i / RayPacket::ChunkWidth;
-      const int ray = chunk * LaneCount + i;
-      packet.Far[ray] = x < x1 && y < y1 ? FindEnd(in, x, y) : InfiniteKey;
-      scratch.StartFar[ray] = packet.Far[ray];
+      const int x = static_cast<int>(packet.U[ray]);
+      const int y = static_cast<int>(packet.V[ray]);
+      packet.Far[ray] = x < block.X1 && y < block.Y1 ? FindEnd(in, x, y) : InfiniteKey;
+      startFar[ray] = packet.Far[ray];
     }
+    UpdateChunksFar(packet);
   }
-  return FitBounds(packet, margin);
+  block.Far[p] = GetLeastFar(packet);
 }
 
-/// Whether pixels miss all that there is, before their rays are filled.
-TETRALUX_INLINE bool MissesAll(
-  const IsosurfaceInput& in, int x0, int y0, int x1, int y1, TraceCounts& counts)
-{
-  if (!in.Tree.Nodes)
-  {
-    return true;
-  }
-  RayPacket bounds;
-  bounds.LowU = x0;
-  bounds.HighU = x1 - 1;
-  bounds.LowV = y0;
-  bounds.HighV = y1 - 1;
-  if (in.Placed)
-  {
-    return MissesPlaced(in.Tree, *in.Placed, bounds, counts);
-  }
-  float nearness;
-  return PacketFrustum(in.Frame, bounds, in.Limits).Misses(in.Tree.Nodes[0], nearness);
-}
-
-TETRALUX_INLINE void ClearPixels(IsosurfaceScratch& scratch)
+TETRALUX_INLINE void ClearPixels(PacketPixels& pixels)
 {
   for (int i = 0; i < RayPacket::MaximumRays; ++i)
   {
-    for (auto& channel : scratch.Colors)
+    for (auto& channel : pixels.Colors)
     {
       channel[i] = 0;
     }
-    scratch.Depths[i] = -1;
-    scratch.WindowDepths[i] = 1;
+    pixels.Depths[i] = -1;
+    pixels.WindowDepths[i] = 1;
   }
 }
 
@@ -137,7 +116,7 @@ TETRALUX_INLINE Float8 FindWindowDepth(
 /// Composites the hits of a layer below what is there. Returns their number.
 TETRALUX_INLINE int CompositeChunk(const IsosurfaceInput& in, IsosurfaceScratch& scratch, int chunk)
 {
-  const RayPacket& rays = scratch.Rays;
+  const RayPacket& rays = *scratch.Rays;
   const int begin = chunk * LaneCount;
   const unsigned bits = scratch.HitRays[chunk];
   const Mask8 hits = MaskFromBits(bits);
@@ -178,22 +157,22 @@ TETRALUX_INLINE int CompositeChunk(const IsosurfaceInput& in, IsosurfaceScratch&
       color[c] = Min(Max(Float8(0.f), lit.C[c]), Float8(1.f));
     }
   }
-  const Float8 before = LoadFloat8(scratch.Colors[3] + begin);
+  const Float8 before = LoadFloat8(scratch.Pixels->Colors[3] + begin);
   const Float8 share = Keep(hits, (Float8(1.f) - before) * opacity);
   for (int c = 0; c < 3; ++c)
   {
-    float* sum = scratch.Colors[c] + begin;
+    float* sum = scratch.Pixels->Colors[c] + begin;
     Store(sum, LoadFloat8(sum) + share * color[c]);
   }
-  Store(scratch.Colors[3] + begin, before + share);
-  float* depth = scratch.Depths + begin;
+  Store(scratch.Pixels->Colors[3] + begin, before + share);
+  float* depth = scratch.Pixels->Depths + begin;
   const Float8 known = LoadFloat8(depth);
   // Depths of parallel rays may be negative: opacity tells whether there was a surface before.
   const Mask8 sets = hits & (Float8(0.f) < opacity) & (before <= Float8(0.f));
   Store(depth, Select(sets, ToFloat(distance), known));
   if (in.WindowDepths)
   {
-    float* window = scratch.WindowDepths + begin;
+    float* window = scratch.Pixels->WindowDepths + begin;
     const Mask8 opaque = hits & (Float8(1.f) <= opacity);
     Store(window, Select(opaque, FindWindowDepth(in, rays, begin, key), LoadFloat8(window)));
   }
@@ -203,21 +182,22 @@ TETRALUX_INLINE int CompositeChunk(const IsosurfaceInput& in, IsosurfaceScratch&
 /// Sends the rays on that are not opaque yet. Returns whether there are any.
 TETRALUX_INLINE bool StartNextLayer(const IsosurfaceInput& in, IsosurfaceScratch& scratch)
 {
-  RayPacket& packet = scratch.Rays;
+  RayPacket& packet = *scratch.Rays;
   const double(&row)[4] = in.Frame.Rows[2];
   const double radius =
     in.Frame.Parallel ? __builtin_sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]) : 0;
   bool any = false;
   for (int i = 0; i < RayPacket::MaximumRays; ++i)
   {
-    const bool goesOn = packet.Hit[i] >= 0 && scratch.Colors[3][i] < in.MaximumOpacity;
+    const bool goesOn = packet.Hit[i] >= 0 && scratch.Pixels->Colors[3][i] < in.MaximumOpacity;
     const double key = packet.Far[i];
     packet.Near[i] =
       goesOn ? key - LayerDistance * ((key < 0 ? -key : key) + radius) : packet.Near[i];
-    packet.Far[i] = goesOn ? scratch.StartFar[i] : InfiniteKey;
+    packet.Far[i] = goesOn ? scratch.Pixels->StartFar[i] : InfiniteKey;
     packet.Hit[i] = -1;
     any |= goesOn;
   }
+  UpdateChunksFar(packet);
   return any;
 }
 
@@ -226,8 +206,8 @@ TETRALUX_INLINE void CountLostRays(
 {
   for (int i = 0; i < RayPacket::MaximumRays; ++i)
   {
-    const float opacity = scratch.Colors[3][i];
-    if (scratch.Rays.Hit[i] >= 0 && opacity < in.MaximumOpacity)
+    const float opacity = scratch.Pixels->Colors[3][i];
+    if (scratch.Rays->Hit[i] >= 0 && opacity < in.MaximumOpacity)
     {
       ++counts.LostRays;
       const double lost = 1 - static_cast<double>(opacity);
@@ -245,7 +225,7 @@ TETRALUX_INLINE std::uint32_t FindHitRays(IsosurfaceScratch& scratch)
     unsigned rays = 0;
     for (int i = 0; i < LaneCount; ++i)
     {
-      rays |= scratch.Rays.Hit[chunk * LaneCount + i] >= 0 ? 1u << i : 0u;
+      rays |= scratch.Rays->Hit[chunk * LaneCount + i] >= 0 ? 1u << i : 0u;
     }
     scratch.HitRays[chunk] = static_cast<std::uint8_t>(rays);
     chunks |= (rays != 0 ? 1u : 0u) << chunk;
@@ -253,87 +233,102 @@ TETRALUX_INLINE std::uint32_t FindHitRays(IsosurfaceScratch& scratch)
   return chunks;
 }
 
-/// Finds and composites the surfaces of a packet, one layer after the other. Returns whether there
-/// are any.
-bool DrawLayers(
-  const IsosurfaceInput& in, float margin, IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
+/// Composites what a packet of the block hit in a layer. Returns whether its rays go on.
+TETRALUX_NOINLINE bool DrawHits(
+  const IsosurfaceInput& in, int p, int layer, IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
-  RayPacket& packet = scratch.Rays;
-  for (int layer = 0; layer < in.MaximumLayers; ++layer)
+  RayBlock& block = scratch.Block;
+  scratch.Rays = block.Rays + p;
+  scratch.Pixels = block.Pixels + p;
+  const std::uint32_t chunks = FindHitRays(scratch);
+  if (chunks == 0)
   {
-    if (in.Placed)
-    {
-      TracePlaced<false>(in.Tree, in.Frame, in.Limits, *in.Placed, packet, counts.Primary);
-    }
-    else
-    {
-      PacketTraversal<false>(in.Tree, in.Frame, in.Limits, packet, counts.Primary).Trace();
-    }
-    const std::uint32_t chunks = FindHitRays(scratch);
-    if (chunks == 0)
-    {
-      return layer > 0;
-    }
-    if (layer == 0)
-    {
-      ClearPixels(scratch);
-    }
-    for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
-    {
-      FindHitPoints(in, scratch, __builtin_ctz(rest));
-    }
-    for (int l = 0; l < in.NumberOfShadows; ++l)
-    {
-      const ShadowSource& source = in.Shadows[l];
-      FindShadows(
-        in, source, scratch, counts, scratch.Visible + source.Light * RayPacket::MaximumRays);
-    }
-    if (in.Occlusion)
-    {
-      FindOcclusion(in, chunks, scratch, counts);
-    }
-    for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
-    {
-      counts.Hits += CompositeChunk(in, scratch, __builtin_ctz(rest));
-    }
-    if (layer + 1 == in.MaximumLayers)
-    {
-      CountLostRays(in, scratch, counts);
-    }
-    if (!StartNextLayer(in, scratch) || !FitBounds(packet, margin))
-    {
-      break;
-    }
+    return false;
   }
-  return true;
+  if ((block.Drawn >> p & 1) == 0)
+  {
+    ClearPixels(*scratch.Pixels);
+    block.Drawn |= 1u << p;
+  }
+  for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
+  {
+    FindHitPoints(in, scratch, __builtin_ctz(rest));
+  }
+  for (int l = 0; l < in.NumberOfShadows; ++l)
+  {
+    const ShadowSource& source = in.Shadows[l];
+    FindShadows(
+      in, source, scratch, counts, scratch.Visible + source.Light * RayPacket::MaximumRays);
+  }
+  if (in.Occlusion)
+  {
+    FindOcclusion(in, chunks, scratch, counts);
+  }
+  for (std::uint32_t rest = chunks; rest != 0; rest &= rest - 1)
+  {
+    counts.Hits += CompositeChunk(in, scratch, __builtin_ctz(rest));
+  }
+  if (layer + 1 == in.MaximumLayers)
+  {
+    CountLostRays(in, scratch, counts);
+    return false;
+  }
+  return StartNextLayer(in, scratch);
 }
 
-void DrawPacket(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
-  IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
+/// Finds and composites the surfaces of a block, one layer after the other.
+void DrawLayers(const IsosurfaceInput& in, IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
-  const float margin = GetPacketMargin(x1 > y1 ? x1 : y1);
-  const bool any = !MissesAll(in, x0, y0, x1, y1, counts.Primary) &&
-    StartRays(in, x0, y0, x1, y1, margin, scratch) && DrawLayers(in, margin, scratch, counts);
-  if (any)
+  RayBlock& block = scratch.Block;
+  const auto start = [&](int p) { StartPacket(in, block, p); };
+  bool goesOn = true;
+  for (int layer = 0; goesOn && layer < in.MaximumLayers; ++layer)
   {
-    StorePixels(in, x0, y0, x1, y1, scratch);
-  }
-  else
-  {
-    StoreEmptyPixels(in, x0, y0, x1, y1);
+    BlockTraversal<decltype(start)>(in.Tree, in.Frame, in.Limits, block, start, counts.Primary)
+      .Trace();
+    goesOn = false;
+    for (int p = 0; p < RayBlock::MaximumPackets; ++p)
+    {
+      const bool takesPart =
+        (block.Started >> p & 1) != 0 && block.Far[p] < std::numeric_limits<float>::infinity();
+      const bool next = takesPart && DrawHits(in, p, layer, scratch, counts);
+      block.Far[p] = next ? GetLeastFar(block.Rays[p]) : std::numeric_limits<float>::infinity();
+      goesOn |= next;
+    }
   }
 }
 
 void DrawBlock(const IsosurfaceInput& in, int x0, int y0, int x1, int y1,
   IsosurfaceScratch& scratch, IsosurfaceCounts& counts)
 {
-  for (int y = y0; y < y1; y += RayPacket::Edge)
+  RayBlock& block = scratch.Block;
+  block.X0 = x0;
+  block.Y0 = y0;
+  block.X1 = x1;
+  block.Y1 = y1;
+  block.Started = block.Drawn = 0;
+  for (float& far : block.Far)
   {
-    for (int x = x0; x < x1; x += RayPacket::Edge)
+    far = -std::numeric_limits<float>::infinity();
+  }
+  if (in.Tree.Nodes)
+  {
+    DrawLayers(in, scratch, counts);
+  }
+  for (int p = 0; p < RayBlock::MaximumPackets; ++p)
+  {
+    const int x = x0 + p % RayBlock::Packets * RayPacket::Edge;
+    const int y = y0 + p / RayBlock::Packets * RayPacket::Edge;
+    const int endX = x + RayPacket::Edge < x1 ? x + RayPacket::Edge : x1;
+    const int endY = y + RayPacket::Edge < y1 ? y + RayPacket::Edge : y1;
+    if ((block.Drawn >> p & 1) != 0)
     {
-      const int endX = x + RayPacket::Edge < x1 ? x + RayPacket::Edge : x1;
-      const int endY = y + RayPacket::Edge < y1 ? y + RayPacket::Edge : y1;
-      DrawPacket(in, x, y, endX, endY, scratch, counts);
+      scratch.Pixels = block.Pixels + p;
+      StorePixels(in, x, y, endX, endY, scratch);
+    }
+    else
+    {
+      StoreEmptyPixels(in, x, y, endX, endY);
     }
   }
 }

@@ -64,8 +64,8 @@ struct IsosurfaceOptions
   TreeBuild Build = TreeBuild::SpatialMedian;
   Isopolygons Polygons = Isopolygons::Precomputed;
 
-  /// Whether precomputed isopolygons are prepared once for all packets. Without a value: if there
-  /// are few for the size of the picture.
+  /// Whether precomputed isopolygons are prepared once for all rays to a light, or of a direction
+  /// of ambient light. Without a value: if there are few for the size of the picture.
   std::optional<bool> PlaceOnce;
 
   /// Bytes of time steps that are kept beside the present one. 0: none is kept, and boxes are

@@ -29,8 +29,8 @@ namespace tetralux
 namespace
 {
 
-/// Polygons for a pixel up to which they are prepared once for all packets. Measured on the blunt
-/// fin and on rings of up to 10 million cells.
+/// Polygons for a pixel up to which they are prepared once for all packets of shadow rays. Measured
+/// on the blunt fin and on rings of up to 10 million cells.
 constexpr double LargestPlacedShare = 0.1;
 
 /// How far ambient light is blocked from, in radii of the mesh, unless that is chosen: a part of
@@ -261,9 +261,7 @@ void IsosurfaceTracer::Internals::PlacePolygons(
   const MinMaxTree::Node& box = active.Nodes.front();
   // Points of the mesh are within a radius of 1, and rays to them.
   const double ofLight[4] = { -1, -1, 1, 1 };
-  const double ofPicture[4] = { 0, 0, in.Grid->Width - 1., in.Grid->Height - 1. };
   this->Placed.Start(active);
-  in.Placed = this->Placed.Add(in.Frame, in.Limits, ofPicture);
   for (ShadowSource& source : in.ShadowSources)
   {
     for (int side = 0; side < (source.Positional ? 6 : 1); ++side)
@@ -296,7 +294,7 @@ void IsosurfaceTracer::Internals::TraceTiles(const OwningInput& in,
     memory.back()->Scratch.Visible =
       in.NumberOfShadows > 0 ? memory.back()->Visible.data() : nullptr;
   }
-  const TileGrid tiles{ in.Grid->Width, in.Grid->Height, BlockEdge };
+  const TileGrid tiles{ in.Grid->Width, in.Grid->Height, RayBlock::Edge };
   statistics.Aborted = !ForEachTile(tiles, threads, options.Progress,
     [&](const Tile& tile, int thread)
     {

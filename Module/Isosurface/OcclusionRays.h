@@ -38,8 +38,8 @@ TETRALUX_INLINE void FindNormals(const IsosurfaceInput& in, const IsosurfaceScra
         // About 1 long, whose squares are in range.
         normal[a] += largest > 0 ? row[b] * (scratch.Gradients[b][i] / largest) : 0;
       }
-      view[a] = grid.Direction[a] + scratch.Rays.U[i] * grid.DirectionStepX[a] +
-        scratch.Rays.V[i] * grid.DirectionStepY[a];
+      view[a] = grid.Direction[a] + scratch.Rays->U[i] * grid.DirectionStepX[a] +
+        scratch.Rays->V[i] * grid.DirectionStepY[a];
       length2 += normal[a] * normal[a];
       view2 += view[a] * view[a];
       towards += normal[a] * view[a];
@@ -77,7 +77,7 @@ TETRALUX_NOINLINE void FindOcclusion(const IsosurfaceInput& in, std::uint32_t ch
       const float cosine = normals[0][i] * sample.Direction[0] +
         normals[1][i] * sample.Direction[1] + normals[2][i] * sample.Direction[2];
       const bool takesPart =
-        (chunks >> (i / LaneCount) & 1) != 0 && scratch.Rays.Hit[i] >= 0 && cosine > 0;
+        (chunks >> (i / LaneCount) & 1) != 0 && scratch.Rays->Hit[i] >= 0 && cosine > 0;
       weights[i] = takesPart ? cosine : 0;
       if (takesPart)
       {

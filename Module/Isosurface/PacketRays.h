@@ -97,6 +97,15 @@ TETRALUX_INLINE void UpdateChunkFar(RayPacket& packet, int chunk)
   packet.ChunkFar[chunk] = RoundDown(least);
 }
 
+/// The same of all chunks.
+TETRALUX_INLINE void UpdateChunksFar(RayPacket& packet)
+{
+  for (int chunk = 0; chunk < RayPacket::MaximumChunks; ++chunk)
+  {
+    UpdateChunkFar(packet, chunk);
+  }
+}
+
 /// The least Far of a packet, rounded down.
 TETRALUX_INLINE float GetLeastFar(const RayPacket& packet)
 {
@@ -129,7 +138,7 @@ TETRALUX_INLINE void SetChunkBounds(
   packet.HighV = highV > packet.HighV ? highV : packet.HighV;
 }
 
-TETRALUX_INLINE void ClearBounds(RayPacket& packet)
+TETRALUX_INLINE void ClearBounds(RayBounds& packet)
 {
   packet.LowU = packet.LowV = InfiniteKey;
   packet.HighU = packet.HighV = -InfiniteKey;

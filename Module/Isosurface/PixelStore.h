@@ -64,7 +64,7 @@ TETRALUX_INLINE void StoreWindowPixels(
   {
     for (int c = 0; c < 4; ++c)
     {
-      const float channel = 255.f * scratch.Colors[c][i] + 0.5f;
+      const float channel = 255.f * scratch.Pixels->Colors[c][i] + 0.5f;
       bytes[4 * i + c] = static_cast<std::uint8_t>(static_cast<int>(channel));
     }
   }
@@ -83,7 +83,7 @@ TETRALUX_INLINE void StoreWindowDepths(
     [&](const PixelRow& row)
     {
       CopyRow<RayPacket::ChunkWidth>(
-        scratch.WindowDepths + row.First, row.Count, in.WindowDepths + row.Pixel);
+        scratch.Pixels->WindowDepths + row.First, row.Count, in.WindowDepths + row.Pixel);
     });
 }
 
@@ -103,14 +103,17 @@ TETRALUX_INLINE void StorePixels(
   ForEachPixelRow(in, x0, y0, x1, y1,
     [&](const PixelRow& row)
     {
-      for (int i = 0; i < row.Count; ++i)
+      float colors[4 * RayPacket::ChunkWidth];
+      for (int i = 0; i < RayPacket::ChunkWidth; ++i)
       {
         for (int c = 0; c < 4; ++c)
         {
-          in.Colors[4 * (row.Pixel + i) + c] = scratch.Colors[c][row.First + i];
+          colors[4 * i + c] = scratch.Pixels->Colors[c][row.First + i];
         }
-        in.Depths[row.Pixel + i] = scratch.Depths[row.First + i];
       }
+      CopyRow<4 * RayPacket::ChunkWidth>(colors, 4 * row.Count, in.Colors + 4 * row.Pixel);
+      CopyRow<RayPacket::ChunkWidth>(
+        scratch.Pixels->Depths + row.First, row.Count, in.Depths + row.Pixel);
     });
 }
 

@@ -19,14 +19,20 @@ struct PlacedPolygon
   LimitedPart Part;
 };
 
-/// Intersects the rays of a packet with a polygon. chunks: those of FindChunks. Returns whether any
-/// may have hit it.
+/// Chunks of a packet up to which their rays are tested at once: it takes as long to ask whether a
+/// polygon covers the packet.
+constexpr int FewChunks = 2;
+
+/// Intersects the rays of a packet with a polygon. chunks: those it may hit, one bit each. Returns
+/// whether any may have hit it.
 template <bool AnyHit>
 TETRALUX_INLINE bool HitPlaced(const TraceLimits& limits, const RayFrame& frame,
   const PlacedPolygon& placed, std::uint32_t chunks, RayPacket& packet, TraceCounts& counts)
 {
   ++counts.Polygons;
-  const Coverage coverage = chunks == 0 ? Coverage::None : Cover(placed.Polygon, packet);
+  const Coverage coverage = chunks == 0       ? Coverage::None
+    : __builtin_popcount(chunks) <= FewChunks ? Coverage::Some
+                                              : Cover(placed.Polygon, packet);
   if (coverage == Coverage::None || placed.Part == LimitedPart::None)
   {
     ++counts.PolygonMisses;

@@ -30,7 +30,7 @@ TETRALUX_INLINE void SetNoBounds(PlacedBounds& bounds)
 
 /// Whether all corners of a polygon are beyond one side of the rays within bounds.
 TETRALUX_INLINE bool IsBeside(
-  const RayFrame& frame, const RayPacket& bounds, double largest, const Isopolygon& polygon)
+  const RayFrame& frame, const RayBounds& bounds, double largest, const Isopolygon& polygon)
 {
   const double rounding = BesideRounding * largest;
   const double low[2] = { bounds.LowU - rounding, bounds.LowV - rounding };
@@ -57,15 +57,12 @@ void PlaceLeaves(const TraceTree& tree, const RayFrame& frame, const TraceLimits
   const double (&boundsOfRays)[4], std::int32_t first, std::int32_t end, const PlacedTree& result)
 {
   static_assert(sizeof(PlacedPolygon) <= PlacedPolygonBytes, "room for a polygon");
-  RayPacket bounds;
-  bounds.LowU = boundsOfRays[0];
-  bounds.LowV = boundsOfRays[1];
-  bounds.HighU = boundsOfRays[2];
-  bounds.HighV = boundsOfRays[3];
+  const RayBounds bounds = { boundsOfRays[0], boundsOfRays[2], boundsOfRays[1], boundsOfRays[3] };
   const double largest = GetLargest(bounds);
   const float margin = GetPacketMargin(largest);
   const PacketFrustum frustum(frame, bounds, limits);
   auto* polygons = static_cast<PlacedPolygon*>(result.Polygons);
+  PolygonLanes lanes(frame, bounds, largest);
   for (std::int32_t id = first; id < end; ++id)
   {
     const MinMaxTree::Node& node = tree.Nodes[id];
@@ -77,30 +74,44 @@ void PlaceLeaves(const TraceTree& tree, const RayFrame& frame, const TraceLimits
     SetNoBounds(all);
     float nearness;
     const bool misses = frustum.Misses(node, nearness);
-    for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+    for (std::int32_t begin = 0; begin < node.Count; begin += LaneCount)
     {
-      const Isopolygon& polygon = tree.Polygons[i];
-      PlacedPolygon& placed = polygons[i];
-      SetNoBounds(result.Bounds[i]);
-      if (misses || !Place(frame, bounds, largest, margin, polygon, placed.Polygon))
+      const std::int32_t firstPolygon = node.First + begin;
+      const int count = node.Count - begin < LaneCount ? node.Count - begin : LaneCount;
+      for (int lane = 0; lane < count; ++lane)
       {
-        continue;
+        SetNoBounds(result.Bounds[firstPolygon + lane]);
       }
-      // A polygon that is not wholly before the origin of the rays has no bounds.
-      if (placed.Polygon.HighKey == InfiniteKey && IsBeside(frame, bounds, largest, polygon))
+      unsigned found =
+        misses ? 0 : lanes.PlaceCorners(tree.Polygons + firstPolygon, count, -InfiniteKey);
+      found = found != 0 ? found & lanes.PlaceEdges() : 0;
+      for (; found != 0; found &= found - 1)
       {
-        continue;
+        const int lane = __builtin_ctz(found);
+        const std::int32_t i = firstPolygon + lane;
+        const Isopolygon& polygon = tree.Polygons[i];
+        PlacedPolygon& placed = polygons[i];
+        lanes.GetCorners(lane, placed.Polygon);
+        lanes.GetEdges(lane, placed.Polygon);
+        // A polygon that is not wholly before the origin of the rays has no bounds.
+        if (placed.Polygon.HighKey == InfiniteKey && IsBeside(frame, bounds, largest, polygon))
+        {
+          continue;
+        }
+        placed.Part = FindLimitedPart(limits, polygon);
+        if (placed.Part == LimitedPart::None)
+        {
+          continue;
+        }
+        placed.Id = i;
+        const float values[8] = { static_cast<float>(placed.Polygon.LowU) - margin,
+          static_cast<float>(placed.Polygon.LowV) - margin,
+          -static_cast<float>(placed.Polygon.HighU) - margin,
+          -static_cast<float>(placed.Polygon.HighV) - margin, RoundDown(-placed.Polygon.HighKey), 0,
+          0, 0 };
+        Store(result.Bounds[i].Values, LoadFloat8(values));
+        Store(all.Values, Min(LoadFloat8(all.Values), LoadFloat8(values)));
       }
-      placed.Part = FindLimitedPart(limits, polygon);
-      if (placed.Part == LimitedPart::None)
-      {
-        continue;
-      }
-      placed.Id = i;
-      const float values[8] = { placed.Polygon.LowU, placed.Polygon.LowV, -placed.Polygon.HighU,
-        -placed.Polygon.HighV, RoundDown(-placed.Polygon.HighKey), 0, 0, 0 };
-      Store(result.Bounds[i].Values, LoadFloat8(values));
-      Store(all.Values, Min(LoadFloat8(all.Values), LoadFloat8(values)));
     }
   }
 }
@@ -169,24 +180,6 @@ TETRALUX_INLINE void WalkPlaced(const TraceTree& tree, const PlacedTree& placed,
   }
 }
 
-/// Whether rays within the bounds of a packet miss all polygons. counts: of the packet.
-TETRALUX_INLINE bool MissesPlaced(
-  const TraceTree& tree, const PlacedTree& placed, const RayPacket& bounds, TraceCounts& counts)
-{
-  const PlacedQuery query(bounds, -std::numeric_limits<float>::infinity());
-  bool misses = true;
-  WalkPlaced(tree, placed, query, counts,
-    [&](const MinMaxTree::Node& node)
-    {
-      for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
-      {
-        misses = misses && !query.MayHit(placed.Bounds[i]);
-      }
-      return misses;
-    });
-  return misses;
-}
-
 /// Intersects the rays of a packet with the polygons of a PlacedTree.
 template <bool AnyHit>
 TETRALUX_INLINE void TracePlaced(const TraceTree& tree, const RayFrame& frame,
@@ -194,6 +187,7 @@ TETRALUX_INLINE void TracePlaced(const TraceTree& tree, const RayFrame& frame,
 {
   ++counts.Packets;
   const auto* polygons = static_cast<const PlacedPolygon*>(placed.Polygons);
+  const float margin = GetPacketMargin(GetLargest(packet));
   PlacedQuery query(packet, GetLeastFar(packet));
   WalkPlaced(tree, placed, query, counts,
     [&](const MinMaxTree::Node& node)
@@ -205,7 +199,7 @@ TETRALUX_INLINE void TracePlaced(const TraceTree& tree, const RayFrame& frame,
         {
           const PlacedPolygon& polygon = polygons[i];
           changed |= HitPlaced<AnyHit>(
-            limits, frame, polygon, FindChunks(packet, polygon.Polygon), packet, counts);
+            limits, frame, polygon, FindChunks(packet, margin, polygon.Polygon), packet, counts);
         }
         else
         {

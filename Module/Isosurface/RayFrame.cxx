@@ -77,7 +77,6 @@ RayFrame MakeRayFrame(const RayGrid& grid, const MeshFrame& mesh)
   RayFrame frame;
   const bool sameOrigin = IsZero(grid.OriginStepX) && IsZero(grid.OriginStepY);
   frame.Parallel = IsZero(grid.DirectionStepX) && IsZero(grid.DirectionStepY);
-  frame.Pixels = true;
   if (sameOrigin == frame.Parallel)
   {
     throw std::invalid_argument("rays must have one origin or one direction in common");

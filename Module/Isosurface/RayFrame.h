@@ -26,7 +26,6 @@ struct MeshFrame
 struct RayFrame
 {
   bool Parallel = false;
-  bool Pixels = false; ///< whether u and v of all rays are whole numbers
   double Rows[3][4] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } };
 
   /// The way back: X Axes[0] + Y Axes[1] + depth Axes[2] + Origin.

@@ -9,9 +9,15 @@
 namespace tetralux
 {
 
+/// Bounds of rays in a RayFrame.
+struct RayBounds
+{
+  double LowU, HighU, LowV, HighV;
+};
+
 /// Rays of one RayFrame that are traced together (Wald et al. 2007, section 5.2), in chunks of
 /// LaneCount rays that lie near each other.
-struct alignas(64) RayPacket
+struct alignas(64) RayPacket : RayBounds ///< of all rays that take part
 {
   /// Pixels along the edge of a packet of primary rays.
   static constexpr int Edge = 16;
@@ -43,9 +49,6 @@ struct alignas(64) RayPacket
   float ChunkHighV[MaximumChunks];
   float ChunkFar[MaximumChunks];
   ///@}
-
-  /// Bounds of all rays that take part.
-  double LowU, HighU, LowV, HighV;
 };
 
 } // namespace tetralux

@@ -75,8 +75,8 @@ TETRALUX_INLINE unsigned FindSides(const IsosurfaceInput& in, const ShadowSource
     unsigned rays[6] = { 0, 0, 0, 0, 0, 0 };
     if (scratch.HitRays[chunk] != 0)
     {
-      const Double8 u = perspective * LoadDouble8(scratch.Rays.U + first);
-      const Double8 v = perspective * LoadDouble8(scratch.Rays.V + first);
+      const Double8 u = perspective * LoadDouble8(scratch.Rays->U + first);
+      const Double8 v = perspective * LoadDouble8(scratch.Rays->V + first);
       Double8 way[3], size[3];
       Double8 towards = 0., view = 0., steepness = 0.;
       for (int a = 0; a < 3; ++a)

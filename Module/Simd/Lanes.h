@@ -6,8 +6,8 @@
 // This header chooses an implementation by the options of the compiler: LanesAvx2.h for AVX2 with
 // FMA, LanesGeneric.h for every other processor. Each lives in a namespace of its own
 // (TETRALUX_ISA), so that one library can hold the kernels of several instruction sets. What is
-// compiled for AVX-512 uses the lanes of AVX2, or with a TETRALUX_LANE_COUNT of 16 those of
-// LanesAvx512.h, by the same names. InstructionSet.h tells which of them to call.
+// compiled for AVX-512 uses those of LanesAvx512.h, or with a TETRALUX_LANE_COUNT of 16 those of
+// LanesAvx512Wide.h, by the same names. InstructionSet.h tells which of them to call.
 //
 // Types
 //
@@ -53,6 +53,11 @@
 //                      a factor is not finite.
 //   LoadFloat8, LoadDouble8, LoadInt8, Store
 //                      LaneCount consecutive values, at any alignment
+//   StoreWhere(m, a, p)
+//                      the 64-bit integer a in p[i] of the lanes where the mask is set
+//   LoadRows(r, x, y, z, s)
+//                      four consecutive doubles from r[i] of each lane, transposed. Rows are aligned
+//                      to their size.
 //   GatherRows         four consecutive values from base + 4 * index of each lane, transposed. Rows
 //                      are aligned to their size. Indices are in 0..2^29 - 1.
 //   GatherPairs        two consecutive integers from base + 2 * index of each lane, transposed.
@@ -91,6 +96,8 @@
 #define TETRALUX_NOINLINE
 #endif
 #if TETRALUX_LANE_COUNT == 16
+#include "Simd/LanesAvx512Wide.h"
+#elif TETRALUX_AVX2 && defined(__AVX512F__)
 #include "Simd/LanesAvx512.h"
 #elif TETRALUX_AVX2
 #include "Simd/LanesAvx2.h"

@@ -222,6 +222,14 @@ TETRALUX_INLINE void Store(double* p, Double8 a)
   _mm256_storeu_pd(p, a.lo);
   _mm256_storeu_pd(p + 4, a.hi);
 }
+TETRALUX_INLINE void StoreWhere(Mask8 m, std::int64_t a, std::int64_t* p)
+{
+  __m256d lo, hi;
+  WidenMask(m, lo, hi);
+  auto* words = reinterpret_cast<long long*>(p);
+  _mm256_maskstore_epi64(words, _mm256_castpd_si256(lo), _mm256_set1_epi64x(a));
+  _mm256_maskstore_epi64(words + 4, _mm256_castpd_si256(hi), _mm256_set1_epi64x(a));
+}
 TETRALUX_INLINE Double8 LoadDouble8(const double* p)
 {
   return { _mm256_loadu_pd(p), _mm256_loadu_pd(p + 4) };
@@ -294,6 +302,12 @@ TETRALUX_INLINE void TransposeRows(
   z = _mm256_permute2f128_pd(t0, t2, 0x31);
   s = _mm256_permute2f128_pd(t1, t3, 0x31);
 }
+TETRALUX_INLINE void LoadRows(
+  const double* const (&row)[LaneCount], Double8& x, Double8& y, Double8& z, Double8& s)
+{
+  TransposeRows(row, x.lo, y.lo, z.lo, s.lo);
+  TransposeRows(row + 4, x.hi, y.hi, z.hi, s.hi);
+}
 TETRALUX_INLINE void GatherRows(
   const double* base, Int8 index, Double8& x, Double8& y, Double8& z, Double8& s)
 {
@@ -305,8 +319,7 @@ TETRALUX_INLINE void GatherRows(
   {
     row[lane] = base + i[lane];
   }
-  TransposeRows(row, x.lo, y.lo, z.lo, s.lo);
-  TransposeRows(row + 4, x.hi, y.hi, z.hi, s.hi);
+  LoadRows(row, x, y, z, s);
 }
 TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& first, Int8& second)
 {

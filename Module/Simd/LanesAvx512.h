@@ -2,12 +2,14 @@
 #ifndef tetralux_LanesAvx512_h
 #define tetralux_LanesAvx512_h
 
-// The lanes of Lanes.h for AVX-512, 16 of them. Only Lanes.h includes this; it says what each
-// operation does. Results are the same bits as those of LanesAvx2.h.
+// The lanes of Lanes.h for AVX-512, eight of them: masks have registers of their own, and doubles
+// fill one. Only Lanes.h includes this; it says what each operation does. Results are the same bits
+// as those of LanesAvx2.h.
 
 #include "Simd/LaneCount.h"
 
 #include <cstdint>
+#include <cstring>
 
 #include <immintrin.h>
 
@@ -18,290 +20,298 @@ namespace TETRALUX_ISA
 
 struct Mask8
 {
-  __mmask16 v;
+  __mmask8 v;
 };
 struct Int8
 {
-  __m512i v;
+  __m256i v;
   Int8() = default;
-  TETRALUX_INLINE explicit Int8(__m512i x)
+  TETRALUX_INLINE explicit Int8(__m256i x)
     : v(x)
   {
   }
   TETRALUX_INLINE Int8(std::int32_t x)
-    : v(_mm512_set1_epi32(x))
+    : v(_mm256_set1_epi32(x))
   {
   }
 };
 struct Float8
 {
-  __m512 v;
+  __m256 v;
   Float8() = default;
-  TETRALUX_INLINE explicit Float8(__m512 x)
+  TETRALUX_INLINE explicit Float8(__m256 x)
     : v(x)
   {
   }
   TETRALUX_INLINE Float8(float x)
-    : v(_mm512_set1_ps(x))
+    : v(_mm256_set1_ps(x))
   {
   }
 };
 struct Double8
 {
-  __m512d lo, hi;
+  __m512d v;
   Double8() = default;
-  TETRALUX_INLINE Double8(__m512d a, __m512d b)
-    : lo(a)
-    , hi(b)
+  TETRALUX_INLINE explicit Double8(__m512d x)
+    : v(x)
   {
   }
   TETRALUX_INLINE Double8(double x)
-    : lo(_mm512_set1_pd(x))
-    , hi(lo)
+    : v(_mm512_set1_pd(x))
   {
   }
 };
 
 // Masks.
-TETRALUX_INLINE Mask8 operator&(Mask8 a, Mask8 b) { return { _kand_mask16(a.v, b.v) }; }
-TETRALUX_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return { _kor_mask16(a.v, b.v) }; }
-TETRALUX_INLINE Mask8 AndNot(Mask8 a, Mask8 b) { return { _kandn_mask16(b.v, a.v) }; }
-TETRALUX_INLINE unsigned Bits(Mask8 m) { return _cvtmask16_u32(m.v); }
-TETRALUX_INLINE Mask8 MaskFromBits(unsigned bits) { return { _cvtu32_mask16(bits) }; }
+TETRALUX_INLINE Mask8 operator&(Mask8 a, Mask8 b) { return { _kand_mask8(a.v, b.v) }; }
+TETRALUX_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return { _kor_mask8(a.v, b.v) }; }
+TETRALUX_INLINE Mask8 AndNot(Mask8 a, Mask8 b) { return { _kandn_mask8(b.v, a.v) }; }
+TETRALUX_INLINE unsigned Bits(Mask8 m) { return _cvtmask8_u32(m.v); }
+TETRALUX_INLINE Mask8 MaskFromBits(unsigned bits) { return { _cvtu32_mask8(bits) }; }
 TETRALUX_INLINE bool Any(Mask8 m) { return m.v != 0; }
-/// Those of the first and of the second eight lanes.
-///@{
-TETRALUX_INLINE __mmask8 GetLow(Mask8 m) { return static_cast<__mmask8>(m.v); }
-TETRALUX_INLINE __mmask8 GetHigh(Mask8 m) { return static_cast<__mmask8>(m.v >> 8); }
-///@}
 
 // Integers.
-TETRALUX_INLINE Int8 operator+(Int8 a, Int8 b) { return Int8(_mm512_add_epi32(a.v, b.v)); }
-TETRALUX_INLINE Int8 operator-(Int8 a, Int8 b) { return Int8(_mm512_sub_epi32(a.v, b.v)); }
-TETRALUX_INLINE Mask8 operator>(Int8 a, Int8 b) { return { _mm512_cmpgt_epi32_mask(a.v, b.v) }; }
-TETRALUX_INLINE Mask8 operator==(Int8 a, Int8 b) { return { _mm512_cmpeq_epi32_mask(a.v, b.v) }; }
-TETRALUX_INLINE Int8 operator*(Int8 a, Int8 b) { return Int8(_mm512_mullo_epi32(a.v, b.v)); }
-TETRALUX_INLINE Int8 ShiftLeft(Int8 a, int bits) { return Int8(_mm512_slli_epi32(a.v, bits)); }
-TETRALUX_INLINE Int8 ShiftLeft(Int8 a, Int8 bits) { return Int8(_mm512_sllv_epi32(a.v, bits.v)); }
-TETRALUX_INLINE Int8 ShiftRight(Int8 a, int bits) { return Int8(_mm512_srli_epi32(a.v, bits)); }
+TETRALUX_INLINE Int8 operator+(Int8 a, Int8 b) { return Int8(_mm256_add_epi32(a.v, b.v)); }
+TETRALUX_INLINE Int8 operator-(Int8 a, Int8 b) { return Int8(_mm256_sub_epi32(a.v, b.v)); }
+TETRALUX_INLINE Mask8 operator>(Int8 a, Int8 b) { return { _mm256_cmpgt_epi32_mask(a.v, b.v) }; }
+TETRALUX_INLINE Mask8 operator==(Int8 a, Int8 b) { return { _mm256_cmpeq_epi32_mask(a.v, b.v) }; }
+TETRALUX_INLINE Int8 operator*(Int8 a, Int8 b) { return Int8(_mm256_mullo_epi32(a.v, b.v)); }
+TETRALUX_INLINE Int8 ShiftLeft(Int8 a, int bits) { return Int8(_mm256_slli_epi32(a.v, bits)); }
+TETRALUX_INLINE Int8 ShiftLeft(Int8 a, Int8 bits) { return Int8(_mm256_sllv_epi32(a.v, bits.v)); }
+TETRALUX_INLINE Int8 ShiftRight(Int8 a, int bits) { return Int8(_mm256_srli_epi32(a.v, bits)); }
 TETRALUX_INLINE Int8 ShiftRightSigned(Int8 a, int bits)
 {
-  return Int8(_mm512_srai_epi32(a.v, bits));
+  return Int8(_mm256_srai_epi32(a.v, bits));
 }
-TETRALUX_INLINE Int8 Ones(Mask8 m) { return Int8(_mm512_maskz_set1_epi32(m.v, 1)); }
+TETRALUX_INLINE Int8 Ones(Mask8 m) { return Int8(_mm256_maskz_set1_epi32(m.v, 1)); }
 TETRALUX_INLINE Int8 Select(Mask8 m, Int8 a, Int8 b)
 {
-  return Int8(_mm512_mask_blend_epi32(m.v, b.v, a.v));
+  return Int8(_mm256_mask_blend_epi32(m.v, b.v, a.v));
 }
-TETRALUX_INLINE void Store(std::int32_t* p, Int8 a) { _mm512_storeu_si512(p, a.v); }
-TETRALUX_INLINE Int8 LoadInt8(const std::int32_t* p) { return Int8(_mm512_loadu_si512(p)); }
+TETRALUX_INLINE void Store(std::int32_t* p, Int8 a)
+{
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v);
+}
+TETRALUX_INLINE Int8 LoadInt8(const std::int32_t* p)
+{
+  return Int8(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
+}
 
 // Single precision.
-TETRALUX_INLINE Float8 operator+(Float8 a, Float8 b) { return Float8(_mm512_add_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 operator-(Float8 a, Float8 b) { return Float8(_mm512_sub_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 operator*(Float8 a, Float8 b) { return Float8(_mm512_mul_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 operator/(Float8 a, Float8 b) { return Float8(_mm512_div_ps(a.v, b.v)); }
+TETRALUX_INLINE Float8 operator+(Float8 a, Float8 b) { return Float8(_mm256_add_ps(a.v, b.v)); }
+TETRALUX_INLINE Float8 operator-(Float8 a, Float8 b) { return Float8(_mm256_sub_ps(a.v, b.v)); }
+TETRALUX_INLINE Float8 operator*(Float8 a, Float8 b) { return Float8(_mm256_mul_ps(a.v, b.v)); }
+TETRALUX_INLINE Float8 operator/(Float8 a, Float8 b) { return Float8(_mm256_div_ps(a.v, b.v)); }
 TETRALUX_INLINE Float8 Fma(Float8 a, Float8 b, Float8 c)
 {
-  return Float8(_mm512_fmadd_ps(a.v, b.v, c.v));
+  return Float8(_mm256_fmadd_ps(a.v, b.v, c.v));
 }
-TETRALUX_INLINE Float8 Min(Float8 a, Float8 b) { return Float8(_mm512_min_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 Max(Float8 a, Float8 b) { return Float8(_mm512_max_ps(a.v, b.v)); }
-TETRALUX_INLINE Float8 Abs(Float8 a) { return Float8(_mm512_andnot_ps(_mm512_set1_ps(-0.f), a.v)); }
-TETRALUX_INLINE Float8 Sqrt(Float8 a) { return Float8(_mm512_sqrt_ps(a.v)); }
+TETRALUX_INLINE Float8 Min(Float8 a, Float8 b) { return Float8(_mm256_min_ps(a.v, b.v)); }
+TETRALUX_INLINE Float8 Max(Float8 a, Float8 b) { return Float8(_mm256_max_ps(a.v, b.v)); }
+TETRALUX_INLINE Float8 Abs(Float8 a) { return Float8(_mm256_andnot_ps(_mm256_set1_ps(-0.f), a.v)); }
+TETRALUX_INLINE Float8 Sqrt(Float8 a) { return Float8(_mm256_sqrt_ps(a.v)); }
 TETRALUX_INLINE Mask8 operator<(Float8 a, Float8 b)
 {
-  return { _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ) };
+  return { _mm256_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ) };
 }
 TETRALUX_INLINE Mask8 operator<=(Float8 a, Float8 b)
 {
-  return { _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ) };
+  return { _mm256_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ) };
 }
 TETRALUX_INLINE Mask8 operator==(Float8 a, Float8 b)
 {
-  return { _mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ) };
+  return { _mm256_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ) };
 }
 TETRALUX_INLINE Float8 Select(Mask8 m, Float8 a, Float8 b)
 {
-  return Float8(_mm512_mask_blend_ps(m.v, b.v, a.v));
+  return Float8(_mm256_mask_blend_ps(m.v, b.v, a.v));
 }
-TETRALUX_INLINE Float8 Keep(Mask8 m, Float8 a) { return Float8(_mm512_maskz_mov_ps(m.v, a.v)); }
-TETRALUX_INLINE void Store(float* p, Float8 a) { _mm512_storeu_ps(p, a.v); }
-TETRALUX_INLINE Float8 LoadFloat8(const float* p) { return Float8(_mm512_loadu_ps(p)); }
-TETRALUX_INLINE Int8 RoundToInt(Float8 a) { return Int8(_mm512_cvtps_epi32(a.v)); }
-TETRALUX_INLINE Float8 ToFloat(Int8 a) { return Float8(_mm512_cvtepi32_ps(a.v)); }
-TETRALUX_INLINE Float8 FromBits(Int8 a) { return Float8(_mm512_castsi512_ps(a.v)); }
-TETRALUX_INLINE Int8 ToBits(Float8 a) { return Int8(_mm512_castps_si512(a.v)); }
+TETRALUX_INLINE Float8 Keep(Mask8 m, Float8 a) { return Float8(_mm256_maskz_mov_ps(m.v, a.v)); }
+TETRALUX_INLINE void Store(float* p, Float8 a) { _mm256_storeu_ps(p, a.v); }
+TETRALUX_INLINE Float8 LoadFloat8(const float* p) { return Float8(_mm256_loadu_ps(p)); }
+TETRALUX_INLINE Int8 RoundToInt(Float8 a) { return Int8(_mm256_cvtps_epi32(a.v)); }
+TETRALUX_INLINE Float8 ToFloat(Int8 a) { return Float8(_mm256_cvtepi32_ps(a.v)); }
+TETRALUX_INLINE Float8 FromBits(Int8 a) { return Float8(_mm256_castsi256_ps(a.v)); }
+TETRALUX_INLINE Int8 ToBits(Float8 a) { return Int8(_mm256_castps_si256(a.v)); }
 
 // Double precision.
-TETRALUX_INLINE Double8 operator+(Double8 a, Double8 b)
-{
-  return { _mm512_add_pd(a.lo, b.lo), _mm512_add_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 operator-(Double8 a, Double8 b)
-{
-  return { _mm512_sub_pd(a.lo, b.lo), _mm512_sub_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 operator*(Double8 a, Double8 b)
-{
-  return { _mm512_mul_pd(a.lo, b.lo), _mm512_mul_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 operator/(Double8 a, Double8 b)
-{
-  return { _mm512_div_pd(a.lo, b.lo), _mm512_div_pd(a.hi, b.hi) };
-}
+TETRALUX_INLINE Double8 operator+(Double8 a, Double8 b) { return Double8(_mm512_add_pd(a.v, b.v)); }
+TETRALUX_INLINE Double8 operator-(Double8 a, Double8 b) { return Double8(_mm512_sub_pd(a.v, b.v)); }
+TETRALUX_INLINE Double8 operator*(Double8 a, Double8 b) { return Double8(_mm512_mul_pd(a.v, b.v)); }
+TETRALUX_INLINE Double8 operator/(Double8 a, Double8 b) { return Double8(_mm512_div_pd(a.v, b.v)); }
 TETRALUX_INLINE Double8 Fma(Double8 a, Double8 b, Double8 c)
 {
-  return { _mm512_fmadd_pd(a.lo, b.lo, c.lo), _mm512_fmadd_pd(a.hi, b.hi, c.hi) };
+  return Double8(_mm512_fmadd_pd(a.v, b.v, c.v));
 }
-TETRALUX_INLINE Double8 Min(Double8 a, Double8 b)
-{
-  return { _mm512_min_pd(a.lo, b.lo), _mm512_min_pd(a.hi, b.hi) };
-}
-TETRALUX_INLINE Double8 Max(Double8 a, Double8 b)
-{
-  return { _mm512_max_pd(a.lo, b.lo), _mm512_max_pd(a.hi, b.hi) };
-}
+TETRALUX_INLINE Double8 Min(Double8 a, Double8 b) { return Double8(_mm512_min_pd(a.v, b.v)); }
+TETRALUX_INLINE Double8 Max(Double8 a, Double8 b) { return Double8(_mm512_max_pd(a.v, b.v)); }
 TETRALUX_INLINE Double8 Abs(Double8 a)
 {
-  const __m512d sign = _mm512_set1_pd(-0.);
-  return { _mm512_andnot_pd(sign, a.lo), _mm512_andnot_pd(sign, a.hi) };
+  return Double8(_mm512_andnot_pd(_mm512_set1_pd(-0.), a.v));
 }
-TETRALUX_INLINE Double8 Sqrt(Double8 a) { return { _mm512_sqrt_pd(a.lo), _mm512_sqrt_pd(a.hi) }; }
-TETRALUX_INLINE Mask8 JoinMasks(__mmask8 lo, __mmask8 hi)
-{
-  return { static_cast<__mmask16>(lo | hi << 8) };
-}
+TETRALUX_INLINE Double8 Sqrt(Double8 a) { return Double8(_mm512_sqrt_pd(a.v)); }
 TETRALUX_INLINE Mask8 operator<(Double8 a, Double8 b)
 {
-  return JoinMasks(
-    _mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LT_OQ), _mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LT_OQ));
+  return { _mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ) };
 }
 TETRALUX_INLINE Mask8 operator<=(Double8 a, Double8 b)
 {
-  return JoinMasks(
-    _mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LE_OQ), _mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LE_OQ));
+  return { _mm512_cmp_pd_mask(a.v, b.v, _CMP_LE_OQ) };
 }
 TETRALUX_INLINE Mask8 operator==(Double8 a, Double8 b)
 {
-  return JoinMasks(
-    _mm512_cmp_pd_mask(a.lo, b.lo, _CMP_EQ_OQ), _mm512_cmp_pd_mask(a.hi, b.hi, _CMP_EQ_OQ));
+  return { _mm512_cmp_pd_mask(a.v, b.v, _CMP_EQ_OQ) };
 }
 TETRALUX_INLINE Double8 Select(Mask8 m, Double8 a, Double8 b)
 {
-  return { _mm512_mask_blend_pd(GetLow(m), b.lo, a.lo),
-    _mm512_mask_blend_pd(GetHigh(m), b.hi, a.hi) };
+  return Double8(_mm512_mask_blend_pd(m.v, b.v, a.v));
 }
-TETRALUX_INLINE Double8 Keep(Mask8 m, Double8 a)
+TETRALUX_INLINE Double8 Keep(Mask8 m, Double8 a) { return Double8(_mm512_maskz_mov_pd(m.v, a.v)); }
+TETRALUX_INLINE void Store(double* p, Double8 a) { _mm512_storeu_pd(p, a.v); }
+TETRALUX_INLINE void StoreWhere(Mask8 m, std::int64_t a, std::int64_t* p)
 {
-  return { _mm512_maskz_mov_pd(GetLow(m), a.lo), _mm512_maskz_mov_pd(GetHigh(m), a.hi) };
+  _mm512_mask_storeu_epi64(p, m.v, _mm512_set1_epi64(a));
 }
-TETRALUX_INLINE void Store(double* p, Double8 a)
-{
-  _mm512_storeu_pd(p, a.lo);
-  _mm512_storeu_pd(p + 8, a.hi);
-}
-TETRALUX_INLINE Double8 LoadDouble8(const double* p)
-{
-  return { _mm512_loadu_pd(p), _mm512_loadu_pd(p + 8) };
-}
-TETRALUX_INLINE Float8 ToFloat(Double8 a)
-{
-  return Float8(
-    _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a.lo)), _mm512_cvtpd_ps(a.hi), 1));
-}
-TETRALUX_INLINE Double8 ToDouble(Float8 a)
-{
-  return { _mm512_cvtps_pd(_mm512_castps512_ps256(a.v)),
-    _mm512_cvtps_pd(_mm512_extractf32x8_ps(a.v, 1)) };
-}
+TETRALUX_INLINE Double8 LoadDouble8(const double* p) { return Double8(_mm512_loadu_pd(p)); }
+TETRALUX_INLINE Float8 ToFloat(Double8 a) { return Float8(_mm512_cvtpd_ps(a.v)); }
+TETRALUX_INLINE Double8 ToDouble(Float8 a) { return Double8(_mm512_cvtps_pd(a.v)); }
 
 // Kahan's algorithm, as in LanesAvx2.h.
 TETRALUX_INLINE Float8 DifferenceOfProducts(Float8 a, Float8 b, Float8 c, Float8 d)
 {
-  const __m512 cd = _mm512_mul_ps(c.v, d.v);
-  const __m512 error = _mm512_fnmadd_ps(c.v, d.v, cd);
-  return Float8(_mm512_add_ps(_mm512_fmsub_ps(a.v, b.v, cd), error));
+  const __m256 cd = _mm256_mul_ps(c.v, d.v);
+  const __m256 error = _mm256_fnmadd_ps(c.v, d.v, cd);
+  return Float8(_mm256_add_ps(_mm256_fmsub_ps(a.v, b.v, cd), error));
 }
 TETRALUX_INLINE Double8 DifferenceOfProducts(Double8 a, Double8 b, Double8 c, Double8 d)
 {
-  const Double8 cd = c * d;
-  const Double8 error = { _mm512_fnmadd_pd(c.lo, d.lo, cd.lo),
-    _mm512_fnmadd_pd(c.hi, d.hi, cd.hi) };
-  const Double8 difference = { _mm512_fmsub_pd(a.lo, b.lo, cd.lo),
-    _mm512_fmsub_pd(a.hi, b.hi, cd.hi) };
-  return difference + error;
+  const __m512d cd = _mm512_mul_pd(c.v, d.v);
+  const __m512d error = _mm512_fnmadd_pd(c.v, d.v, cd);
+  return Double8(_mm512_add_pd(_mm512_fmsub_pd(a.v, b.v, cd), error));
 }
 
-// Gathers, by the processor's own instructions: with 16 lanes they are faster than single loads.
+// Gathers. Indices below 2^29 let four times an index fit 32 bits. Extending that to an address and
+// scaling it by 8 are free.
 
-TETRALUX_INLINE __m256i GetLow(Int8 a) { return _mm512_castsi512_si256(a.v); }
-TETRALUX_INLINE __m256i GetHigh(Int8 a) { return _mm512_extracti32x8_epi32(a.v, 1); }
-
-/// The first and the second numbers of 16 pairs.
-TETRALUX_INLINE void SplitPairs(__m512 lo, __m512 hi, __m512& first, __m512& second)
+/// Keeps indices in memory, so that they are loaded one by one. The compiler would rather take them
+/// out of the vector, by twice as many instructions.
+TETRALUX_INLINE void KeepInMemory(std::uint32_t (&indices)[LaneCount])
 {
-  const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-  first = _mm512_permutex2var_ps(lo, even, hi);
-  second = _mm512_permutex2var_ps(lo, _mm512_add_epi32(even, _mm512_set1_epi32(1)), hi);
+  __asm__("" : "+m"(indices));
 }
 
 TETRALUX_INLINE void GatherRows(
   const float* base, Int8 index, Float8& x, Float8& y, Float8& z, Float8& s)
 {
-  const Int8 i = ShiftLeft(index, 2);
-  x.v = _mm512_i32gather_ps(i.v, base, 4);
-  y.v = _mm512_i32gather_ps(i.v, base + 1, 4);
-  z.v = _mm512_i32gather_ps(i.v, base + 2, 4);
-  s.v = _mm512_i32gather_ps(i.v, base + 3, 4);
+  alignas(32) std::uint32_t i[LaneCount];
+  Store(reinterpret_cast<std::int32_t*>(i), ShiftLeft(index, 1));
+  KeepInMemory(i);
+  const auto at = [&](int lane)
+  { return reinterpret_cast<const float*>(reinterpret_cast<const double*>(base) + i[lane]); };
+  const auto row = [&](int a, int b) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(at(a))), _mm_load_ps(at(b)), 1);
+  };
+  const __m256 r0 = row(0, 4), r1 = row(1, 5), r2 = row(2, 6), r3 = row(3, 7);
+  const __m256 t0 = _mm256_unpacklo_ps(r0, r1), t1 = _mm256_unpackhi_ps(r0, r1);
+  const __m256 t2 = _mm256_unpacklo_ps(r2, r3), t3 = _mm256_unpackhi_ps(r2, r3);
+  x.v = _mm256_shuffle_ps(t0, t2, _MM_SHUFFLE(1, 0, 1, 0));
+  y.v = _mm256_shuffle_ps(t0, t2, _MM_SHUFFLE(3, 2, 3, 2));
+  z.v = _mm256_shuffle_ps(t1, t3, _MM_SHUFFLE(1, 0, 1, 0));
+  s.v = _mm256_shuffle_ps(t1, t3, _MM_SHUFFLE(3, 2, 3, 2));
+}
+TETRALUX_INLINE void LoadRows(
+  const double* const (&row)[LaneCount], Double8& x, Double8& y, Double8& z, Double8& s)
+{
+  const auto two = [&](int a, int b)
+  {
+    return _mm512_insertf64x4(
+      _mm512_castpd256_pd512(_mm256_load_pd(row[a])), _mm256_load_pd(row[b]), 1);
+  };
+  const __m512d r0 = two(0, 4), r1 = two(1, 5), r2 = two(2, 6), r3 = two(3, 7);
+  const __m512d t0 = _mm512_unpacklo_pd(r0, r1), t1 = _mm512_unpackhi_pd(r0, r1);
+  const __m512d t2 = _mm512_unpacklo_pd(r2, r3), t3 = _mm512_unpackhi_pd(r2, r3);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+  const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  x.v = _mm512_permutex2var_pd(t0, low, t2);
+  y.v = _mm512_permutex2var_pd(t1, low, t3);
+  z.v = _mm512_permutex2var_pd(t0, high, t2);
+  s.v = _mm512_permutex2var_pd(t1, high, t3);
 }
 TETRALUX_INLINE void GatherRows(
   const double* base, Int8 index, Double8& x, Double8& y, Double8& z, Double8& s)
 {
-  const Int8 i = ShiftLeft(index, 2);
-  const auto gather = [&](const double* column)
+  alignas(32) std::uint32_t i[LaneCount];
+  Store(reinterpret_cast<std::int32_t*>(i), ShiftLeft(index, 2));
+  KeepInMemory(i);
+  const double* row[LaneCount];
+  for (int lane = 0; lane < LaneCount; ++lane)
   {
-    return Double8(
-      _mm512_i32gather_pd(GetLow(i), column, 8), _mm512_i32gather_pd(GetHigh(i), column, 8));
-  };
-  x = gather(base);
-  y = gather(base + 1);
-  z = gather(base + 2);
-  s = gather(base + 3);
+    row[lane] = base + i[lane];
+  }
+  LoadRows(row, x, y, z, s);
 }
 TETRALUX_INLINE void GatherPairs(const std::int32_t* base, Int8 index, Int8& first, Int8& second)
 {
-  const __m512 lo = _mm512_castpd_ps(_mm512_i32gather_pd(GetLow(index), base, 8));
-  const __m512 hi = _mm512_castpd_ps(_mm512_i32gather_pd(GetHigh(index), base, 8));
-  Float8 a, b;
-  SplitPairs(lo, hi, a.v, b.v);
-  first = ToBits(a);
-  second = ToBits(b);
+  alignas(32) std::uint32_t i[LaneCount];
+  Store(reinterpret_cast<std::int32_t*>(i), index);
+  KeepInMemory(i);
+  const auto* pairs = reinterpret_cast<const double*>(base);
+  const auto two = [&](int a, int b)
+  { return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(pairs + i[a]), pairs + i[b])); };
+  const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
+  const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
+  first.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0)));
+  second.v = _mm256_castps_si256(_mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(3, 1, 3, 1)));
+}
+
+// Functions, since large files of kernels no longer inline lambdas of this size.
+TETRALUX_INLINE std::int32_t LoadWord(const void* base, std::uint32_t offset)
+{
+  std::int32_t word;
+  std::memcpy(&word, static_cast<const char*>(base) + offset, sizeof(word));
+  return word;
+}
+TETRALUX_INLINE __m128i LoadFourWords(const void* base, const std::uint32_t* offsets)
+{
+  const __m128i a =
+    _mm_insert_epi32(_mm_cvtsi32_si128(LoadWord(base, offsets[0])), LoadWord(base, offsets[1]), 1);
+  return _mm_insert_epi32(
+    _mm_insert_epi32(a, LoadWord(base, offsets[2]), 2), LoadWord(base, offsets[3]), 3);
 }
 TETRALUX_INLINE Int8 GatherWords(const void* base, Int8 index)
 {
-  // The instruction takes offsets as signed: they count from the middle of all that there are.
-  constexpr std::uintptr_t Middle = 0x80000000;
-  const auto* middle =
-    reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(base) + Middle);
-  const __m512i offset = _mm512_xor_si512(index.v, _mm512_set1_epi32(static_cast<int>(Middle)));
-  return Int8(_mm512_i32gather_epi32(offset, middle, 1));
+  alignas(32) std::uint32_t i[LaneCount];
+  Store(reinterpret_cast<std::int32_t*>(i), index);
+  KeepInMemory(i);
+  return Int8(_mm256_set_m128i(LoadFourWords(base, i + 4), LoadFourWords(base, i)));
 }
 TETRALUX_INLINE void GatherNeighbors(const float* base, Int8 index, Float8& first, Float8& second)
 {
-  const __m512 lo = _mm512_castpd_ps(_mm512_i32gather_pd(GetLow(index), base, 4));
-  const __m512 hi = _mm512_castpd_ps(_mm512_i32gather_pd(GetHigh(index), base, 4));
-  SplitPairs(lo, hi, first.v, second.v);
+  alignas(32) std::uint32_t i[LaneCount];
+  Store(reinterpret_cast<std::int32_t*>(i), index);
+  KeepInMemory(i);
+  // Pairs are aligned as one float is.
+  const auto at = [&](int lane)
+  {
+    double pair;
+    std::memcpy(&pair, base + i[lane], sizeof(pair));
+    return pair;
+  };
+  const auto two = [&](int a, int b) { return _mm_castpd_ps(_mm_set_pd(at(b), at(a))); };
+  const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
+  const __m256 hi = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
+  first.v = _mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0));
+  second.v = _mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(3, 1, 3, 1));
 }
 
 TETRALUX_INLINE Float8 LookUp(const float (&table)[LaneCount], Int8 index)
 {
-  return Float8(_mm512_permutexvar_ps(index.v, _mm512_loadu_ps(table)));
+  return Float8(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index.v));
 }
 TETRALUX_INLINE Float8 LookUp(const float (&table)[2 * LaneCount], Int8 index)
 {
   return Float8(
-    _mm512_permutex2var_ps(_mm512_loadu_ps(table), index.v, _mm512_loadu_ps(table + LaneCount)));
+    _mm256_permutex2var_ps(_mm256_loadu_ps(table), index.v, _mm256_loadu_ps(table + LaneCount)));
 }
 
 } // namespace TETRALUX_ISA

@@ -249,6 +249,25 @@ TETRALUX_INLINE Double8 DifferenceOfProducts(Double8 a, Double8 b, Double8 c, Do
     });
 }
 
+TETRALUX_INLINE void LoadRows(
+  const double* const (&row)[LaneCount], Double8& x, Double8& y, Double8& z, Double8& s)
+{
+  for (int i = 0; i < LaneCount; ++i)
+  {
+    x.v[i] = row[i][0];
+    y.v[i] = row[i][1];
+    z.v[i] = row[i][2];
+    s.v[i] = row[i][3];
+  }
+}
+TETRALUX_INLINE void StoreWhere(Mask8 m, std::int64_t a, std::int64_t* p)
+{
+  const unsigned bits = Bits(m);
+  for (int i = 0; i < LaneCount; ++i)
+  {
+    p[i] = (bits >> i & 1) != 0 ? a : p[i];
+  }
+}
 template <class T>
 TETRALUX_INLINE void GatherRows(
   const T* base, Int8 index, Lanes<T>& x, Lanes<T>& y, Lanes<T>& z, Lanes<T>& s)

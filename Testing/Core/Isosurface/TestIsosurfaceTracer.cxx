@@ -214,17 +214,23 @@ TEST(IsosurfaceTracer, GivesTheSameBitsForPolygonsOnTheFly)
 
 TEST(IsosurfaceTracer, GivesTheSameBitsForPolygonsPlacedOnce)
 {
+  int withShadows = 0;
   for (const RayScene& scene : MakeSceneOptions())
   {
     IsosurfaceOptions options;
+    options.Shadows = true;
     options.PlaceOnce = false;
     const TracedPicture expected = TracePicture(scene, options);
     options.PlaceOnce = true;
     const TracedPicture placed = TracePicture(scene, options);
     EXPECT_TRUE(IsSame(placed, expected));
     // Packets go through nodes by other boxes.
-    EXPECT_NE(placed.Statistics.Primary.NodeTests, expected.Statistics.Primary.NodeTests);
+    const bool hasShadows = expected.Statistics.Shadow.Packets > 0;
+    EXPECT_EQ(
+      placed.Statistics.Shadow.NodeTests != expected.Statistics.Shadow.NodeTests, hasShadows);
+    withShadows += hasShadows;
   }
+  EXPECT_GT(withShadows, 0);
 }
 
 TEST(IsosurfaceTracer, GivesTheSameBitsForBothTrees)

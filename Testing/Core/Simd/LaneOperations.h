@@ -68,6 +68,8 @@ struct LaneOperations
   void (*GatherFloats)(const float* base, const std::int32_t* index, float (*columns)[LaneCount]);
   void (*GatherDoubles)(
     const double* base, const std::int32_t* index, double (*columns)[LaneCount]);
+  void (*LoadRows)(const double* const (&rows)[LaneCount], double (*columns)[LaneCount]);
+  void (*StoreWhere)(unsigned mask, std::int64_t value, std::int64_t* values);
   void (*GatherIntegers)(
     const std::int32_t* base, const std::int32_t* index, std::int32_t (*columns)[LaneCount]);
   void (*GatherWords)(const void* base, const std::int32_t* index, std::int32_t* words);
@@ -80,8 +82,8 @@ struct LaneOperations
 LaneOperations GetLaneOperationsGeneric();
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
 LaneOperations GetLaneOperationsAvx2();
+LaneOperations GetLaneOperationsAvx512(); ///< of 16 lanes in a program of their own
 #endif
-LaneOperations GetLaneOperationsAvx512(); ///< of 16 lanes, in a program of their own
 
 /// Of the test of Polynomial.
 constexpr float LaneCoefficients[] = { 1.f, -0.5f, 0.3f, 1e-3f };

@@ -73,6 +73,17 @@ LaneOperations MakeLaneOperations()
     Store(columns[2], z);
     Store(columns[3], s);
   };
+  set.LoadRows = [](const double* const(&rows)[LaneCount], double(*columns)[LaneCount])
+  {
+    Double8 x, y, z, s;
+    LoadRows(rows, x, y, z, s);
+    Store(columns[0], x);
+    Store(columns[1], y);
+    Store(columns[2], z);
+    Store(columns[3], s);
+  };
+  set.StoreWhere = [](unsigned mask, std::int64_t value, std::int64_t* values)
+  { StoreWhere(MaskFromBits(mask), value, values); };
   set.GatherIntegers =
     [](const std::int32_t* base, const std::int32_t* index, std::int32_t(*columns)[LaneCount])
   {

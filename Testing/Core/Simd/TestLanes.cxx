@@ -348,6 +348,15 @@ protected:
     this->Tested = GetLaneOperationsAvx512();
 #else
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
+    if (this->GetParam() == InstructionSet::Avx512)
+    {
+      if (GetWidestInstructionSet() != InstructionSet::Avx512)
+      {
+        GTEST_SKIP() << "this processor has no AVX-512";
+      }
+      this->Tested = GetLaneOperationsAvx512();
+      return;
+    }
     if (this->GetParam() == InstructionSet::Avx2)
     {
       if (GetInstructionSet() != InstructionSet::Avx2)
@@ -537,9 +546,40 @@ TEST_P(Lanes, GathersTransposeRows)
 {
   TestGather<float, 4>(DrawFloat, this->Tested.GatherFloats);
   TestGather<double, 4>(DrawDouble, this->Tested.GatherDoubles);
+  TestGather<double, 4>(DrawDouble,
+    [this](const double* base, const std::int32_t* index, double(*columns)[LaneCount])
+    {
+      const double* rows[LaneCount];
+      for (int lane = 0; lane < LaneCount; ++lane)
+      {
+        rows[lane] = base + 4 * index[lane];
+      }
+      this->Tested.LoadRows(rows, columns);
+    });
   TestGather<std::int32_t, 2>([](std::mt19937_64& generator)
     { return static_cast<std::int32_t>(generator()); },
     this->Tested.GatherIntegers);
+}
+
+TEST_P(Lanes, StoresWhereAMaskIsSet)
+{
+  std::mt19937_64 generator(Seed);
+  for (int trial = 0; trial < 1000; ++trial)
+  {
+    const unsigned mask = static_cast<unsigned>(generator()) & AllLanes;
+    const auto value = static_cast<std::int64_t>(generator());
+    std::int64_t values[LaneCount + 1], expected[LaneCount + 1];
+    for (int i = 0; i <= LaneCount; ++i)
+    {
+      values[i] = static_cast<std::int64_t>(generator());
+      expected[i] = i < LaneCount && (mask >> i & 1) != 0 ? value : values[i];
+    }
+    this->Tested.StoreWhere(mask, value, values);
+    for (int i = 0; i <= LaneCount; ++i)
+    {
+      ASSERT_EQ(values[i], expected[i]) << "lane " << i << ", seed " << Seed;
+    }
+  }
 }
 
 TEST_P(Lanes, GathersWordsAtAnyByte)
@@ -634,6 +674,7 @@ std::vector<InstructionSet> GetCompiledSets()
   std::vector<InstructionSet> sets{ InstructionSet::Generic };
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
   sets.push_back(InstructionSet::Avx2);
+  sets.push_back(InstructionSet::Avx512);
 #endif
   return sets;
 #endif
