@@ -73,8 +73,8 @@ TETRALUX_INLINE Coverage Cover(const FramePolygon& result, const RayBounds& pack
   return covers ? Coverage::All : Coverage::Some;
 }
 
-/// The chunks of a packet that a polygon may hit, one bit each. margin: what single precision rounds
-/// u and v by.
+/// The chunks of a packet that a polygon may hit, one bit each. margin: what single precision
+/// rounds u and v by.
 TETRALUX_INLINE std::uint32_t FindChunks(
   const RayPacket& packet, float margin, const FramePolygon& polygon)
 {

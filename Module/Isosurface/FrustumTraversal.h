@@ -266,8 +266,8 @@ TETRALUX_INLINE double GetLargest(const RayBounds& packet)
   return largest;
 }
 
-/// Calls hit(polygons, ids, count) with the polygons of a leaf, at most LaneCount at a time. Returns
-/// whether any call did.
+/// Calls hit(polygons, ids, count) with the polygons of a leaf, at most LaneCount at a time.
+/// Returns whether any call did.
 template <class Hit>
 TETRALUX_INLINE bool ForEachLeafBatch(
   const TraceTree& tree, const MinMaxTree::Node& node, TraceCounts& counts, const Hit& hit)

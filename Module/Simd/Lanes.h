@@ -56,8 +56,8 @@
 //   StoreWhere(m, a, p)
 //                      the 64-bit integer a in p[i] of the lanes where the mask is set
 //   LoadRows(r, x, y, z, s)
-//                      four consecutive doubles from r[i] of each lane, transposed. Rows are aligned
-//                      to their size.
+//                      four consecutive doubles from r[i] of each lane, transposed. Rows are
+//                      aligned to their size.
 //   GatherRows         four consecutive values from base + 4 * index of each lane, transposed. Rows
 //                      are aligned to their size. Indices are in 0..2^29 - 1.
 //   GatherPairs        two consecutive integers from base + 2 * index of each lane, transposed.
