@@ -163,7 +163,8 @@ public:
       flat = flat | (across[2] == none);
       key[0] = across[0] / across[2];
       key[1] = across[1] / across[2];
-      key[2] = none - d[0] - (key[0] * x[0] + key[1] * y[0]);
+      key[2] = none - d[0] -
+        (key[0] * (x[0] + Double8(frame.Shift[0])) + key[1] * (y[0] + Double8(frame.Shift[1])));
     }
     else
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Isosurface/RayFrame.h"
 
+#include "View/RayAcross.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -92,6 +94,23 @@ RayFrame MakeRayFrame(const RayGrid& grid, const MeshFrame& mesh)
   if (!Invert(frame))
   {
     throw std::invalid_argument("the rays of the picture lie in a plane");
+  }
+  if (frame.Parallel)
+  {
+    // Beside the centres of pixels, as RayAcross.h says: farther than rounding takes the sides of a
+    // mesh, and far less than a pixel.
+    constexpr double ShiftOfRadius = 1. / (1 << 21);
+    double pixels = 1; // a radius
+    for (int r = 0; r < 2; ++r)
+    {
+      pixels = std::max(pixels, std::hypot(frame.Rows[r][0], frame.Rows[r][1], frame.Rows[r][2]));
+    }
+    frame.Shift[0] = ShiftOfRadius * pixels;
+    frame.Shift[1] = ShiftSlope * frame.Shift[0];
+    for (int r = 0; r < 2; ++r)
+    {
+      frame.Rows[r][3] -= frame.Shift[r];
+    }
   }
   return frame;
 }

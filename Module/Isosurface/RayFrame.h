@@ -28,6 +28,10 @@ struct RayFrame
   bool Parallel = false;
   double Rows[3][4] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } };
 
+  /// By how much X and Y are less than those of the way back: rays pass edges as if they were
+  /// displaced by it, but points of planes are found where rays are.
+  double Shift[2] = { 0, 0 };
+
   /// The way back: X Axes[0] + Y Axes[1] + depth Axes[2] + Origin.
   ///@{
   double Axes[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };

@@ -2,6 +2,7 @@
 #include "Projection/CellProjector.h"
 
 #include "Projection/CellSilhouette.h"
+#include "View/RayAcross.h"
 
 #include <algorithm>
 #include <cmath>

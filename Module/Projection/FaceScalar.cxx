@@ -2,6 +2,7 @@
 #include "Projection/FaceScalar.h"
 
 #include "Projection/LocalScreen.h"
+#include "View/RayAcross.h"
 
 #include <algorithm>
 #include <cmath>

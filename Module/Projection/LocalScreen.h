@@ -14,10 +14,6 @@
 namespace tetralux
 {
 
-/// How far rays pass beside the centres of pixels above them, of how far they do beside them: no
-/// line that meshes are aligned with has this slope.
-constexpr double ShiftSlope = 0.38;
-
 struct Vector
 {
   double X, Y, Z;

@@ -2,6 +2,7 @@
 #include "RayCast/KernelInput.h"
 
 #include "Optics/LightSteps.h"
+#include "View/RayAcross.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,7 @@ void FillLighting(const VolumeScene& scene, const RayGrid& grid, const RayCastOp
 void FillRays(const RayGrid& grid, const RayLimits& limits, KernelInput& in)
 {
   in.Grid = &grid;
+  in.Axes = FindRayAxes(grid);
   in.Planes = limits.Planes.empty() ? nullptr : &limits.Planes.front();
   in.NumberOfPlanes = static_cast<int>(limits.Planes.size());
   in.CroppingPlanes = limits.Cropping ? &limits.CroppingPlanes : nullptr;

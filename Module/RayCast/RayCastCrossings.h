@@ -76,15 +76,19 @@ TETRALUX_INLINE Mask8 IsNearLine(const Corner<Real>& a, const Corner<Real>& b,
   const V y = b.Y - a.Y;
   // The length by the sum of its coordinates: up to 1.4 times too long.
   const V length = Abs(x) + Abs(y);
-  const Mask8 near = Abs(det) <= distance * length;
+  Mask8 near = Abs(det) <= distance * length;
   if (!Any(near))
   {
     return near;
   }
+  // An edge along the ray has no line across it that means anything: its ends count.
+  const Mask8 isPoint = length <= distance * V(Real(8));
+  const V reach = distance + length;
+  near = AndNot(near, isPoint) | (near & (Abs(a.X) <= reach) & (Abs(a.Y) <= reach));
   // Where along the ray; of an edge that is all near to it, the far end.
   const V zero = Real(0);
   const V share = Min(Max((zero - Fma(a.X, x, a.Y * y)) / Fma(x, x, y * y), zero), V(Real(1)));
-  const V z = Select(length <= distance * V(Real(8)), Max(a.Z, b.Z), Fma(share, b.Z - a.Z, a.Z));
+  const V z = Select(isPoint, Max(a.Z, b.Z), Fma(share, b.Z - a.Z, a.Z));
   return near & (begin < z);
 }
 

@@ -104,14 +104,19 @@ TETRALUX_INLINE typename LanesOf<Real>::Type Det(const Corner<Real>& a, const Co
   return DifferenceOfProducts(a.X, b.Y, a.Y, b.X);
 }
 
-/// Whether a zero det(a, b) counts as positive: the sign of
-/// -e (b.y - a.y) + e^2 (b.x - a.x), and by ids where the projections coincide.
+/// Whether a zero det(a, b) counts as positive, as if the ray were displaced by
+/// e (1, -ShiftSlope) + e^2 (0, 1): by the height of b above a across the first displacement, by x
+/// where they are at one height, and by ids where the projections coincide.
 template <class Real>
 TETRALUX_INLINE Mask8 TieIsPositive(const Corner<Real>& a, const Corner<Real>& b)
 {
-  const Mask8 sameY = a.Y == b.Y;
+  using V = typename LanesOf<Real>::Type;
+  const V slope = static_cast<Real>(ShiftSlope);
+  const V heightA = Fma(slope, a.X, a.Y);
+  const V heightB = Fma(slope, b.X, b.Y);
+  const Mask8 sameHeight = heightA == heightB;
   const Mask8 sameX = a.X == b.X;
-  return (b.Y < a.Y) | (sameY & ((a.X < b.X) | (sameX & (b.Id > a.Id))));
+  return (heightB < heightA) | (sameHeight & ((a.X < b.X) | (sameX & (b.Id > a.Id))));
 }
 
 template <class V, class Real>
@@ -174,13 +179,30 @@ TETRALUX_INLINE Rays<Real> MakeRays(const KernelInput& in, const WorldRays& worl
     o[a] = o[a] - start * d[a];
     n[a] = d[a] / dLength;
   }
-  // Two vectors across the ray (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
-  const Double8 one = 1.;
-  const Double8 sign = Select(n[2] < Double8(0.), Double8(-1.), one);
-  const Double8 p = Double8(-1.) / (sign + n[2]);
-  const Double8 q = n[0] * n[1] * p;
-  const Double8 u[3] = { one + sign * n[0] * n[0] * p, sign * q, Double8(0.) - sign * n[0] };
-  const Double8 v[3] = { q, sign + n[1] * n[1] * p, Double8(0.) - n[1] };
+  // Two vectors across the ray.
+  Double8 u[3], v[3];
+  if (in.Axes.Common)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      u[a] = in.Axes.First[a];
+      v[a] = in.Axes.Second[a];
+    }
+  }
+  else
+  {
+    // Duff et al., Building an Orthonormal Basis, Revisited, 2017.
+    const Double8 one = 1.;
+    const Double8 sign = Select(n[2] < Double8(0.), Double8(-1.), one);
+    const Double8 p = Double8(-1.) / (sign + n[2]);
+    const Double8 q = n[0] * n[1] * p;
+    u[0] = one + sign * n[0] * n[0] * p;
+    u[1] = sign * q;
+    u[2] = Double8(0.) - sign * n[0];
+    v[0] = q;
+    v[1] = sign + n[1] * n[1] * p;
+    v[2] = Double8(0.) - n[1];
+  }
 
   Rays<Real> rays;
   const auto convert = [](Double8 value)

@@ -13,6 +13,7 @@
 #include "Optics/OpticalModel.h"
 #include "PreIntegration/PreIntegrationTable.h"
 #include "Simd/LaneCount.h"
+#include "View/RayAcross.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
 #include "Walk/WalkMesh.h"
@@ -88,6 +89,7 @@ struct KernelInput
 
   // The scene.
   const RayGrid* Grid;
+  RayAxes Axes;
   const std::array<double, 4>* Planes;
   int NumberOfPlanes;
   const double (*CroppingPlanes)[6]; ///< nullptr: no cropping

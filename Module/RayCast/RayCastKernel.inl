@@ -15,8 +15,9 @@
 //   an ulp, the same way for all cells around them.
 // * The determinants of the rounded projections have exact signs (DifferenceOfProducts). A
 //   determinant of exactly zero, a ray through an edge or a vertex, is decided as if the ray were
-//   displaced by (e, e^2), e infinitely small (simulation of simplicity, Edelsbrunner and Muecke
-//   1990). So each edge passes each ray on one side, for every cell that has the edge.
+//   displaced by e (1, -ShiftSlope) + e^2 (0, 1), e infinitely small (simulation of simplicity,
+//   Edelsbrunner and Muecke 1990); RayAcross.h says where that is in the picture. So each edge
+//   passes each ray on one side, for every cell that has the edge.
 // * Whatever a tetrahedron became in the projection - flat, inverted - the origin is inside none or
 //   two of its four triangles. Steps are thus a pairing of faces: a walk that starts at a boundary
 //   face visits no cell twice and ends at another boundary face.

@@ -9,6 +9,7 @@ uniform vec2 rayMiddle;    // of the picture, pixels
 uniform vec3 rayPoints[3]; // in the middle, and the changes for a pixel to the right and up
 uniform vec3 rayDirections[3];
 uniform vec3 rayWorldDirections[3];
+uniform vec3 rayAxes[2]; // see View/RayAcross.h; zero if the rays have none in common
 uniform float rayTime; // from where a ray starts to its point, in units and world directions
 uniform float rayLengthUnit; // world length of a unit
 

@@ -2,6 +2,7 @@
 #include "GpuIntegral/RayGridUniforms.h"
 
 #include "View/MeshToWorld.h"
+#include "View/RayAcross.h"
 
 #include "vtkShaderProgram.h"
 
@@ -102,6 +103,13 @@ RayGridUniforms::RayGridUniforms(
   transform(point.X, false);
   transform(point.Y, false);
 
+  const RayAxes axes = FindRayAxes(grid);
+  this->Parallel = axes.Common;
+  for (int a = 0; a < 3; ++a)
+  {
+    this->Axes[0][a] = static_cast<float>(axes.First[a]);
+    this->Axes[1][a] = static_cast<float>(axes.Second[a]);
+  }
   const double time =
     -Dot(point.Middle, direction.Middle) / Dot(direction.Middle, direction.Middle);
   this->Time = static_cast<float>(time);
@@ -166,6 +174,7 @@ void RayGridUniforms::Set(vtkShaderProgram* program) const
   program->SetUniform3fv("rayPoints", 3, this->Points);
   program->SetUniform3fv("rayDirections", 3, this->Directions);
   program->SetUniform3fv("rayWorldDirections", 3, this->WorldDirections);
+  program->SetUniform3fv("rayAxes", 2, this->Axes);
   program->SetUniformf("rayTime", this->Time);
   program->SetUniformf("rayLengthUnit", this->LengthUnit);
   const int planes = static_cast<int>(this->PlaneHeights.size() / 3);

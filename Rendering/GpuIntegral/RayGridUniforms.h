@@ -32,6 +32,8 @@ public:
 
   void Set(vtkShaderProgram* program) const;
 
+  bool AreParallel() const { return this->Parallel; }
+
 private:
   void CheckRange() const;
 
@@ -39,6 +41,8 @@ private:
   float Points[3][3];
   float Directions[3][3];
   float WorldDirections[3][3];
+  bool Parallel;
+  float Axes[2][3];
   float Time;
   float LengthUnit;
   std::vector<float> PlaneHeights, PlaneSlopes; ///< three each

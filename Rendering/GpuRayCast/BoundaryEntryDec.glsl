@@ -33,10 +33,14 @@ bool IsNearLine(vec2 a, vec2 b, float alongA, float alongB, float determinant, f
   {
     return false;
   }
-  // Where along the ray; of an edge that is all near to it, the far end.
+  // An edge along the ray has no line across it that means anything: its ends count, the far one.
+  if (size <= 8.0 * EdgeReach)
+  {
+    return all(lessThanEqual(abs(a), vec2(EdgeReach + size))) && max(alongA, alongB) > begin;
+  }
+  // Where along the ray.
   float share = clamp(-dot(a, edge) / dot(edge, edge), 0.0, 1.0);
-  float along = size <= 8.0 * EdgeReach ? max(alongA, alongB) : mix(alongA, alongB, share);
-  return along > begin;
+  return mix(alongA, alongB, share) > begin;
 }
 
 // See FaceTest::Near; by the determinants of the corners.

@@ -265,7 +265,7 @@ private:
           " tetrahedra needs");
       }
       const int from = static_cast<int>(pass % 2);
-      if (pass == 0 || this->EntersAgain())
+      if (pass == 0 || this->EntersAgain() || (pass == 1 && this->MayBeDisplaced()))
       {
         if (this->Options.Layers)
         {
@@ -307,6 +307,9 @@ private:
 
   bool MayEnterAgain() const { return this->Options.Reentry == GpuReentry::Boundary; }
 
+  /// Where nothing touches the boundary, only parallel rays in a side of the mesh: see RayAcross.h.
+  bool MayBeDisplaced() const { return this->MayEnterAgain() || this->Limits.AreRaysParallel(); }
+
   /// Of a part of a ray, or the next one.
   bool EntersAgain() const { return this->MayEnterAgain() || this->Limits.GetNumberOfParts() > 1; }
 
@@ -324,13 +327,13 @@ private:
   std::vector<std::string> GetEntryDefines() const
   {
     std::vector<std::string> names;
-    if (this->MayEnterAgain()) // else nothing touches the boundary
+    if (this->MayBeDisplaced())
     {
       names.emplace_back("DISPLACES");
-      if (this->Options.Oriented)
-      {
-        names.emplace_back("DIRECTED");
-      }
+    }
+    if (this->MayEnterAgain() && this->Options.Oriented)
+    {
+      names.emplace_back("DIRECTED");
     }
     return names;
   }

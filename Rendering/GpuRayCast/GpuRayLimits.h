@@ -61,6 +61,7 @@ public:
   ///@}
 
   int GetNumberOfParts() const;
+  bool AreRaysParallel() const { return this->Rays && this->Rays->AreParallel(); }
 
   std::size_t GetNumberOfBytes() const { return this->Depth.GetNumberOfBytes(); }
 

@@ -9,8 +9,9 @@
 // * The determinant of two of them is exact, but for one rounding of the result, which leaves its
 //   sign. It is put together from products of halves. They and their sums are whole numbers up to
 //   2^24, which single precision holds, in whatever order or fusion they are computed.
-// * Zero, a ray through an edge or a vertex, is decided as if the ray were displaced by (e, e^2), e
-//   infinitely small; where two points are in the same place, by their ids.
+// * Zero, a ray through an edge or a vertex, is decided as if the ray were displaced by
+//   e (8, -3) + e^2 (0, 1), e infinitely small, see ShiftSlope in View/RayAcross.h; where two
+//   points are in the same place, by their ids.
 // * Faces that touch but do not share their points are rounded each on its own. Rays that pass
 //   edges of the boundary within that rounding are displaced, see View/RayDisplacements.h.
 
@@ -45,12 +46,18 @@ RayFrame MakeRayFrame(Ray ray)
   SAME_EVERYWHERE float nearest = -dot(ray.Direction, ray.Point) / squared;
   SAME_EVERYWHERE vec3 point = ray.Point + nearest * ray.Direction;
   SAME_EVERYWHERE vec3 n = ray.Direction * inversesqrt(squared);
-  // Two vectors across (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
-  float side = n.z < 0.0 ? -1.0 : 1.0;
-  SAME_EVERYWHERE float p = -1.0 / (side + n.z);
-  SAME_EVERYWHERE float q = n.x * n.y * p;
-  SAME_EVERYWHERE vec3 u = GridScale * vec3(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
-  SAME_EVERYWHERE vec3 v = GridScale * vec3(q, side + n.y * n.y * p, -n.y);
+  // Two vectors across.
+  SAME_EVERYWHERE vec3 u = GridScale * rayAxes[0];
+  SAME_EVERYWHERE vec3 v = GridScale * rayAxes[1];
+  if (rayAxes[0] == vec3(0.0))
+  {
+    // Duff et al., Building an Orthonormal Basis, Revisited, 2017.
+    float side = n.z < 0.0 ? -1.0 : 1.0;
+    SAME_EVERYWHERE float p = -1.0 / (side + n.z);
+    SAME_EVERYWHERE float q = n.x * n.y * p;
+    u = GridScale * vec3(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
+    v = GridScale * vec3(q, side + n.y * n.y * p, -n.y);
+  }
   RayFrame frame;
   frame.Across[0] = vec4(u, -dot(u, point));
   frame.Across[1] = vec4(v, -dot(v, point));
@@ -113,8 +120,13 @@ Corner LoadCorner(RayFrame frame, int id)
 // Whether a zero det(a, b) counts as positive.
 bool TieIsPositive(Corner a, Corner b)
 {
-  vec2 d = HalfScale * (b.High - a.High) + (b.Low - a.Low);
-  return d.y != 0.0 ? d.y < 0.0 : d.x != 0.0 ? d.x > 0.0 : b.Id > a.Id;
+  // Differences of halves and eleven times them are whole numbers that single precision holds.
+  vec2 high = b.High - a.High;
+  vec2 low = b.Low - a.Low;
+  float height =
+    HalfScale * (3.0 * high.x + 8.0 * high.y) + (3.0 * low.x + 8.0 * low.y);
+  float x = HalfScale * high.x + low.x;
+  return height != 0.0 ? height < 0.0 : x != 0.0 ? x > 0.0 : b.Id > a.Id;
 }
 
 // det(a, b) = a.x b.y - a.y b.x, and on which side of the edge the ray passes.

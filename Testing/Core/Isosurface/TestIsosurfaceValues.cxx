@@ -125,9 +125,9 @@ TEST(IsosurfaceValues, SurfacesInFaces)
       EXPECT_EQ(picture.Depths[p], 1.5f);
       EXPECT_EQ(picture.Colors[4 * p + 3], 0.5f);
     }
-    // From between faces to vertices; the outer ones are at the boundary, where a ray is inside.
-    scene.Grid.Origin[0] += 1. / 32;
-    scene.Grid.Origin[1] += 1. / 32;
+    // From between faces to vertices; the outer ones are at the left and lower side, which count.
+    scene.Grid.Origin[0] -= 1. / 32;
+    scene.Grid.Origin[1] -= 1. / 32;
   }
 }
 
