@@ -4,6 +4,7 @@
 
 // Where rays hit surfaces, and the gradients there.
 
+#include "Integral/ColorLookup.h"
 #include "Isosurface/CellFieldValues.h"
 #include "Isosurface/IsosurfaceKernel.h"
 #include "Isosurface/PacketRays.h"
@@ -14,30 +15,6 @@ namespace TETRALUX_ISA
 {
 namespace
 {
-
-/// Colour and opacity at a scalar; at a step the value from larger scalars. What is not a number is
-/// transparent.
-TETRALUX_INLINE void LookUpColor(
-  const IntervalTable::Interval* intervals, int count, float x, float (&color)[4])
-{
-  int first = 0;
-  while (count > 1)
-  {
-    const int half = count / 2;
-    const bool above = intervals[first + half].Lo <= x;
-    first += above ? half : 0;
-    count = above ? count - half : half;
-  }
-  const IntervalTable::Interval& t = intervals[first];
-  const float along = x - t.Reference;
-  const float opacity = t.Attenuation + t.AttenuationSlope * along;
-  const float positive = opacity > 0.f ? opacity : 0.f; // also of what is not a number
-  color[3] = positive < 1.f ? positive : 1.f;
-  for (int c = 0; c < 3; ++c)
-  {
-    color[c] = x == x ? t.Color[c] + t.ColorSlope[c] * along : 0.f;
-  }
-}
 
 /// Fills the colours of the hits of one polygon in a chunk, by the scalars of points. same: its
 /// lanes.

@@ -4,10 +4,9 @@
 
 // Maximum intensity projection.
 
-#include "Optics/IntervalTable.h"
+#include "Integral/ColorLookup.h"
 #include "RayCast/RayCastGather.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace tetralux
@@ -60,7 +59,7 @@ public:
       float color[4] = { 0, 0, 0, 0 };
       if (largest[i] > -std::numeric_limits<Real>::infinity())
       {
-        LookUp(in, static_cast<float>(largest[i]), color);
+        LookUpColor(in.Intervals, in.NumberOfIntervals, static_cast<float>(largest[i]), color);
       }
       if (color[3] == 0)
       {
@@ -68,7 +67,7 @@ public:
       }
       for (int c = 0; c < 4; ++c)
       {
-        colors[c][i] = color[c];
+        colors[c][i] = c < 3 ? color[3] * color[c] : color[3];
       }
     }
     this->First.Distance = LoadLanes(distance);
@@ -80,26 +79,6 @@ private:
     const Mask8 larger = valid & (this->Gathered.Scalar < s);
     this->Gathered.Scalar = Select(larger, s, this->Gathered.Scalar);
     this->First.Distance = Select(larger, z, this->First.Distance);
-  }
-
-  /// Premultiplied colour and opacity at a scalar; at a step the value from larger scalars.
-  static void LookUp(const KernelInput& in, float s, float (&color)[4])
-  {
-    int first = 0;
-    for (int count = in.NumberOfIntervals; count > 1;)
-    {
-      const int half = count / 2;
-      const bool above = in.Intervals[first + half].Lo <= s;
-      first += above ? half : 0;
-      count = above ? count - half : half;
-    }
-    const IntervalTable::Interval& t = in.Intervals[first];
-    const float x = s - t.Reference;
-    color[3] = std::min(1.f, std::max(0.f, t.Attenuation + t.AttenuationSlope * x));
-    for (int c = 0; c < 3; ++c)
-    {
-      color[c] = color[3] * (t.Color[c] + t.ColorSlope[c] * x);
-    }
   }
 };
 
