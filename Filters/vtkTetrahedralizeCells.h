@@ -13,8 +13,9 @@
  * Linear cells other than polyhedra get no new points; prisms and polyhedra only where they must;
  * quadratic cells, whose nodes are all kept, one in the middle, with interpolated point data.
  *
- * Polyhedra need not be convex. Where no point inside sees all faces of one, its tetrahedra
- * overlap, and a warning counts them.
+ * Polyhedra need not be convex. Where no point inside sees all faces of one, tetrahedra between its
+ * corners are cut off until there is such a point of the rest. Where that can't be done either, its
+ * tetrahedra overlap, and a warning counts them.
  *
  * Skips, and counts: ghost cells and blanked cells (vtkGhostType DUPLICATECELL; HIDDENCELL,
  * REFINEDCELL or a HIDDENPOINT corner), cells of lower dimension, cells that name points that do

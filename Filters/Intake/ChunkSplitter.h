@@ -281,11 +281,16 @@ private:
     if (!this->Faces.ConeFromSmallestId(this->Context.Coordinates, this->Tets))
     {
       std::vector<double> weights;
-      if (!this->Faces.FindMiddle(this->Context.Coordinates, weights))
+      if (!this->Faces.FindMiddle(this->Context.Coordinates, weights) &&
+        !this->Faces.CutToStar(this->Context.Coordinates, this->Tets, weights))
       {
+        this->Faces.FindMiddle(this->Context.Coordinates, weights); // the mean
         ++this->Output.FoldedCells;
       }
-      this->Faces.ConeFrom(this->AddPoint(this->Faces.GetPoints(), weights), this->Tets);
+      if (!this->Faces.GetPoints().empty())
+      {
+        this->Faces.ConeFrom(this->AddPoint(this->Faces.GetPoints(), weights), this->Tets);
+      }
     }
   }
 

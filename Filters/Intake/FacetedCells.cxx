@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Intake/FacetedCells.h"
 
+#include "Geometry/PolyhedronFilling.h"
+
 #include "vtkCell.h"
 #include "vtkCellType.h"
 #include "vtkGenericCell.h"
@@ -466,6 +468,50 @@ void FacetedCellSplitter::AddWeights(const double* points, const Vector& x, std:
     weights[static_cast<std::size_t>(at - this->Points.begin())] +=
       share * std::max(found[k], 0.) / (1 + sum);
   }
+}
+
+bool FacetedCellSplitter::CutToStar(
+  const double* points, std::vector<std::int64_t>& tets, std::vector<double>& weights)
+{
+  const std::vector<std::int64_t> ids = this->GetPoints();
+  std::vector<double> corners;
+  for (const std::int64_t id : ids)
+  {
+    corners.insert(corners.end(), points + 3 * id, points + 3 * id + 3);
+  }
+  std::vector<std::int32_t> triangles;
+  for (const std::int64_t id : this->Triangles)
+  {
+    const auto at = std::lower_bound(ids.begin(), ids.end(), id);
+    triangles.push_back(static_cast<std::int32_t>(at - ids.begin()));
+  }
+  const std::vector<std::int64_t> whole = this->Triangles;
+  const auto isDone = [&](const std::vector<std::int32_t>& rest)
+  {
+    this->Triangles.clear();
+    for (const std::int32_t corner : rest)
+    {
+      this->Triangles.push_back(ids[static_cast<std::size_t>(corner)]);
+    }
+    return this->FindMiddle(points, weights);
+  };
+  // Without a new point if it can be.
+  PolyhedronFilling filling;
+  if (!FillPolyhedron(corners, triangles, {}, filling) &&
+    !FillPolyhedron(corners, triangles, isDone, filling))
+  {
+    this->Triangles = whole;
+    return false;
+  }
+  if (filling.Rest.empty())
+  {
+    this->Triangles.clear();
+  }
+  for (const std::int32_t corner : filling.Cells)
+  {
+    tets.push_back(ids[static_cast<std::size_t>(corner)]);
+  }
+  return true;
 }
 
 void FacetedCellSplitter::ConeFrom(std::int64_t apex, std::vector<std::int64_t>& tets) const

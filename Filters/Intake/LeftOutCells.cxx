@@ -40,7 +40,8 @@ std::string DescribeFoldedCells(const TetrahedraIntakeReport& report)
 {
   return report.FoldedCells == 0 ? std::string()
                                  : std::to_string(report.FoldedCells) +
-      " polyhedra have no point that sees all of their faces from inside: their tetrahedra overlap";
+      " polyhedra could not be divided: no point sees all of their faces from inside, not even of "
+      "what tetrahedra between their corners leave; their tetrahedra overlap";
 }
 
 } // namespace tetralux
