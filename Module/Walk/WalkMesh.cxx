@@ -76,12 +76,14 @@ WalkMesh::WalkMesh(TetrahedralMesh mesh)
   this->FillCoordinates<float>();
 
   const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
-  const FaceNeighbors neighbors = FindFaceNeighbors(this->Mesh.Cells, numberOfPoints);
-  this->NumberOfNonManifoldFaces = neighbors.NumberOfNonManifoldFaces;
-  this->NumberOfComponents = neighbors.NumberOfComponents;
-
-  this->Tables =
-    MakeWalkTables(MakeFaces(this->Mesh.Cells, neighbors), this->Mesh.Cells, this->FloatPoints);
+  std::vector<WalkFace> faces;
+  {
+    const FaceNeighbors neighbors = FindFaceNeighbors(this->Mesh.Cells, numberOfPoints);
+    this->NumberOfNonManifoldFaces = neighbors.NumberOfNonManifoldFaces;
+    this->NumberOfComponents = neighbors.NumberOfComponents;
+    faces = MakeFaces(this->Mesh.Cells, neighbors);
+  }
+  this->Tables = MakeWalkTables(std::move(faces), this->Mesh.Cells, this->FloatPoints);
 }
 
 bool WalkMesh::SetPoints(const std::vector<double>& points)

@@ -147,8 +147,23 @@ Json DescribeMemory(const ScenePreparation& preparation)
   Json memory;
   memory["mesh"] = getBytes(tetrahedra.Points) + getBytes(tetrahedra.Cells) +
     getBytes(tetrahedra.OriginalPoints) + getBytes(tetrahedra.OriginalCells);
-  memory["scalars"] = getBytes(scene.Mesh.GetScalars());
+  std::size_t scalars = getBytes(scene.Mesh.GetScalars()) + getBytes(scene.Mesh.GetColorScalars());
+  for (const std::vector<double>& other : scene.Mesh.GetOtherScalars())
+  {
+    scalars += getBytes(other);
+  }
+  memory["scalars"] = scalars;
   memory["walk_tables"] = mesh.GetTableSize();
+  const WalkTables* visible = scene.GetVisibleTables();
+  memory["visible_tables"] = visible
+    ? getBytes(visible->Faces) + getBytes(visible->Entries) + getBytes(visible->Bvh.Nodes) +
+      getBytes(visible->Bvh.Triangles)
+    : 0;
+  memory["visible_cells"] = getBytes(scene.GetVisibleCells());
+  memory["cell_values"] = getBytes(scene.GetCellValues());
+  memory["component_rows"] = getBytes(scene.GetComponentRows());
+  memory["gradients"] =
+    getBytes(scene.Mesh.GetPointGradients()) + getBytes(scene.Mesh.GetCellGradients());
   memory["imaginary_cells"] =
     convex ? getBytes(convex->Cells) + getBytes(convex->SteinerPoints) : 0;
   memory["pre_integration"] = table ? table->GetNumberOfBytes() : 0;
