@@ -2,6 +2,7 @@
 #include "PipeScene.h"
 
 #include "TestGrid.h"
+#include "TestedWindow.h"
 
 #include "Generate/GeneratedMeshes.h"
 
@@ -16,7 +17,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
-#include "vtkSphereSource.h"
 
 PipeScene::PipeScene(vtkRenderWindow* window, vtkTetrahedraVolumeMapper* mapper)
   : Window(window)
@@ -39,10 +39,7 @@ PipeScene::PipeScene(vtkRenderWindow* window, vtkTetrahedraVolumeMapper* mapper)
   this->Volume->GetProperty()->SetScalarOpacity(this->Opacity);
   this->Volume->GetProperty()->SetScalarOpacityUnitDistance(0.3);
   this->Renderer->AddVolume(this->Volume);
-  this->Renderer->SetBackground(0.32, 0.34, 0.43);
-  window->SetMultiSamples(0);
-  window->SetSize(200, 200);
-  window->AddRenderer(this->Renderer);
+  ShowRenderer(window, this->Renderer);
   vtkCamera* camera = this->Renderer->GetActiveCamera();
   camera->SetPosition(2.5, -3.2, 4.4);
   camera->SetFocalPoint(0, 0, 0.9);
@@ -55,14 +52,14 @@ bool PipeScene::Vary(const std::string& name)
   vtkVolumeProperty* property = this->Volume->GetProperty();
   if (name == "Geometry")
   {
-    this->AddSphere(1.3, -1.7, 2.2, 0.2);   // in front
-    this->AddSphere(-0.6, -0.47, 1.3, 0.4); // half inside of the wall
-    this->AddSphere(0, 0, 1.8, 0.25);       // in the hole
-    this->AddSphere(-0.9, 1.9, 0.6, 0.45);  // behind
+    AddSphere(this->Renderer, 1.3, -1.7, 2.2, 0.2);   // in front
+    AddSphere(this->Renderer, -0.6, -0.47, 1.3, 0.4); // half inside of the wall
+    AddSphere(this->Renderer, 0, 0, 1.8, 0.25);       // in the hole
+    AddSphere(this->Renderer, -0.9, 1.9, 0.6, 0.45);  // behind
   }
   else if (name == "Parallel")
   {
-    this->AddSphere(-0.6, -0.47, 1.3, 0.4);
+    AddSphere(this->Renderer, -0.6, -0.47, 1.3, 0.4);
     this->Renderer->GetActiveCamera()->ParallelProjectionOn();
     this->Renderer->GetActiveCamera()->SetParallelScale(1.5);
   }
@@ -102,7 +99,7 @@ bool PipeScene::Vary(const std::string& name)
   else if (name == "Absorption")
   {
     this->Mapper->SetBlendModeToAbsorption();
-    this->AddSphere(0, 0, 0.5, 0.4);
+    AddSphere(this->Renderer, 0, 0, 0.5, 0.4);
   }
   else if (name == "Isosurfaces")
   {
@@ -122,20 +119,6 @@ bool PipeScene::Vary(const std::string& name)
     return name == "Volume";
   }
   return true;
-}
-
-void PipeScene::AddSphere(double x, double y, double z, double radius)
-{
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetCenter(x, y, z);
-  sphere->SetRadius(radius);
-  sphere->SetThetaResolution(48);
-  sphere->SetPhiResolution(48);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  this->Renderer->AddActor(actor);
 }
 
 void PipeScene::LookFromInside()

@@ -26,7 +26,6 @@ public:
   bool Vary(const std::string& name);
 
 private:
-  void AddSphere(double x, double y, double z, double radius);
   void LookFromInside();
   void AddViewport();
   void ClipAndCrop();

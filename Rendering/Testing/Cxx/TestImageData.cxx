@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Image data by the triangle caster, with opaque spheres in front of, inside and behind them:
 // [--window], and vtkTesting's command line. Without --window or -I, the window needs no display.
-#include "ImageTester.h"
+#include "TestedWindow.h"
 
-#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkFloatArray.h"
-#include "vtkHeadlessRenderWindow.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
-#include "vtkPolyDataMapper.h"
-#include "vtkRenderWindow.h"
-#include "vtkRenderWindowInteractor.h"
-#include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
-#include "vtkSphereSource.h"
 #include "vtkTriangleCasterMapper.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace
 {
@@ -73,32 +65,13 @@ vtkSmartPointer<vtkVolume> MakeVolume(vtkVolumeMapper* mapper)
   return volume;
 }
 
-void AddSphere(vtkRenderer* renderer, double x, double y, double z, double radius)
-{
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetCenter(x, y, z);
-  sphere->SetRadius(radius);
-  sphere->SetThetaResolution(48);
-  sphere->SetPhiResolution(48);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  renderer->AddActor(actor);
-}
-
 } // namespace
 
 int TestImageData(int argc, char* argv[])
 {
   vtkNew<ImageTester> tester;
   tester->AddArguments(argc, argv);
-  const bool interactive = tester->IsInteractiveModeSpecified() != 0;
-  vtkSmartPointer<vtkRenderWindow> window = vtkSmartPointer<vtkHeadlessRenderWindow>::New();
-  if (tester->IsFlagSpecified("--window") || interactive)
-  {
-    window = vtkSmartPointer<vtkRenderWindow>::New();
-  }
+  const vtkSmartPointer<vtkRenderWindow> window = MakeTestedWindow(tester);
   vtkNew<vtkTriangleCasterMapper> mapper;
   mapper->SetInputData(MakeImage());
   mapper->AutoAdjustSampleDistancesOff(); // pictures do not depend on how fast the machine is
@@ -107,22 +80,11 @@ int TestImageData(int argc, char* argv[])
   AddSphere(renderer, 0.25, -1.5, 0.5, 0.15); // in front
   AddSphere(renderer, 0.6, -0.2, 0.1, 0.3);   // half inside
   AddSphere(renderer, -0.9, 0.8, -0.6, 0.4);  // behind
-  renderer->SetBackground(0.32, 0.34, 0.43);
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetPosition(2.1, -3.1, 2);
   camera->SetFocalPoint(0, 0, 0);
   camera->SetViewUp(0, 0, 1);
   camera->SetClippingRange(0.1, 20);
-  window->SetMultiSamples(0);
-  window->SetSize(200, 200);
-  window->AddRenderer(renderer);
-  if (interactive)
-  {
-    vtkNew<vtkRenderWindowInteractor> interactor;
-    interactor->SetRenderWindow(window);
-    interactor->Start();
-    return EXIT_SUCCESS;
-  }
-  tester->SetRenderWindow(window);
-  return tester->RegressionTest(Threshold) == vtkTesting::PASSED ? EXIT_SUCCESS : EXIT_FAILURE;
+  ShowRenderer(window, renderer);
+  return TestWindow(tester, window, Threshold);
 }

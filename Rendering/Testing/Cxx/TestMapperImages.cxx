@@ -2,13 +2,10 @@
 // One scene by one method: --scene NAME --method NAME [--window], and vtkTesting's command line.
 // Without --window or -I, the window needs no display. All methods draw the same picture, so each
 // scene has one baseline.
-#include "ImageTester.h"
 #include "PipeScene.h"
+#include "TestedWindow.h"
 
-#include "vtkHeadlessRenderWindow.h"
 #include "vtkNew.h"
-#include "vtkRenderWindow.h"
-#include "vtkRenderWindowInteractor.h"
 #include "vtkSmartPointer.h"
 #include "vtkTetrahedraGPURayCastMapper.h"
 #include "vtkTetrahedraIsosurfaceMapper.h"
@@ -169,26 +166,12 @@ int TestMapperImages(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
-  vtkSmartPointer<vtkRenderWindow> window = vtkSmartPointer<vtkHeadlessRenderWindow>::New();
-  if (tester->IsFlagSpecified("--window") || tester->IsInteractiveModeSpecified())
-  {
-    window = vtkSmartPointer<vtkRenderWindow>::New();
-  }
+  const vtkSmartPointer<vtkRenderWindow> window = MakeTestedWindow(tester);
   PipeScene scene(window, method->MakeMapper());
   if (!scene.Vary(sceneName))
   {
     std::cerr << "no scene is called " << sceneName << "\n";
     return EXIT_FAILURE;
   }
-
-  if (tester->IsInteractiveModeSpecified())
-  {
-    vtkNew<vtkRenderWindowInteractor> interactor;
-    interactor->SetRenderWindow(window);
-    interactor->Start();
-    return EXIT_SUCCESS;
-  }
-  tester->SetRenderWindow(window);
-  return tester->RegressionTest(method->Threshold) == vtkTesting::PASSED ? EXIT_SUCCESS
-                                                                         : EXIT_FAILURE;
+  return TestWindow(tester, window, method->Threshold);
 }
