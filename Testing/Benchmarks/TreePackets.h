@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#ifndef TreePackets_h
+#define TreePackets_h
 
-// Measures two uses of the min/max tree that Wald et al. 2007 name in section 9, beside the ray
-// caster, which walks from cell to cell:
-//
-// maximum  the largest scalar along each ray, by branch and bound. A packet of rays skips a node
-//          that its frustum misses, and one without a scalar above the least of the packet's
-//          present maxima. In a leaf, rays are clipped to cells. Nearer nodes come first, or those
-//          with a larger scalar.
-// skipping transfer functions that show a part of the scalars' range. What the ray caster takes
-//          today, and what it takes at least to find the visible cells along the rays by the tree.
-//
-// Pictures of 512 x 512, two threads, median milliseconds of frames by turns, by the clock and by
-// the processor, where waiting threads should sleep (OMP_WAIT_POLICY=passive).
+// Packets of rays that go through the min/max tree, clip rays to cells, and are measured by turns:
+// what TreeMaximum.cxx and TreeSkipping.cxx share. Pictures of 512 x 512, two threads, median
+// milliseconds of frames by the clock and by the processor, where waiting threads should sleep
+// (OMP_WAIT_POLICY=passive).
 
 #include "Base/ParallelTiles.h"
 #include "Base/Stopwatch.h"
@@ -19,7 +13,6 @@
 #include "Hierarchy/MinMaxTree.h"
 #include "Isosurface/FrustumTraversal.h"
 #include "RayCast/RayCaster.h"
-#include "Scene/VisibleCells.h"
 #include "Walk/WalkMesh.h"
 
 #include <algorithm>
@@ -49,10 +42,6 @@ constexpr float BoundsMargin = 0.003f;
 /// A face whose plane passes the eye nearer than this, in heights of the cell, counts as this near:
 /// keys on it stay numbers.
 constexpr double LeastEyeDistance = 1e-12;
-
-/// Scalars of 0..1 that differ by less agree: RayCastOptions::MaximumError, since they are shown as
-/// opacities.
-constexpr double ScalarTolerance = 1e-4;
 
 /// A point in the frame of the rays.
 struct FramePoint
@@ -601,26 +590,6 @@ Counts ForEachPacket(const Subject& subject, const Function& function)
   return all;
 }
 
-/// A way to find the largest scalars.
-struct MaximumWay
-{
-  const char* Name;
-  int Edge;
-  Order InOrder;
-};
-
-template <int Edge>
-Counts FindLargest(Subject& subject, const MaximumWay& way, std::vector<float>& picture)
-{
-  subject.ProjectPoints();
-  return ForEachPacket<Edge>(subject,
-    [&](Packet<Edge>& packet)
-    {
-      packet.FindLargest(way.InOrder);
-      packet.Write(picture);
-    });
-}
-
 /// Medians, in milliseconds.
 struct Times
 {
@@ -657,289 +626,22 @@ std::vector<Times> MeasureByTurns(const std::vector<std::function<void()>>& ways
   return times;
 }
 
-void CompareMaximum(Subject& subject)
-{
-  // The opacity is the scalar.
-  TransferFunction function;
-  const TransferFunction::Value zero = { { 1, 1, 1 }, 0 };
-  const TransferFunction::Value one = { { 1, 1, 1 }, 1 };
-  function.Nodes = { { 0, zero, zero }, { 1, one, one } };
-  subject.Scene.Optics.SetModel(OpticalModel::MaximumIntensity);
-  subject.Scene.Optics.SetTransferFunction(function);
-  const RayCastStatistics statistics = subject.Cast(Precision::Double);
-  std::vector<float> expected;
-  for (int i = 0; i < ImageSize * ImageSize; ++i)
-  {
-    expected.push_back(subject.Colors[4 * i + 3]);
-  }
-
-  const MaximumWay ways[] = { { "16 x 16, nearer first", 16, Order::Nearer },
-    { "16 x 16, larger first", 16, Order::Larger }, { "8 x 8, nearer first", 8, Order::Nearer },
-    { "8 x 8, larger first", 8, Order::Larger } };
-  std::vector<float> picture(ImageSize * ImageSize);
-  const auto find = [&](const MaximumWay& way)
-  {
-    return way.Edge == 16 ? FindLargest<16>(subject, way, picture)
-                          : FindLargest<8>(subject, way, picture);
-  };
-  std::vector<std::function<void()>> timed = { [&] { subject.Cast(); } };
-  for (const MaximumWay& way : ways)
-  {
-    timed.emplace_back([&] { find(way); });
-  }
-  const std::vector<Times> times = MeasureByTurns(timed);
-
-  std::printf("%-18s %-22s %8.1f %8.1f %7s %7s %7s %8.2f\n", subject.Name.c_str(), "cell to cell",
-    times[0].Wall, times[0].Processor, "", "", "", 1e-6 * static_cast<double>(statistics.Segments));
-  for (std::size_t i = 0; i < std::size(ways); ++i)
-  {
-    const Counts counts = find(ways[i]);
-    double most = 0;
-    int different = 0;
-    for (int p = 0; p < ImageSize * ImageSize; ++p)
-    {
-      const double difference = std::fabs(picture[p] - expected[p]);
-      most = std::max(most, difference);
-      different += difference > ScalarTolerance;
-    }
-    std::printf("%-18s %-22s %8.1f %8.1f %7.2f %7.2f %7.2f %8.2f %9.1e %5d\n", "", ways[i].Name,
-      times[i + 1].Wall, times[i + 1].Processor, 1e-6 * static_cast<double>(counts.Nodes),
-      1e-6 * static_cast<double>(counts.Leaves), 1e-6 * static_cast<double>(counts.Cells),
-      1e-6 * static_cast<double>(counts.Hits), most, different);
-  }
-  std::fflush(stdout);
-}
-
-/// The function that shows the scalars of an interval around the middle of their range.
-TransferFunction MakeWindow(double share, double radius)
-{
-  const TransferFunction::Value nothing = { { 0, 0, 0 }, 0 };
-  const TransferFunction::Value low = { { 1, 0.5, 0 }, 1 / radius };
-  const TransferFunction::Value high = { { 0, 0.5, 1 }, 1 / radius };
-  TransferFunction function;
-  function.Nodes = { { 0.5 - 0.5 * share, nothing, low }, { 0.5 + 0.5 * share, high, nothing } };
-  return function;
-}
-
-/// Tells nodes without visible scalars.
-class HiddenNodes
-{
-public:
-  HiddenNodes(const Subject& subject, double share)
-    : Ranges(subject.Ranges.Nodes)
-    , Least(subject.Ranges.GetStep(0.5 - 0.5 * share))
-    , Most(subject.Ranges.GetStep(0.5 + 0.5 * share))
-  {
-  }
-
-  TETRALUX_INLINE bool operator()(std::int32_t id) const
-  {
-    const MinMaxTree::Range range = this->Ranges[id];
-    return range.Largest < this->Least || range.Least > this->Most;
-  }
-
-private:
-  const std::vector<MinMaxTree::Range>& Ranges;
-  std::int32_t Least, Most;
-};
-
-/// Finds the leaves with visible scalars along the rays.
-template <int Edge>
-Counts FindLeaves(const Subject& subject, double share)
-{
-  const HiddenNodes hidden(subject, share);
-  return ForEachPacket<Edge>(subject,
-    [&](Packet<Edge>& packet)
-    { packet.Walk(Order::Nearer, hidden, [](const MinMaxTree::Node&) {}); });
-}
-
-/// Calls function as Packet::ClipTo where rays of 16 x 16 go through visible cells. begin(): is
-/// called before each packet.
-template <class Begin, class Function>
-Counts ClipToVisible(const Subject& subject, double share, const std::vector<std::uint8_t>& visible,
-  const Begin& begin, const Function& function)
-{
-  const HiddenNodes hidden(subject, share);
-  return ForEachPacket<16>(subject,
-    [&](Packet<16>& packet)
-    {
-      begin();
-      packet.Walk(Order::Nearer, hidden,
-        [&](const MinMaxTree::Node& node)
-        {
-          for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
-          {
-            if (visible[subject.Tree.Cells[i]])
-            {
-              packet.ClipTo(
-                i, [](int) { return false; }, function);
-            }
-          }
-        });
-    });
-}
-
-/// What is to be integrated of a cell.
-struct Segment
-{
-  float Near, Far; ///< keys
-  float NearScalar, FarScalar;
-};
-
-/// The segments of the rays of a packet, front to back.
-class alignas(64) SegmentLists
-{
-public:
-  void Clear()
-  {
-    for (std::vector<Segment>& list : this->Lists)
-    {
-      list.clear();
-    }
-  }
-
-  /// Few segments are nearer than one that was there before, since leaves come front to back.
-  void Insert(int ray, const Segment& segment)
-  {
-    std::vector<Segment>& list = this->Lists[ray];
-    list.push_back(segment);
-    std::size_t i = list.size() - 1;
-    for (; i > 0 && list[i - 1].Near < segment.Near; --i)
-    {
-      list[i] = list[i - 1];
-    }
-    list[i] = segment;
-  }
-
-private:
-  std::vector<Segment> Lists[16 * 16];
-};
-
-/// Makes the segments of all rays, packet by packet.
-void SortSegments(const Subject& subject, double share, const std::vector<std::uint8_t>& visible,
-  std::vector<SegmentLists>& lists)
-{
-  ClipToVisible(
-    subject, share, visible, [&] { lists[omp_get_thread_num()].Clear(); },
-    [&](int chunk, Float8 u, Float8 v, Float8 far, Float8 near, Mask8 hits, const PlacedCell& cell)
-    {
-      float values[4][LaneCount];
-      Store(values[0], cell.GetKey(near));
-      Store(values[1], cell.GetKey(far));
-      Store(values[2], cell.GetScalar(u, v, near));
-      Store(values[3], cell.GetScalar(u, v, far));
-      SegmentLists& own = lists[omp_get_thread_num()];
-      for (unsigned bits = Bits(hits); bits != 0; bits &= bits - 1)
-      {
-        const int i = __builtin_ctz(bits);
-        own.Insert(
-          chunk * LaneCount + i, { values[0][i], values[1][i], values[2][i], values[3][i] });
-      }
-    });
-}
-
-void MeasureSkipping(Subject& subject)
-{
-  std::vector<SegmentLists> lists(Threads);
-  for (const double share : { 1., 0.6, 0.2, 0.05 })
-  {
-    const TransferFunction function = MakeWindow(share, subject.Walk->GetRadius());
-    const std::vector<std::uint8_t> visible =
-      FindVisibleCells(function, subject.Walk->GetMesh().Cells, subject.Scalars, false);
-    subject.Scene.Optics.SetModel(OpticalModel::EmissionAbsorption);
-    RayCastStatistics statistics;
-    Counts clipped;
-    const std::vector<Times> times = MeasureByTurns({ [&]
-      {
-        subject.Scene.Optics.SetTransferFunction(function); // a new version: all is made anew
-        statistics = subject.Cast();
-      },
-      [&] { subject.Cast(); }, [&] { FindLeaves<16>(subject, share); },
-      [&] { FindLeaves<8>(subject, share); },
-      [&]
-      {
-        subject.ProjectPoints();
-        clipped = ClipToVisible(
-          subject, share, visible, [] {},
-          [](int, Float8, Float8, Float8, Float8, Mask8, const PlacedCell&) {});
-      },
-      [&]
-      {
-        subject.ProjectPoints();
-        SortSegments(subject, share, visible, lists);
-      } });
-    const auto segments = static_cast<double>(statistics.Segments);
-    const auto hits = static_cast<double>(clipped.Hits);
-    const double part = 100. * static_cast<double>(std::count(visible.begin(), visible.end(), 1)) /
-      static_cast<double>(visible.size());
-    std::printf(
-      "%-20s %5.0f %6.1f %6s %8.1f %8.1f %8.2f %8.2f %8.1f %8.2f %8.1f %8.1f %8.1f %8.1f\n",
-      share == 1 ? subject.Name.c_str() : "", 100 * share, part,
-      statistics.TransparentCells > 0 ? "yes" : "no", times[0].Processor, times[1].Processor,
-      1e-6 * static_cast<double>(statistics.Paths), 1e-6 * segments,
-      100 * std::max(0., segments - hits) / segments, 1e-6 * hits, times[2].Processor,
-      times[3].Processor, times[4].Processor, times[5].Processor);
-    std::fflush(stdout);
-  }
-}
-
-std::vector<ComparisonMesh> MakeMeshes()
+std::vector<std::unique_ptr<Subject>> MakeSubjects()
 {
   std::vector<ComparisonMesh> meshes = ReadBluntFin();
   meshes.push_back(MakeComparisonMesh("ball", { { "cells", 34 } }));
   meshes.push_back(MakeComparisonMesh("ball", { { "cells", 74 } }));
   meshes.push_back(MakeComparisonMesh("ring", { { "around", 300 }, { "across", 26 } }));
-  return meshes;
-}
-
-void CompareAll()
-{
   std::vector<std::unique_ptr<Subject>> subjects;
-  for (ComparisonMesh& mesh : MakeMeshes())
+  for (ComparisonMesh& mesh : meshes)
   {
     subjects.push_back(std::make_unique<Subject>(std::move(mesh)));
   }
-  std::printf(
-    "Largest scalar along each ray: wall and processor ms; millions of nodes tested, leaves\n"
-    "visited, cells that rays were clipped to, rays in cells; largest difference of a scalar of\n"
-    "0..1 from double precision, and pixels where it is above %g\n\n"
-    "%-18s %-22s %8s %8s %7s %7s %7s %8s %9s %5s\n",
-    ScalarTolerance, "", "", "wall", "proc.", "nodes", "leaves", "cells", "in cells", "most",
-    "above");
-  for (const auto& subject : subjects)
-  {
-    CompareMaximum(*subject);
-  }
-  std::printf(
-    "\nA part of the range is visible: %% of the range, %% of the cells; whether the ray\n"
-    "caster leaves the others out; its first frame of a function, and those after, processor ms;\n"
-    "millions of entries and of cells walked through, %% of these that are transparent;\n"
-    "millions of visible cells that rays go through; ms of finding the visible leaves\n"
-    "by packets of 16 x 16 and of 8 x 8, of clipping rays to\ntheir cells, too (16 x 16), and of "
-    "keeping what was clipped in order along each ray, too\n\n"
-    "%-20s %5s %6s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n",
-    "", "range", "cells", "left", "first", "after", "entries", "walked", "transp.", "visible",
-    "leaves16", "leaves8", "clip", "order");
-  for (const auto& subject : subjects)
-  {
-    MeasureSkipping(*subject);
-  }
+  return subjects;
 }
 
 } // namespace
 } // namespace TETRALUX_ISA
 } // namespace tetralux
 
-int main()
-{
-  try
-  {
-    tetralux::TETRALUX_ISA::CompareAll();
-  }
-  catch (const std::exception& e)
-  {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
-  return 0;
-}
+#endif
