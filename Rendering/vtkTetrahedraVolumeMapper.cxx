@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraVolumeMapper.h"
 
+#include "Base/FreeMemory.h"
 #include "Base/Stopwatch.h"
 #include "Frame/FrameRecord.h"
 #include "Frame/MapperFrame.h"
@@ -125,6 +126,12 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(MapperFrame& frame)
     [&](double fraction)
     { return this->Record.ReportProgress(frame.Window, vtkCommand::ProgressEvent, fraction); });
   this->Peaks.AfterPreparation = tetralux::GetPeakMemory();
+  const std::vector<std::string>& rebuilt = this->Preparation.GetLast().Rebuilt;
+  const bool madeMesh = std::find(rebuilt.begin(), rebuilt.end(), "mesh") != rebuilt.end();
+  if (madeMesh)
+  {
+    tetralux::ReturnFreeMemory();
+  }
   frame.Scene = &this->Preparation.Scene;
   if (ready)
   {
@@ -135,6 +142,10 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(MapperFrame& frame)
   else
   {
     frame.Aborted = true;
+  }
+  if (madeMesh)
+  {
+    tetralux::ReturnFreeMemory(); // what drawing it for the first time took
   }
   if (frame.Scene->Mesh.GetMesh())
   {
@@ -322,6 +333,8 @@ int vtkTetrahedraVolumeMapper::FillInputPortInformation(int, vtkInformation* inf
 //------------------------------------------------------------------------------------------------
 double* vtkTetrahedraVolumeMapper::GetBounds()
 {
+  // Who observes the update may let the mapper go.
+  const vtkSmartPointer<vtkObject> self = this;
   vtkBoundingBox box;
   if (this->GetDataObjectInput())
   {
@@ -339,7 +352,7 @@ double* vtkTetrahedraVolumeMapper::GetBounds()
   {
     vtkMath::UninitializeBounds(this->Bounds);
   }
-  return this->Bounds;
+  return self->GetReferenceCount() > 1 ? this->Bounds : nullptr;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -21,7 +21,9 @@
 #include "View/MeshToWorld.h"
 #include "View/ViewKey.h"
 
+#include "vtkDataSet.h"
 #include "vtkImageData.h"
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
@@ -543,6 +545,26 @@ void vtkTriangleCasterMapper::ReleaseGraphicsResources(vtkWindow* window)
     this->Private->Drawing.ReleaseGraphicsResources(window);
     this->Superclass::ReleaseGraphicsResources(window);
   }
+}
+
+//------------------------------------------------------------------------------------------------
+double* vtkTriangleCasterMapper::GetBounds()
+{
+  // Who observes the update may take the input away, or let the mapper go.
+  const vtkSmartPointer<vtkObject> self = this;
+  if (this->GetDataSetInput())
+  {
+    this->Update();
+  }
+  if (vtkDataSet* input = this->GetDataSetInput())
+  {
+    input->GetBounds(this->Bounds);
+  }
+  else
+  {
+    vtkMath::UninitializeBounds(this->Bounds);
+  }
+  return self->GetReferenceCount() > 1 ? this->Bounds : nullptr;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -521,6 +521,14 @@ public:
    */
   bool IsMaximumErrorKept();
 
+  ///@{
+  /**
+   * Bounds of the input; of none, or if an observer of the update lets the mapper go, there are none.
+   */
+  double* GetBounds() VTK_SIZEHINT(6) override;
+  using Superclass::GetBounds;
+  ///@}
+
   /**
    * WARNING: INTERNAL METHOD - NOT INTENDED FOR GENERAL USE
    *

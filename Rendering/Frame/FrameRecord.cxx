@@ -164,7 +164,11 @@ bool FrameRecord::MayRelease(vtkWindow* window)
 {
   if (this->Drawing)
   {
-    this->ToRelease.emplace_back(window);
+    // Not a window that ends: the frame holds its own, and has nothing of others.
+    if (window && window->GetReferenceCount() > 0)
+    {
+      this->ToRelease.emplace_back(window);
+    }
     return false;
   }
   this->Context.Release(window);

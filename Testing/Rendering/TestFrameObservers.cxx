@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -133,6 +135,65 @@ TEST_P(FrameObservers, MayChangeWhatIsDrawn)
     }
   }
   vtkObject::GlobalWarningDisplayOn();
+}
+
+// VTK updates a mapper for its bounds before the frame, too. Whoever forgets the volume then takes it
+// away from vtkVolume itself, which VTK does not survive.
+TEST_P(FrameObservers, MayChangeWhatIsUpdated)
+{
+  AnyMapperScene scene(MakeMapper(this->GetParam()));
+  scene.Renderer->RemoveVolume(scene.Volume);
+  vtkObject::GlobalWarningDisplayOff(); // of the frames that follow, without an input
+  for (const unsigned long event :
+    { vtkCommand::StartEvent, vtkCommand::ProgressEvent, vtkCommand::EndEvent })
+  {
+    for (const auto& [name, change] : GetChanges())
+    {
+      const std::string what = name;
+      if (what == "forgets the volume" || what == "asks for the picture")
+      {
+        continue;
+      }
+      SCOPED_TRACE(what + " on " + vtkCommand::GetStringFromEventId(event));
+      Parts parts{ scene.Window, scene.Renderer.Get(), vtkSmartPointer<vtkVolume>::New(),
+        MakeMapper(this->GetParam()), MakeField() };
+      parts.Mapper->SetInputDataObject(parts.Input);
+      parts.Volume->SetMapper(parts.Mapper);
+      parts.Volume->SetProperty(scene.Volume->GetProperty());
+      parts.Renderer->AddVolume(parts.Volume);
+      bool done = false;
+      const Observer observer(parts.Mapper, event,
+        [&, &effect = change](const char*)
+        {
+          if (!std::exchange(done, true))
+          {
+            effect(parts);
+          }
+        });
+      scene.Window->Render();
+      EXPECT_TRUE(done);
+      scene.Window->Render(); // of what there is now
+      scene.Renderer->RemoveAllViewProps();
+    }
+  }
+  vtkObject::GlobalWarningDisplayOn();
+}
+
+TEST_P(FrameObservers, MayLetAnotherWindowOfTheMapperGo)
+{
+  const vtkSmartPointer<vtkAbstractVolumeMapper> mapper = MakeMapper(this->GetParam());
+  AnyMapperScene scene(mapper);
+  auto other = std::make_unique<AnyMapperScene>(mapper);
+  other->Render();
+  {
+    const Observer progress(mapper, vtkCommand::VolumeMapperRenderProgressEvent,
+      [&](const char*) { other = nullptr; });
+    scene.Window->Render();
+  }
+  EXPECT_EQ(other, nullptr);
+  const std::vector<float> picture = GetPicture(mapper);
+  EXPECT_GT(*std::max_element(picture.begin(), picture.end()), 0.1);
+  EXPECT_EQ(scene.Render(), picture);
 }
 
 TEST_P(FrameObservers, CannotDrawAFrameInAFrame)
