@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes that the benchmarks in Python measure on."""
 
+import itertools
 import os
 import subprocess
 import tempfile
@@ -75,6 +76,44 @@ def make_lattice(tetrahedra, aspect=1):
     return image
 
 
+def make_grid(points, cells, field):
+    """Tetrahedra with the scalars Field at their points."""
+    grid = vtkUnstructuredGrid()
+    locations = vtkPoints()
+    locations.SetDataTypeToDouble()
+    locations.SetData(numpy_to_vtk(points, deep=True))
+    grid.SetPoints(locations)
+    connectivity = vtkCellArray()
+    offsets = numpy.arange(len(cells) + 1, dtype=numpy.int64) * 4
+    connectivity.SetData(
+        numpy_to_vtkIdTypeArray(offsets, deep=True),
+        numpy_to_vtkIdTypeArray(cells.ravel().astype(numpy.int64), deep=True),
+    )
+    grid.SetCells(VTK_TETRA, connectivity)
+    array = numpy_to_vtk(field, deep=True)
+    array.SetName("Field")
+    grid.GetPointData().SetScalars(array)
+    return grid
+
+
+def make_cube(tetrahedra):
+    """A cube of about as many tetrahedra, six in each of its voxels."""
+    n = max(1, round((tetrahedra / 6) ** (1 / 3)))
+    place = numpy.linspace(0, 1, n + 1)
+    z, y, x = numpy.meshgrid(place, place, place, indexing="ij")
+    points = numpy.stack([x, y, z], axis=-1).reshape(-1, 3)
+    index = numpy.arange(n)
+    k, j, i = numpy.meshgrid(index, index, index, indexing="ij")
+    first = ((k * (n + 1) + j) * (n + 1) + i).ravel()
+    steps = (1, n + 1, (n + 1) ** 2)
+    cells = []
+    # From one corner to the opposite one along three edges, in each order.
+    for a, b, c in itertools.permutations(steps):
+        cells.append(numpy.stack([first, first + a, first + a + b, first + a + b + c], axis=1))
+    field = numpy.sin(7 * x) + numpy.cos(5 * y) * numpy.sin(9 * z)
+    return make_grid(points, numpy.concatenate(cells), field.ravel())
+
+
 def make_layers(points, triangles, field):
     """Tetrahedra between layers of the same triangles, three of each prism.
 
@@ -96,22 +135,7 @@ def make_layers(points, triangles, field):
     layers = numpy.arange(len(points) - 1) * size
     cells = (split.reshape(-1, 4)[None] + layers[:, None, None]).reshape(-1, 4)
 
-    grid = vtkUnstructuredGrid()
-    locations = vtkPoints()
-    locations.SetDataTypeToDouble()
-    locations.SetData(numpy_to_vtk(points.reshape(-1, 3), deep=True))
-    grid.SetPoints(locations)
-    connectivity = vtkCellArray()
-    offsets = numpy.arange(len(cells) + 1, dtype=numpy.int64) * 4
-    connectivity.SetData(
-        numpy_to_vtkIdTypeArray(offsets, deep=True),
-        numpy_to_vtkIdTypeArray(cells.ravel().astype(numpy.int64), deep=True),
-    )
-    grid.SetCells(VTK_TETRA, connectivity)
-    array = numpy_to_vtk(field.ravel(), deep=True)
-    array.SetName("Field")
-    grid.GetPointData().SetScalars(array)
-    return grid
+    return make_grid(points.reshape(-1, 3), cells, field.ravel())
 
 
 def grow(count, ratio):
