@@ -523,7 +523,8 @@ public:
 
   ///@{
   /**
-   * Bounds of the input; of none, or if an observer of the update lets the mapper go, there are none.
+   * Bounds of the input. There are none without an input, or if an observer of the update lets the
+   * mapper go.
    */
   double* GetBounds() VTK_SIZEHINT(6) override;
   using Superclass::GetBounds;

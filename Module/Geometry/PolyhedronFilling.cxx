@@ -21,8 +21,7 @@ constexpr std::int64_t MaximumTests = 100000;
 /// From the smallest corner on, in the same turn.
 Triangle Rotate(Triangle triangle)
 {
-  std::rotate(
-    triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
   return triangle;
 }
 

@@ -155,10 +155,9 @@ Json DescribeMemory(const ScenePreparation& preparation)
   memory["scalars"] = scalars;
   memory["walk_tables"] = mesh.GetTableSize();
   const WalkTables* visible = scene.GetVisibleTables();
-  memory["visible_tables"] = visible
-    ? getBytes(visible->Faces) + getBytes(visible->Entries) + getBytes(visible->Bvh.Nodes) +
-      getBytes(visible->Bvh.Triangles)
-    : 0;
+  memory["visible_tables"] = visible ? getBytes(visible->Faces) + getBytes(visible->Entries) +
+      getBytes(visible->Bvh.Nodes) + getBytes(visible->Bvh.Triangles)
+                                     : 0;
   memory["visible_cells"] = getBytes(scene.GetVisibleCells());
   memory["cell_values"] = getBytes(scene.GetCellValues());
   memory["component_rows"] = getBytes(scene.GetComponentRows());

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures a use of the min/max tree that Wald et al. 2007 name in section 9, beside the ray caster,
-// which walks from cell to cell: the largest scalar along each ray, by branch and bound. A packet of
-// rays skips a node that its frustum misses, and one without a scalar above the least of the
-// packet's present maxima. In a leaf, rays are clipped to cells. Nearer nodes come first, or those
-// with a larger scalar. See TreePackets.h.
+// Measures a use of the min/max tree that Wald et al. 2007 name in section 9, beside the ray
+// caster, which walks from cell to cell: the largest scalar along each ray, by branch and bound. A
+// packet of rays skips a node that its frustum misses, and one without a scalar above the least of
+// the packet's present maxima. In a leaf, rays are clipped to cells. Nearer nodes come first, or
+// those with a larger scalar. See TreePackets.h.
 
 #include "TreePackets.h"
 

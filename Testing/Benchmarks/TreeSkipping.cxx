@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures a use of the min/max tree that Wald et al. 2007 name in section 9, beside the ray caster:
-// transfer functions that show a part of the scalars' range. What the ray caster takes today, and
-// what it takes at least to find the visible cells along the rays by the tree. See TreePackets.h.
+// Measures a use of the min/max tree that Wald et al. 2007 name in section 9, beside the ray
+// caster: transfer functions that show a part of the scalars' range. What the ray caster takes
+// today, and what it takes at least to find the visible cells along the rays by the tree. See
+// TreePackets.h.
 
 #include "TreePackets.h"
 

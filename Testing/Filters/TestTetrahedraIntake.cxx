@@ -124,7 +124,7 @@ TEST_P(EveryCellType, FillsItsVolumeWithPositiveTetrahedraWhoseFacesAgree)
   const CellTypeCase& param = GetParam();
   CellPatch patch;
   patch.AddBoxes(param.Type, 0, 0, 0, 3, 2, 2);
-  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
   {
     auto grid = patch.MakeGrid(seed, MapAffine);
     const TetrahedraIntake intake = TakeInTetrahedra(grid);
@@ -151,7 +151,7 @@ TEST_P(EveryCellType, FacesAgreeWhereTheyAreNotPlanar)
 {
   CellPatch patch;
   patch.AddBoxes(GetParam().Type, 0, 0, 0, 3, 2, 2);
-  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
   {
     auto grid = patch.MakeGrid(seed, MapWarped);
     const TetrahedraIntake intake = TakeInTetrahedra(grid);
@@ -305,7 +305,7 @@ TEST_P(CellAmongOthers, HasTheVolumeAndTheScalarsThatItHasAlone)
     GetCellVolume(TakeInTetrahedra(this->MakeGrid(false, 0)).Mesh, 0, &notPositive);
   EXPECT_EQ(notPositive, 0);
   EXPECT_GT(alone, 0.05);
-  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
   {
     auto grid = this->MakeGrid(true, seed);
     vtkNew<vtkDoubleArray> field;
@@ -388,7 +388,7 @@ TEST(TetrahedraIntake, PrismsShareTheirSides)
       }
       patch.AddCell(sides == 5 ? VTK_PENTAGONAL_PRISM : VTK_HEXAGONAL_PRISM, corners);
     }
-    for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
     {
       auto grid = patch.MakeGrid(seed, KeepPosition);
       const TetrahedraIntake intake = TakeInTetrahedra(grid);
@@ -542,7 +542,7 @@ TEST(TetrahedraIntake, PolyhedraThatAreNotDividedAreCounted)
       { 0.5, 0.6 }, { 0.5, 0.8 }, { 0.8, 0.8 }, { 0.8, 0.2 }, { 0.1, 0.2 }, { 0.1, 1 }, { 0, 1 } },
     1);
   const TetrahedraIntake intake = TakeInTetrahedra(patch.MakeGrid(1, KeepPosition));
-  constexpr double Rounding = 1e-6;                     // of points in single precision
+  constexpr double Rounding = 1e-6;                          // of points in single precision
   EXPECT_NEAR(GetVolume(intake.Mesh), 0.3 * 0.64, Rounding); // signed: they overlap
   EXPECT_EQ(intake.Report.FoldedCells, 1);
   EXPECT_NE(DescribeFoldedCells(intake.Report).find("1 polyhedra"), std::string::npos);

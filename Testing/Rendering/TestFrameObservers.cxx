@@ -137,8 +137,8 @@ TEST_P(FrameObservers, MayChangeWhatIsDrawn)
   vtkObject::GlobalWarningDisplayOn();
 }
 
-// VTK updates a mapper for its bounds before the frame, too. Whoever forgets the volume then takes it
-// away from vtkVolume itself, which VTK does not survive.
+// VTK updates a mapper for its bounds before the frame, too. Whoever forgets the volume then takes
+// it away from vtkVolume itself, which VTK does not survive.
 TEST_P(FrameObservers, MayChangeWhatIsUpdated)
 {
   AnyMapperScene scene(MakeMapper(this->GetParam()));
@@ -186,8 +186,8 @@ TEST_P(FrameObservers, MayLetAnotherWindowOfTheMapperGo)
   auto other = std::make_unique<AnyMapperScene>(mapper);
   other->Render();
   {
-    const Observer progress(mapper, vtkCommand::VolumeMapperRenderProgressEvent,
-      [&](const char*) { other = nullptr; });
+    const Observer progress(
+      mapper, vtkCommand::VolumeMapperRenderProgressEvent, [&](const char*) { other = nullptr; });
     scene.Window->Render();
   }
   EXPECT_EQ(other, nullptr);

@@ -616,7 +616,7 @@ TEST(GPURayCastMapper, UploadsWhatChanged)
 
   scene.Grid->GetPoints()->SetPoint(0, -0.1, -0.1, -0.1);
   scene.Grid->GetPoints()->Modified();
-  scene.ExpectProcessorsPicture(1); // that passes an edge of the hull so closely that it is displaced
+  scene.ExpectProcessorsPicture(1); // that passes an edge of the hull closely and is displaced
   const std::size_t faces = 32 * scene.Mesh.GetNumberOfCells();
   const std::size_t mesh = std::stoul(scene.GetStatistic("mesh_bytes"));
   EXPECT_EQ(scene.GetStatistic("uploaded_bytes"), std::to_string(mesh - faces));

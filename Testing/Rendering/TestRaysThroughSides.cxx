@@ -136,8 +136,8 @@ private:
     {
       for (int i = 0; i < WindowSize; ++i)
       {
-        EXPECT_EQ(colors[4 * (j * WindowSize + i) + 3] > 0,
-          IsInside(outline, i - Middle, j - Middle))
+        EXPECT_EQ(
+          colors[4 * (j * WindowSize + i) + 3] > 0, IsInside(outline, i - Middle, j - Middle))
           << i - Middle << ", " << j - Middle;
       }
     }
