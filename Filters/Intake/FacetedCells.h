@@ -72,9 +72,9 @@ public:
   /// found; else it is the mean of the corners.
   bool FindMiddle(const double* points, std::vector<double>& weights);
 
-  /// Cuts tetrahedra off the cell until a point sees all faces of the rest, or until nothing is left:
-  /// GetPoints, weights and ConeFrom are of the rest then. Returns whether it did; else the cell
-  /// stays. points, weights: as for FindMiddle.
+  /// Cuts tetrahedra off the cell until a point sees all faces of the rest, or until nothing is
+  /// left: GetPoints, weights and ConeFrom are of the rest then. Returns whether it did; else the
+  /// cell stays. points, weights: as for FindMiddle.
   bool CutToStar(
     const double* points, std::vector<std::int64_t>& tets, std::vector<double>& weights);
 

@@ -30,8 +30,8 @@ struct TetrahedraIntakeReport
   std::int64_t LowerDimensionalCells = 0; ///< vertices, lines, faces, empty cells
   std::int64_t InvalidCells = 0; ///< too few points, ids that don't exist, or nothing between them
   std::int64_t Blocks = 0;       ///< data sets that were read
-  /// Polyhedra no point of which sees all faces from inside, not even of what tetrahedra between their
-  /// corners leave: their tetrahedra overlap.
+  /// Polyhedra no point of which sees all faces from inside, not even of what tetrahedra between
+  /// their corners leave: their tetrahedra overlap.
   std::int64_t FoldedCells = 0;
   std::int64_t SkippedBlocks = 0; ///< leaves of a composite that are no data sets, as tables
 

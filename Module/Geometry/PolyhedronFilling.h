@@ -22,8 +22,9 @@ struct PolyhedronFilling
 };
 
 /// Cuts tetrahedra between corners off a polyhedron, which meet it and each other in whole faces,
-/// until nothing is left, or until isDone, if there is one, says so of the rest. corners: coordinates, three each.
-/// triangles: its surface, three places of corners each, seen counter-clockwise from outside.
+/// until nothing is left, or until isDone, if there is one, says so of the rest. corners:
+/// coordinates, three each. triangles: its surface, three places of corners each, seen
+/// counter-clockwise from outside.
 ///
 /// Returns whether it did. Some polyhedra can't be filled between their corners (Schoenhardt 1928),
 /// and to find out is hard (Ruppert and Seidel 1992): it gives up after a bounded search.

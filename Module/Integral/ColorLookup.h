@@ -12,8 +12,8 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Colour and opacity at a scalar, as the intervals map it; at a step the value from larger scalars.
-/// What is not a number is transparent.
+/// Colour and opacity at a scalar, as the intervals map it; at a step the value from larger
+/// scalars. What is not a number is transparent.
 TETRALUX_INLINE void LookUpColor(
   const IntervalTable::Interval* intervals, int count, float x, float (&color)[4])
 {
