@@ -2,8 +2,10 @@
 #include "vtkTetrahedraRepresentation.h"
 
 #include "Intake/DataSetBlocks.h"
+#include "FrameStatistics.h"
 #include "MapperGroup.h"
 #include "ThreadShare.h"
+#include "vtkOrderedVolume.h"
 #include "vtkTetrahedraVolumeMapper.h"
 #include "vtkTetrahedralizeCells.h"
 
@@ -54,6 +56,7 @@ public:
   /// What is chosen of a composite; other data as they are.
   vtkSmartPointer<vtkDataObject> ChooseBlocks(vtkDataObject* data) const;
 
+  vtkNew<vtkOrderedVolume> Shown; ///< in place of the actor, which has the part of this process
   tetralux::MapperGroup Group;
   std::vector<vtkTetrahedraVolumeMapper*> Mappers; ///< those of the group
   vtkSmartPointer<vtkUnstructuredGrid> Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -128,6 +131,7 @@ vtkTetrahedraRepresentation::vtkTetrahedraRepresentation()
   : Private(std::make_unique<Internals>())
 {
   tetralux::ShareThreads();
+  this->Private->Shown->SetVolume(this->Actor);
   this->SetAmbient(0);
   this->SetDiffuse(1);
   this->SetSpecular(0);
@@ -252,9 +256,17 @@ const char* vtkTetrahedraRepresentation::GetStatistics()
 {
   if (this->Private->Last)
   {
-    this->Private->Statistics = this->Private->Last->GetStatistics();
+    this->Private->Statistics =
+      tetralux::MakeFrameStatistics(this->Private->Last->GetStatistics(), this->Private->Shown);
   }
   return this->Private->Statistics.c_str();
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  this->Private->Shown->SetVisibility(visible);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -331,6 +343,8 @@ int vtkTetrahedraRepresentation::ProcessViewRequest(
       // Until there is a context: see OnFrame.
       this->UseMapper(this->Private->Last ? this->Private->Last : this->Private->Mappers.front());
     }
+    auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
+    this->Private->Shown->PrepareFrame(view->GetRenderer());
   }
   return 1;
 }
@@ -413,7 +427,7 @@ bool vtkTetrahedraRepresentation::AddToView(vtkView* view)
     return false;
   }
   vtkRenderer* renderer = renderView->GetRenderer();
-  renderer->AddVolume(this->Actor);
+  renderer->AddViewProp(this->Private->Shown);
   this->Private->FrameObserver =
     renderer->AddObserver(vtkCommand::StartEvent, this, &vtkTetrahedraRepresentation::OnFrame);
   return this->Superclass::AddToView(view);
@@ -427,7 +441,7 @@ bool vtkTetrahedraRepresentation::RemoveFromView(vtkView* view)
   {
     return false;
   }
-  renderView->GetRenderer()->RemoveVolume(this->Actor);
+  renderView->GetRenderer()->RemoveViewProp(this->Private->Shown);
   renderView->GetRenderer()->RemoveObserver(this->Private->FrameObserver);
   return this->Superclass::RemoveFromView(view);
 }

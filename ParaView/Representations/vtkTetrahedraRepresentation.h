@@ -90,9 +90,15 @@ public:
 
   /**
    * Return the statistics of the last frame of this process, as JSON, see
-   * vtkTetrahedraVolumeMapper::GetStatistics. "{}" before the first frame.
+   * vtkTetrahedraVolumeMapper::GetStatistics. "{}" before the first frame. In a parallel run with
+   * "composited": the bytes that all processes sent, and the seconds that this one took.
    */
   const char* GetStatistics();
+
+  /**
+   * Set whether it is shown in views.
+   */
+  void SetVisibility(bool visible) override;
 
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;

@@ -48,15 +48,26 @@ public:
 
   /**
    * Return the statistics of the last frame of this process, as JSON, see
-   * vtkTriangleCasterMapper::GetStatistics.
+   * vtkTriangleCasterMapper::GetStatistics. In a parallel run with "composited": the bytes that all
+   * processes sent, and the seconds that this one took.
    */
   const char* GetStatistics();
+
+  /**
+   * Set whether it is shown in views.
+   */
+  void SetVisibility(bool visible) override;
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
 
 protected:
   vtkTriangleCasterRepresentation();
   ~vtkTriangleCasterRepresentation() override;
 
   void UpdateMapperParameters() override;
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
 
 private:
   vtkTriangleCasterRepresentation(const vtkTriangleCasterRepresentation&) = delete;

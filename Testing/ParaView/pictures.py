@@ -62,6 +62,32 @@ def show(data, reader, view):
     return display
 
 
+def make_scene(name):
+    """A scene as scenes.py describes it; returns its view and what displays the data in it."""
+    data, representation, settings, _ = scenes.SCENES[name]
+    scene = scenes.DATA[data]
+    view = make_view()
+    display = show(data, read(data), view)
+    set_up(display, representation, scene["unit_distance"], settings)
+    place_camera(view, scene["position"], scene["focal_point"], scene["view_up"])
+    return view, display
+
+
+def get_statistics(display):
+    """What the last frame was made of."""
+    isosurface = display.Representation == "Tetralux Isosurface"
+    display.UpdatePropertyInformation()
+    name = f"Tetralux{'Isosurface' if isosurface else ''}Statistics"
+    return json.loads(display.GetPropertyValue(name))
+
+
+def finish(good):
+    """Ends a test. An exit with a text makes this ParaView abort, which is not to be seen
+    otherwise."""
+    if not good:
+        sys.exit(1)
+
+
 def set_up(display, representation, unit_distance, settings):
     display.SetRepresentationType(representation)
     display.TetraluxUnitDistance = unit_distance
