@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOrderedVolume.h"
 
+#include "AllProcesses.h"
 #include "Base/Stopwatch.h"
 #include "Compositing/OrderedPictures.h"
 #include "Compositing/PictureCapture.h"
 #include "Compositing/ProcessOrder.h"
 #include "Frame/ImageCompositor.h"
 
-#include "vtkCommunicator.h"
 #include "vtkMath.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <limits>
 
 vtkStandardNewMacro(vtkOrderedVolume);
 
@@ -49,29 +48,12 @@ void vtkOrderedVolume::SetVolume(vtkVolume* volume) { this->Private->Volume = vo
 //------------------------------------------------------------------------------------------------
 void vtkOrderedVolume::PrepareFrame(vtkRenderer* renderer)
 {
-  // Least values, and greatest ones with the other sign.
-  double mine[6];
-  std::fill_n(mine, 6, std::numeric_limits<double>::max());
-  const double* bounds =
-    this->Private->Volume->GetVisibility() ? this->Private->Volume->GetBounds() : nullptr;
-  if (bounds && vtkMath::AreBoundsInitialized(bounds))
+  vtkVolume* volume = this->Private->Volume;
+  tetralux::UniteBounds(
+    volume->GetVisibility() ? volume->GetBounds() : nullptr, this->Private->Bounds);
+  if (tetralux::IsParallel())
   {
-    for (int i = 0; i < 6; ++i)
-    {
-      mine[i] = i % 2 == 0 ? bounds[i] : -bounds[i];
-    }
-  }
-  double all[6];
-  std::copy_n(mine, 6, all);
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller && controller->GetNumberOfProcesses() > 1)
-  {
-    controller->AllReduce(mine, all, 6, vtkCommunicator::MIN_OP);
     tetralux::LetAllProcessesDraw(renderer);
-  }
-  for (int i = 0; i < 6; ++i)
-  {
-    this->Private->Bounds[i] = i % 2 == 0 ? all[i] : -all[i];
   }
 }
 

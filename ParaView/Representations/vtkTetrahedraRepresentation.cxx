@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRepresentation.h"
 
-#include "Intake/DataSetBlocks.h"
+#include "AllProcesses.h"
 #include "FrameStatistics.h"
+#include "Intake/DataSetBlocks.h"
 #include "MapperGroup.h"
+#include "Preparation/OpacityIntegral.h"
 #include "ThreadShare.h"
+#include "TupleOpacity.h"
 #include "vtkOrderedVolume.h"
 #include "vtkTetrahedraVolumeMapper.h"
 #include "vtkTetrahedralizeCells.h"
@@ -22,7 +25,6 @@
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
-#include "vtkMultiProcessController.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -31,17 +33,6 @@
 
 #include <stdexcept>
 #include <vector>
-
-namespace
-{
-
-bool IsParallel()
-{
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  return controller && controller->GetNumberOfProcesses() > 1;
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------------------------
 class vtkTetrahedraRepresentation::Internals
@@ -66,6 +57,7 @@ public:
   vtkTetrahedraVolumeMapper* Last = nullptr;  ///< the mapper of the last frame
   vtkSmartPointer<vtkUnstructuredGrid> Drawn; ///< what this process draws, maybe redistributed
   unsigned long FrameObserver = 0;
+  double MeasuredUnitDistance = 0;
   std::string Warning; ///< why nothing was drawn in the last frame; empty if it was
   std::string Statistics = "{}";
 };
@@ -252,6 +244,33 @@ void vtkTetrahedraRepresentation::SetUseDataPartitions(bool use)
 }
 
 //------------------------------------------------------------------------------------------------
+void vtkTetrahedraRepresentation::MeasureUnitDistance()
+{
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  const char* name = info->Get(vtkDataObject::FIELD_NAME());
+  const int association = info->Get(vtkDataObject::FIELD_ASSOCIATION());
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = Internals::Split(this->Private->Grid);
+  vtkDataSetAttributes* attributes = grid->GetAttributes(association);
+  vtkDataArray* array = name && attributes ? attributes->GetArray(name) : nullptr;
+  double integral = 0;
+  if (array)
+  {
+    integral =
+      tetralux::IntegrateOpacity(grid, array, association == vtkDataObject::FIELD_ASSOCIATION_CELLS,
+        tetralux::MakeTupleOpacity(this->Property, array->GetNumberOfComponents()));
+  }
+  double bounds[6];
+  tetralux::UniteBounds(this->DataBounds, bounds);
+  this->Private->MeasuredUnitDistance = tetralux::FindUnitDistance(tetralux::Add(integral), bounds);
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTetrahedraRepresentation::GetMeasuredUnitDistance()
+{
+  return this->Private->MeasuredUnitDistance;
+}
+
+//------------------------------------------------------------------------------------------------
 const char* vtkTetrahedraRepresentation::GetStatistics()
 {
   if (this->Private->Last)
@@ -288,7 +307,7 @@ int vtkTetrahedraRepresentation::RequestData(
   {
     const vtkSmartPointer<vtkDataObject> data =
       this->Private->ChooseBlocks(vtkDataObject::GetData(inputVector[0], 0));
-    this->Private->Grid = IsParallel() && !this->Private->UseDataPartitions
+    this->Private->Grid = tetralux::IsParallel() && !this->Private->UseDataPartitions
       ? Internals::Split(data)
       : Internals::Append(data);
     this->Private->Grid->GetBounds(this->DataBounds);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTriangleCasterRepresentation.h"
 
+#include "AllProcesses.h"
 #include "FrameStatistics.h"
 #include "MapperGroup.h"
+#include "Preparation/OpacityIntegral.h"
 #include "ThreadShare.h"
+#include "TupleOpacity.h"
 #include "vtkOrderedVolume.h"
 #include "vtkTriangleCasterMapper.h"
 
@@ -29,6 +32,7 @@ public:
   vtkNew<vtkTriangleCasterMapper> Mapper;
   tetralux::MapperGroup Group;
   std::vector<double> CroppingRegionPlanes; ///< as they were set; empty before that
+  double MeasuredUnitDistance = 0;
   std::string Statistics = "{}";
 };
 
@@ -96,6 +100,28 @@ void vtkTriangleCasterRepresentation::SetClipFunction(vtkImplicitFunction* funct
 }
 
 //------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::MeasureUnitDistance()
+{
+  auto* image = vtkImageData::SafeDownCast(this->Cache);
+  vtkDataArray* array = image ? this->GetInputArrayToProcess(0, image) : nullptr;
+  double integral = 0;
+  if (array)
+  {
+    integral = tetralux::IntegrateOpacity(
+      image, array, tetralux::MakeTupleOpacity(this->Property, array->GetNumberOfComponents()));
+  }
+  double bounds[6];
+  tetralux::UniteBounds(this->DataBounds, bounds);
+  this->Private->MeasuredUnitDistance = tetralux::FindUnitDistance(tetralux::Add(integral), bounds);
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTriangleCasterRepresentation::GetMeasuredUnitDistance()
+{
+  return this->Private->MeasuredUnitDistance;
+}
+
+//------------------------------------------------------------------------------------------------
 const char* vtkTriangleCasterRepresentation::GetStatistics()
 {
   this->Private->Statistics =
@@ -154,6 +180,7 @@ void vtkTriangleCasterRepresentation::UpdateMapperParameters()
 {
   this->Superclass::UpdateMapperParameters();
   vtkTriangleCasterMapper* mapper = this->Private->Mapper;
+  mapper->SetWholeExtent(this->WholeExtent);
   // The superclass takes the planes for relative ones, of the part of the data that a process has.
   if (!this->Private->CroppingRegionPlanes.empty())
   {

@@ -19,7 +19,7 @@ namespace tetralux
 /// FindUnitDistance.
 ///@{
 /// Of tetrahedra; other cells count nothing. ofCells: the array has one tuple a cell, else one a
-/// point. Within a cell, four points are taken, by which quadratic functions are integrated exactly.
+/// point. Of a cell, four places are taken, by which quadratic functions are integrated exactly.
 TETRALUXRENDERING_EXPORT double IntegrateOpacity(vtkUnstructuredGrid* tetrahedra,
   vtkDataArray* array, bool ofCells, const std::function<double(const double*)>& opacity);
 /// Of an image: the mean of all tuples, times the volume.

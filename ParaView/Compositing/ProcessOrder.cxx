@@ -70,8 +70,7 @@ std::vector<int> FindProcessOrder(vtkRenderer* renderer)
 
 std::array<double, 2> FindPictureOrigin(vtkRenderer* renderer)
 {
-  vtkMatrix4x4* projection =
-    renderer->GetActiveCamera()->GetExplicitProjectionTransformMatrix();
+  vtkMatrix4x4* projection = renderer->GetActiveCamera()->GetExplicitProjectionTransformMatrix();
   if (!projection)
   {
     return { 0, 0 };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Compositing/PictureCapture.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,8 +93,8 @@ std::vector<float> ReadPixels(
   glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, sizeof(float));
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glReadPixels(rectangle.X, rectangle.Y, rectangle.Width, rectangle.Height, format, GL_FLOAT,
-    values.data());
+  glReadPixels(
+    rectangle.X, rectangle.Y, rectangle.Width, rectangle.Height, format, GL_FLOAT, values.data());
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, alignment);
   return values;
 }

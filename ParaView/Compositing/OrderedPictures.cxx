@@ -68,8 +68,7 @@ void CompositeRow(
       {
         continue;
       }
-      const float* added =
-        picture.Colors + 4 * (static_cast<std::size_t>(y) * rectangle.Width + x);
+      const float* added = picture.Colors + 4 * (static_cast<std::size_t>(y) * rectangle.Width + x);
       const float transmittance = 1 - sum[3];
       for (int channel = 0; channel < 3; ++channel)
       {
@@ -104,16 +103,15 @@ OrderedPictures CompositePictures(vtkMultiProcessController* controller,
   vtkIdType total = 0;
   for (int process = 0; process < processes; ++process)
   {
-    lengths.push_back(
-      4 * static_cast<vtkIdType>(notices[process].Width * notices[process].Height));
+    lengths.push_back(4 * static_cast<vtkIdType>(notices[process].Width * notices[process].Height));
     offsets.push_back(total);
     total += lengths.back();
     result.Bytes += process == first ? 0 : sizeof(float) * lengths.back();
   }
   const bool isFirst = controller->GetLocalProcessId() == first;
   std::vector<float> colors(isFirst ? total : 0);
-  controller->GatherV(mine.Colors.data(), colors.data(),
-    static_cast<vtkIdType>(mine.Colors.size()), lengths.data(), offsets.data(), first);
+  controller->GatherV(mine.Colors.data(), colors.data(), static_cast<vtkIdType>(mine.Colors.size()),
+    lengths.data(), offsets.data(), first);
   if (!isFirst)
   {
     return result;
