@@ -86,6 +86,7 @@ void vtkTriangleCasterMapper::ShallowCopy(vtkAbstractMapper* mapper)
   if (auto* other = vtkTriangleCasterMapper::SafeDownCast(mapper))
   {
     this->SetMaskInput(other->GetMaskInput());
+    this->SetWholeExtent(other->GetWholeExtent());
   }
   this->Superclass::ShallowCopy(mapper);
 }

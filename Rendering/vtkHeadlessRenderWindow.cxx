@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHeadlessRenderWindow.h"
 
+#include "OpenGL/LoadedFunctions.h"
+
 #include "vtkAutoInit.h"
 #include "vtkObjectFactory.h"
-#include "vtk_glew.h"
+#include "vtkVersionMacros.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -390,6 +392,11 @@ void vtkHeadlessRenderWindow::Initialize()
 //------------------------------------------------------------------------------------------------
 void vtkHeadlessRenderWindow::OpenGLInitContext()
 {
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
+  // GLAD asks the library of X or of the system, unless it is told.
+  this->SetOpenGLSymbolLoader(
+    [](void*, const char* name) { return eglGetProcAddress(name); }, nullptr);
+#else
   // A GLEW that was built for X loads every entry point first, and only then finds that there is
   // no X display: for a context made through EGL that is success. The superclass would refuse it.
   if (!this->Initialized)
@@ -407,6 +414,7 @@ void vtkHeadlessRenderWindow::OpenGLInitContext()
       return;
     }
   }
+#endif
   this->Superclass::OpenGLInitContext();
 }
 

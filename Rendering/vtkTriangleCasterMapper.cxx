@@ -153,6 +153,8 @@ private:
   PixelRectangle MakePicture(MapperFrame& frame, const tetralux::CPUPicture& picture);
   tetralux::ImageCasterOptions MakeOptions(const tetralux::RayGrid& grid, MapperFrame& frame) const;
   double FindBrightness(const tetralux::RayGrid& grid, const MapperFrame& frame) const;
+  /// What slices are laid through, in indices of the input's points.
+  tetralux::IndexBox FindSlicedBox() const;
   double FindSampleDistance(const MapperFrame& frame) const;
   double ChooseSampleDistance(const tetralux::RayGrid& grid, const tetralux::RayLimits& limits,
     const tetralux::ImageCasterOptions& options, const MapperFrame& frame);
@@ -340,6 +342,7 @@ tetralux::ImageCasterOptions vtkTriangleCasterMapper::Internals::MakeOptions(
   tetralux::ImageCasterOptions options;
   options.Shape = this->Self->SliceShape == PLANE_SLICES ? tetralux::SliceShape::Planes
                                                          : tetralux::SliceShape::Shells;
+  options.Whole = this->FindSlicedBox();
   options.CorrectOpacity = this->Self->CorrectOpacity != 0;
   options.PreIntegrated = this->Self->PreIntegration != 0;
   options.Shaded = frame.Shaded && frame.Property->GetShade(0) != 0;
@@ -440,6 +443,24 @@ double vtkTriangleCasterMapper::Internals::ChooseSampleDistance(const tetralux::
 }
 
 //------------------------------------------------------------------------------------------------
+tetralux::IndexBox vtkTriangleCasterMapper::Internals::FindSlicedBox() const
+{
+  tetralux::IndexBox box = GetIndexBox(this->Preparation.GetScalars().GetVolume());
+  const int* whole = this->Self->WholeExtent;
+  auto* image = vtkImageData::SafeDownCast(this->Self->GetDataObjectInput());
+  if (image && whole[0] <= whole[1] && whole[2] <= whole[3] && whole[4] <= whole[5])
+  {
+    const int* extent = image->GetExtent();
+    for (int a = 0; a < 3; ++a)
+    {
+      box.Low[a] = whole[2 * a] - extent[2 * a];
+      box.High[a] = whole[2 * a + 1] - extent[2 * a];
+    }
+  }
+  return box;
+}
+
+//------------------------------------------------------------------------------------------------
 double vtkTriangleCasterMapper::Internals::FindSampleDistance(const MapperFrame& frame) const
 {
   double distance = this->Self->SampleDistance;
@@ -447,8 +468,13 @@ double vtkTriangleCasterMapper::Internals::FindSampleDistance(const MapperFrame&
   {
     double steps[3];
     MeasureSteps(this->Preparation.GetPlacement(), frame.Volume->GetMatrix(), steps);
-    const int* size = this->Preparation.GetScalars().GetVolume().Dimensions;
-    int extent[6] = { 0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1 };
+    const tetralux::IndexBox box = this->FindSlicedBox();
+    int extent[6];
+    for (int a = 0; a < 3; ++a)
+    {
+      extent[2 * a] = static_cast<int>(box.Low[a]);
+      extent[2 * a + 1] = static_cast<int>(box.High[a]);
+    }
     distance = this->Self->SpacingAdjustedSampleDistance(steps, extent);
   }
   if (!this->Self->AutoAdjustSampleDistances || !frame.IsInteractive())
@@ -705,6 +731,9 @@ void vtkTriangleCasterMapper::PrintSelf(ostream& os, vtkIndent indent)
     "AverageIPScalarRange", this->AverageIPScalarRange[0], this->AverageIPScalarRange[1]);
   printer.Print("MaximumError", this->MaximumError);
   printer.Print("SampleDistance", this->SampleDistance);
+  const int* whole = this->WholeExtent;
+  os << indent << "WholeExtent: " << whole[0] << ", " << whole[1] << ", " << whole[2] << ", "
+     << whole[3] << ", " << whole[4] << ", " << whole[5] << "\n";
   printer.Print("SampleDistanceByError", this->SampleDistanceByError);
   printer.Print("InteractiveSampleDistance", this->InteractiveSampleDistance);
   printer.Print("SliceShape", this->SliceShape);

@@ -133,6 +133,16 @@ public:
 
   ///@{
   /**
+   * Set the extent of the whole image of which the input is a part, for parts that are rendered
+   * each on its own and then composited: they have the slices of the whole. Default empty (0, -1,
+   * 0, -1, 0, -1): the input is the whole.
+   */
+  vtkSetVector6Macro(WholeExtent, int);
+  vtkGetVector6Macro(WholeExtent, int);
+  ///@}
+
+  ///@{
+  /**
    * Set whether the distance of slices follows from MaximumError: out of those from 4 times
    * SampleDistance on, each half of the one before, down to a 16th of SampleDistance, the first at
    * which about 1,000 rays differ by no more than 3/8 of MaximumError from the next one. It is kept
@@ -551,6 +561,7 @@ protected:
 
   double MaximumError = 1e-4;
   double SampleDistance = 0;
+  int WholeExtent[6] = { 0, -1, 0, -1, 0, -1 };
   vtkTypeBool SampleDistanceByError = 0;
   double InteractiveSampleDistance = 0;
   int SliceShape = PLANE_SLICES;

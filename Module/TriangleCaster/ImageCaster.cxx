@@ -493,7 +493,8 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.UnitDistance = this->Optics.UnitDistance;
   in.CorrectOpacity = options.CorrectOpacity;
   in.Threshold = static_cast<float>(std::max(options.Threshold, 0.));
-  in.Slices = MakeSlicePlanes(this->Volume, grid, options.Shape, options.SampleDistance);
+  in.Slices = MakeSlicePlanes(options.Whole ? *options.Whole : GetIndexBox(this->Volume), grid,
+    options.Shape, options.SampleDistance);
   this->FillRays(grid, limits, in);
   this->FillGradients(grid, in);
   FillCue(options, in);

@@ -6,6 +6,7 @@
 #include "TriangleCaster/SlicePlanes.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace tetralux
@@ -32,6 +33,10 @@ struct ImageCasterOptions
 {
   double SampleDistance = 1; ///< from slice to slice, world units, above 0
   SliceShape Shape = SliceShape::Planes;
+
+  /// The box that slices are laid through, where the volume is a part of it: parts then have the
+  /// slices of the whole. None: the volume's own.
+  std::optional<IndexBox> Whole;
 
   /// Whether a sample's opacity is that of its own ray's step. Else it is that of the step of a ray
   /// along the normal of the planes (section 1.1).

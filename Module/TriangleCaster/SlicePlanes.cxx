@@ -73,8 +73,18 @@ double SlicePlanes::GetDepthOfDirection(const double direction[3]) const
                                            : std::hypot(direction[0], direction[1], direction[2]);
 }
 
+IndexBox GetIndexBox(const ImageVolume& volume)
+{
+  IndexBox box;
+  for (int a = 0; a < 3; ++a)
+  {
+    box.High[a] = volume.Dimensions[a] - 1;
+  }
+  return box;
+}
+
 SlicePlanes MakeSlicePlanes(
-  const ImageVolume& volume, const RayGrid& grid, SliceShape shape, double distance)
+  const IndexBox& box, const RayGrid& grid, SliceShape shape, double distance)
 {
   if (!(distance > 0) || !std::isfinite(distance))
   {
@@ -102,7 +112,7 @@ SlicePlanes MakeSlicePlanes(
     double right[3];
     for (int a = 0; a < 3; ++a)
     {
-      right[a] = ((corner >> a & 1) != 0 ? volume.Dimensions[a] - 1 : 0) - offset[a];
+      right[a] = ((corner >> a & 1) != 0 ? box.High[a] : box.Low[a]) - offset[a];
     }
     const std::array<double, 3> point = Solve(rows, right);
     const double depth = planes.GetDepthOfDirection(point.data());

@@ -209,6 +209,42 @@ void WriteDomain(const MapperProperty& property, unsigned kinds, std::ostream& x
   }
 }
 
+/// The methods of volumes, as the panel names them, with the mappers that they may be of.
+struct Method
+{
+  const char* Name;
+  int Number;
+  unsigned Kinds;
+};
+constexpr Method Methods[] = {
+  { "automatic", 0, tetralux::RayCastKind | tetralux::GPURayCastKind },
+  { "ray casting", 1, tetralux::RayCastKind },
+  { "graphics card", 2, tetralux::GPURayCastKind },
+  { "projection", 3, tetralux::ProjectionKind },
+};
+
+/// Whether some of the mappers of volumes are among kinds, but not all.
+bool IsOfSomeMethods(unsigned kinds)
+{
+  const unsigned ofVolumes = kinds & tetralux::VolumeKinds;
+  return ofVolumes != 0 && ofVolumes != tetralux::VolumeKinds;
+}
+
+/// " Ray casting and projection only.", or nothing where it is of all methods.
+std::string NameMethods(unsigned kinds)
+{
+  std::string names;
+  for (const Method& method : Methods)
+  {
+    const bool single = (method.Kinds & (method.Kinds - 1)) == 0;
+    if (IsOfSomeMethods(kinds) && single && (kinds & method.Kinds) != 0)
+    {
+      names += (names.empty() ? "" : " and ") + std::string(method.Name);
+    }
+  }
+  return names.empty() ? "" : " " + MakeEntry(names) + " only.";
+}
+
 void WriteDocumentation(const MapperProperty& property, unsigned kinds, std::ostream& xml)
 {
   xml << "        <Documentation>" << Escape(property.Meaning);
@@ -224,27 +260,65 @@ void WriteDocumentation(const MapperProperty& property, unsigned kinds, std::ost
     xml << " " << MakeEntry(value.Name)
         << (property.Type == PropertyType::Enumeration ? ""
                                                        : " (" + std::to_string(value.Number) + ")")
-        << ": " << Escape(value.Meaning) << ".";
+        << ": " << Escape(value.Meaning) << "."
+        << (value.Kinds == tetralux::AllKinds ? "" : NameMethods(value.Kinds));
   }
-  xml << "</Documentation>\n";
+  xml << NameMethods(property.Kinds & kinds) << "</Documentation>\n";
 }
 
 /// What a switch of the same group turns on is shown only then.
-void WriteHints(const MapperProperty& property, std::ostream& xml)
+void WriteSwitch(const MapperProperty& property, std::ostream& xml)
 {
   const std::string group = property.Group;
   const MapperProperty* groupSwitch = tetralux::FindMapperProperty(group);
-  if (!groupSwitch || groupSwitch == &property)
+  if (groupSwitch && groupSwitch != &property)
+  {
+    xml << "          <PropertyWidgetDecorator type=\"ShowWidgetDecorator\">\n"
+           "            <Property name=\"Tetralux"
+        << group
+        << "\" function=\"boolean\"/>\n"
+           "          </PropertyWidgetDecorator>\n";
+  }
+}
+
+/// What the chosen method does not use is greyed out.
+void WriteMethods(const MapperProperty& property, std::ostream& xml)
+{
+  if (!IsOfSomeMethods(property.Kinds))
   {
     return;
   }
-  xml << "        <Hints>\n"
-         "          <PropertyWidgetDecorator type=\"ShowWidgetDecorator\">\n"
-         "            <Property name=\"Tetralux"
-      << group
-      << "\" function=\"boolean\"/>\n"
-         "          </PropertyWidgetDecorator>\n"
-         "        </Hints>\n";
+  const char* decorator = "              <PropertyWidgetDecorator type=\"GenericDecorator\""
+                          " mode=\"enabled_state\" property=";
+  xml << "          <PropertyWidgetDecorator type=\"CompositeDecorator\">\n"
+         "            <Expression type=\"or\">\n";
+  for (const Method& method : Methods)
+  {
+    if ((property.Kinds & method.Kinds) != 0)
+    {
+      xml << decorator << "\"TetraluxMethod\" value=\"" << method.Number << "\"/>\n";
+    }
+  }
+  if ((property.Kinds & tetralux::IsosurfaceKind) != 0)
+  {
+    xml << decorator << "\"Representation\" value=\"Tetralux Isosurface\"/>\n";
+  }
+  xml << "            </Expression>\n"
+         "          </PropertyWidgetDecorator>\n";
+}
+
+void WriteHints(const MapperProperty& property, unsigned kinds, std::ostream& xml)
+{
+  std::ostringstream hints;
+  WriteSwitch(property, hints);
+  if ((kinds & tetralux::VolumeKinds) != 0)
+  {
+    WriteMethods(property, hints);
+  }
+  if (!hints.str().empty())
+  {
+    xml << "        <Hints>\n" << hints.str() << "        </Hints>\n";
+  }
 }
 
 std::string MakeDefinitions(const std::string& group)
@@ -270,7 +344,7 @@ std::string MakeDefinitions(const std::string& group)
     xml << "\">\n";
     WriteDomain(property, kinds, xml);
     WriteDocumentation(property, kinds, xml);
-    WriteHints(property, xml);
+    WriteHints(property, kinds, xml);
     xml << "      </" << GetElement(property.Type) << ">\n";
   }
   return xml.str();

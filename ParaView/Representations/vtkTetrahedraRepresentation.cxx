@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRepresentation.h"
 
+#include "AllProcesses.h"
+#include "FrameStatistics.h"
 #include "Intake/DataSetBlocks.h"
 #include "MapperGroup.h"
+#include "Preparation/OpacityIntegral.h"
 #include "ThreadShare.h"
+#include "TupleOpacity.h"
+#include "vtkOrderedVolume.h"
 #include "vtkTetrahedraVolumeMapper.h"
 #include "vtkTetrahedralizeCells.h"
 
@@ -20,7 +25,6 @@
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
-#include "vtkMultiProcessController.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -29,17 +33,6 @@
 
 #include <stdexcept>
 #include <vector>
-
-namespace
-{
-
-bool IsParallel()
-{
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  return controller && controller->GetNumberOfProcesses() > 1;
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------------------------
 class vtkTetrahedraRepresentation::Internals
@@ -54,6 +47,7 @@ public:
   /// What is chosen of a composite; other data as they are.
   vtkSmartPointer<vtkDataObject> ChooseBlocks(vtkDataObject* data) const;
 
+  vtkNew<vtkOrderedVolume> Shown; ///< in place of the actor, which has the part of this process
   tetralux::MapperGroup Group;
   std::vector<vtkTetrahedraVolumeMapper*> Mappers; ///< those of the group
   vtkSmartPointer<vtkUnstructuredGrid> Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -63,6 +57,7 @@ public:
   vtkTetrahedraVolumeMapper* Last = nullptr;  ///< the mapper of the last frame
   vtkSmartPointer<vtkUnstructuredGrid> Drawn; ///< what this process draws, maybe redistributed
   unsigned long FrameObserver = 0;
+  double MeasuredUnitDistance = 0;
   std::string Warning; ///< why nothing was drawn in the last frame; empty if it was
   std::string Statistics = "{}";
 };
@@ -128,6 +123,7 @@ vtkTetrahedraRepresentation::vtkTetrahedraRepresentation()
   : Private(std::make_unique<Internals>())
 {
   tetralux::ShareThreads();
+  this->Private->Shown->SetVolume(this->Actor);
   this->SetAmbient(0);
   this->SetDiffuse(1);
   this->SetSpecular(0);
@@ -248,13 +244,48 @@ void vtkTetrahedraRepresentation::SetUseDataPartitions(bool use)
 }
 
 //------------------------------------------------------------------------------------------------
+void vtkTetrahedraRepresentation::MeasureUnitDistance()
+{
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  const char* name = info->Get(vtkDataObject::FIELD_NAME());
+  const int association = info->Get(vtkDataObject::FIELD_ASSOCIATION());
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = Internals::Split(this->Private->Grid);
+  vtkDataSetAttributes* attributes = grid->GetAttributes(association);
+  vtkDataArray* array = name && attributes ? attributes->GetArray(name) : nullptr;
+  double integral = 0;
+  if (array)
+  {
+    integral =
+      tetralux::IntegrateOpacity(grid, array, association == vtkDataObject::FIELD_ASSOCIATION_CELLS,
+        tetralux::MakeTupleOpacity(this->Property, array->GetNumberOfComponents()));
+  }
+  double bounds[6];
+  tetralux::UniteBounds(this->DataBounds, bounds);
+  this->Private->MeasuredUnitDistance = tetralux::FindUnitDistance(tetralux::Add(integral), bounds);
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTetrahedraRepresentation::GetMeasuredUnitDistance()
+{
+  return this->Private->MeasuredUnitDistance;
+}
+
+//------------------------------------------------------------------------------------------------
 const char* vtkTetrahedraRepresentation::GetStatistics()
 {
   if (this->Private->Last)
   {
-    this->Private->Statistics = this->Private->Last->GetStatistics();
+    this->Private->Statistics =
+      tetralux::MakeFrameStatistics(this->Private->Last->GetStatistics(), this->Private->Shown);
   }
   return this->Private->Statistics.c_str();
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  this->Private->Shown->SetVisibility(visible);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -276,7 +307,7 @@ int vtkTetrahedraRepresentation::RequestData(
   {
     const vtkSmartPointer<vtkDataObject> data =
       this->Private->ChooseBlocks(vtkDataObject::GetData(inputVector[0], 0));
-    this->Private->Grid = IsParallel() && !this->Private->UseDataPartitions
+    this->Private->Grid = tetralux::IsParallel() && !this->Private->UseDataPartitions
       ? Internals::Split(data)
       : Internals::Append(data);
     this->Private->Grid->GetBounds(this->DataBounds);
@@ -331,6 +362,8 @@ int vtkTetrahedraRepresentation::ProcessViewRequest(
       // Until there is a context: see OnFrame.
       this->UseMapper(this->Private->Last ? this->Private->Last : this->Private->Mappers.front());
     }
+    auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
+    this->Private->Shown->PrepareFrame(view->GetRenderer());
   }
   return 1;
 }
@@ -413,7 +446,7 @@ bool vtkTetrahedraRepresentation::AddToView(vtkView* view)
     return false;
   }
   vtkRenderer* renderer = renderView->GetRenderer();
-  renderer->AddVolume(this->Actor);
+  renderer->AddViewProp(this->Private->Shown);
   this->Private->FrameObserver =
     renderer->AddObserver(vtkCommand::StartEvent, this, &vtkTetrahedraRepresentation::OnFrame);
   return this->Superclass::AddToView(view);
@@ -427,7 +460,7 @@ bool vtkTetrahedraRepresentation::RemoveFromView(vtkView* view)
   {
     return false;
   }
-  renderView->GetRenderer()->RemoveVolume(this->Actor);
+  renderView->GetRenderer()->RemoveViewProp(this->Private->Shown);
   renderView->GetRenderer()->RemoveObserver(this->Private->FrameObserver);
   return this->Superclass::RemoveFromView(view);
 }

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTriangleCasterRepresentation.h"
 
+#include "AllProcesses.h"
+#include "FrameStatistics.h"
 #include "MapperGroup.h"
+#include "Preparation/OpacityIntegral.h"
+#include "ThreadShare.h"
+#include "TupleOpacity.h"
+#include "vtkOrderedVolume.h"
 #include "vtkTriangleCasterMapper.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkRenderer.h"
 #include "vtkVolumeProperty.h"
 
 #include <stdexcept>
@@ -19,9 +28,11 @@ vtkStandardNewMacro(vtkTriangleCasterRepresentation);
 class vtkTriangleCasterRepresentation::Internals
 {
 public:
+  vtkNew<vtkOrderedVolume> Shown; ///< in place of the actor, which has the part of this process
   vtkNew<vtkTriangleCasterMapper> Mapper;
   tetralux::MapperGroup Group;
   std::vector<double> CroppingRegionPlanes; ///< as they were set; empty before that
+  double MeasuredUnitDistance = 0;
   std::string Statistics = "{}";
 };
 
@@ -29,6 +40,8 @@ public:
 vtkTriangleCasterRepresentation::vtkTriangleCasterRepresentation()
   : Private(std::make_unique<Internals>())
 {
+  tetralux::ShareThreads();
+  this->Private->Shown->SetVolume(this->Actor);
   this->VolumeMapper = this->Private->Mapper;
   this->Private->Group.Add(this->Private->Mapper);
 }
@@ -87,10 +100,79 @@ void vtkTriangleCasterRepresentation::SetClipFunction(vtkImplicitFunction* funct
 }
 
 //------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::MeasureUnitDistance()
+{
+  auto* image = vtkImageData::SafeDownCast(this->Cache);
+  vtkDataArray* array = image ? this->GetInputArrayToProcess(0, image) : nullptr;
+  double integral = 0;
+  if (array)
+  {
+    integral = tetralux::IntegrateOpacity(
+      image, array, tetralux::MakeTupleOpacity(this->Property, array->GetNumberOfComponents()));
+  }
+  double bounds[6];
+  tetralux::UniteBounds(this->DataBounds, bounds);
+  this->Private->MeasuredUnitDistance = tetralux::FindUnitDistance(tetralux::Add(integral), bounds);
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTriangleCasterRepresentation::GetMeasuredUnitDistance()
+{
+  return this->Private->MeasuredUnitDistance;
+}
+
+//------------------------------------------------------------------------------------------------
 const char* vtkTriangleCasterRepresentation::GetStatistics()
 {
-  this->Private->Statistics = this->Private->Mapper->GetStatistics();
+  this->Private->Statistics =
+    tetralux::MakeFrameStatistics(this->Private->Mapper->GetStatistics(), this->Private->Shown);
   return this->Private->Statistics.c_str();
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTriangleCasterRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  this->Private->Shown->SetVisibility(visible);
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkTriangleCasterRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
+  {
+    return 0;
+  }
+  if (request == vtkPVView::REQUEST_RENDER())
+  {
+    auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
+    this->Private->Shown->PrepareFrame(view->GetRenderer());
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------------------------
+bool vtkTriangleCasterRepresentation::AddToView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!this->Superclass::AddToView(view) || !renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->RemoveViewProp(this->Actor);
+  renderView->GetRenderer()->AddViewProp(this->Private->Shown);
+  return true;
+}
+
+//------------------------------------------------------------------------------------------------
+bool vtkTriangleCasterRepresentation::RemoveFromView(vtkView* view)
+{
+  if (auto* renderView = vtkPVRenderView::SafeDownCast(view))
+  {
+    renderView->GetRenderer()->RemoveViewProp(this->Private->Shown);
+  }
+  return this->Superclass::RemoveFromView(view);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -98,6 +180,7 @@ void vtkTriangleCasterRepresentation::UpdateMapperParameters()
 {
   this->Superclass::UpdateMapperParameters();
   vtkTriangleCasterMapper* mapper = this->Private->Mapper;
+  mapper->SetWholeExtent(this->WholeExtent);
   // The superclass takes the planes for relative ones, of the part of the data that a process has.
   if (!this->Private->CroppingRegionPlanes.empty())
   {

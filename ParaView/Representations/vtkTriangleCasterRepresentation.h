@@ -46,17 +46,38 @@ public:
    */
   void SetClipFunction(vtkImplicitFunction* function);
 
+  ///@{
+  /**
+   * Find the unit distance with which rays through the bounds of the data, in all directions alike,
+   * have a mean optical depth of 1 with the opacities of now; to be called by all processes at
+   * once. 0 if there are no data, or if all are transparent.
+   */
+  void MeasureUnitDistance();
+  double GetMeasuredUnitDistance();
+  ///@}
+
   /**
    * Return the statistics of the last frame of this process, as JSON, see
-   * vtkTriangleCasterMapper::GetStatistics.
+   * vtkTriangleCasterMapper::GetStatistics. In a parallel run with "composited": the bytes that all
+   * processes sent, and the seconds that this one took.
    */
   const char* GetStatistics();
+
+  /**
+   * Set whether it is shown in views.
+   */
+  void SetVisibility(bool visible) override;
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
 
 protected:
   vtkTriangleCasterRepresentation();
   ~vtkTriangleCasterRepresentation() override;
 
   void UpdateMapperParameters() override;
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
 
 private:
   vtkTriangleCasterRepresentation(const vtkTriangleCasterRepresentation&) = delete;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/DrawnViewport.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/ImageCompositor.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "CompositeDepthFS.h"
 #include "CompositeImageFS.h"
@@ -11,7 +12,6 @@
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <stdexcept>
 #include <string>

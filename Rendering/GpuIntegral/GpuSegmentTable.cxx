@@ -5,13 +5,13 @@
 #include "GpuIntegral/TexelTextureFormat.h"
 #include "GpuIntegral/TextureFilterError.h"
 #include "IntegrateTableDec.h"
+#include "OpenGL/LoadedFunctions.h"
 #include "ScalarBucketsDec.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <stdexcept>

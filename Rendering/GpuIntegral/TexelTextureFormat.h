@@ -2,9 +2,9 @@
 #ifndef tetralux_TexelTextureFormat_h
 #define tetralux_TexelTextureFormat_h
 
-#include "PreIntegration/PreIntegrationTable.h"
+#include "OpenGL/LoadedFunctions.h"
 
-#include "vtk_glew.h"
+#include "PreIntegration/PreIntegrationTable.h"
 
 namespace tetralux
 {

@@ -4,6 +4,7 @@
 #include "FilterErrorFS.h"
 #include "GpuIntegral/TexelTextureFormat.h"
 #include "OpenGL/FloatTarget.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "vtkNew.h"
 #include "vtkOpenGLQuadHelper.h"
@@ -12,7 +13,6 @@
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuProjection/ProjectedCellDrawer.h"
 
+#include "OpenGL/LoadedFunctions.h"
 #include "OpenGL/ScreenProgram.h"
 #include "ProjectedCellFS.h"
 #include "ProjectedCellVS.h"
@@ -11,7 +12,6 @@
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLVertexArrayObject.h"
 #include "vtkShaderProgram.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuProjection/ProjectionPicture.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "AlphaDitherDec.h"
 #include "Base/Stopwatch.h"
@@ -15,7 +16,6 @@
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,6 +10,7 @@
 #include "GpuRayCast/GpuRayLimits.h"
 #include "GpuRayCast/PixelProjection.h"
 #include "GpuRayCast/WalkTextures.h"
+#include "OpenGL/LoadedFunctions.h"
 #include "RayDoneFS.h"
 #include "RayEntryFS.h"
 #include "RayFrameDec.h"
@@ -23,7 +24,6 @@
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <deque>

@@ -4,11 +4,11 @@
 #include "GpuRayCast/RayPicture.h"
 #include "OpenGL/FloatTarget.h"
 #include "OpenGL/GraphicsMemory.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -2,12 +2,12 @@
 #include "OpenGL/FloatTarget.h"
 
 #include "OpenGL/GraphicsMemory.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <stdexcept>

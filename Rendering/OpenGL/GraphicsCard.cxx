@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenGL/GraphicsCard.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <array>
@@ -18,19 +18,39 @@ namespace
 constexpr const char* SoftwareNames[] = { "llvmpipe", "softpipe", "software rasterizer",
   "swiftshader", "swr", "basic render driver", "gdi generic", "apple software renderer" };
 
+bool HasExtension(const std::string& name)
+{
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i)
+  {
+    const auto* extension =
+      reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
+    if (extension && name == extension)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Not all loaders of functions know these.
+constexpr GLenum CurrentAvailableMemoryNVX = 0x9049;
+constexpr GLenum TextureFreeMemoryATI = 0x87FC;
+
 /// Free memory of the graphics card, bytes; -1 where it does not tell.
 std::int64_t GetFreeBytes()
 {
   constexpr std::int64_t Kibibyte = 1024;
   std::array<GLint, 4> kibibytes{};
-  if (glewIsSupported("GL_NVX_gpu_memory_info"))
+  if (HasExtension("GL_NVX_gpu_memory_info"))
   {
-    glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, kibibytes.data());
+    glGetIntegerv(CurrentAvailableMemoryNVX, kibibytes.data());
     return kibibytes[0] * Kibibyte;
   }
-  if (glewIsSupported("GL_ATI_meminfo"))
+  if (HasExtension("GL_ATI_meminfo"))
   {
-    glGetIntegerv(GL_TEXTURE_FREE_MEMORY_ATI, kibibytes.data());
+    glGetIntegerv(TextureFreeMemoryATI, kibibytes.data());
     return kibibytes[0] * Kibibyte;
   }
   return -1;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenGL/GraphicsMemory.h"
-
-#include "vtk_glew.h"
+#include "OpenGL/LoadedFunctions.h"
 
 namespace tetralux
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenGL/ScreenProgram.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "CoverScreenVS.h"
 
@@ -9,7 +10,6 @@
 #include "vtkOpenGLVertexArrayObject.h"
 #include "vtkShader.h"
 #include "vtkShaderProgram.h"
-#include "vtk_glew.h"
 
 #include <stdexcept>
 

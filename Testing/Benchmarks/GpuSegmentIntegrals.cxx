@@ -7,6 +7,7 @@
 
 #include "GpuIntegral/GpuSegmentIntegral.h"
 #include "OpenGL/FloatTarget.h"
+#include "OpenGL/LoadedFunctions.h"
 #include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 
@@ -17,7 +18,6 @@
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <chrono>

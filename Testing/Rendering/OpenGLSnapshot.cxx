@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenGLSnapshot.h"
 
+#include "OpenGL/LoadedFunctions.h"
+
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkTextureUnitManager.h"
-#include "vtk_glew.h"
 
 #include <gtest/gtest.h>
 

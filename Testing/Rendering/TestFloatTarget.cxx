@@ -5,12 +5,12 @@
 #include "GlslEvaluator.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
 #include "OpenGL/FloatTarget.h"
+#include "OpenGL/LoadedFunctions.h"
 #include "OpenGLSnapshot.h"
 #include "Optics/IntervalTable.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLState.h"
-#include "vtk_glew.h"
 
 #include <gtest/gtest.h>
 

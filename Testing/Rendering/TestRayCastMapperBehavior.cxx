@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the mapper rebuilds, how it composites, adjusts, aborts and refuses.
 #include "Observer.h"
+#include "OpenGL/LoadedFunctions.h"
 #include "RayCastScene.h"
 #include "Statistics.h"
 
@@ -24,7 +25,6 @@
 #include "vtkSelectionNode.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkWindowToImageFilter.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <cmath>

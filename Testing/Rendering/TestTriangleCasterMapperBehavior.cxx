@@ -39,6 +39,50 @@ std::string RenderAndGetRebuilt(ImageScene& scene)
   return scene.Get("rebuilt");
 }
 
+/// The picture of a part of the scene's image.
+std::vector<float> RenderPart(ImageScene& scene, std::array<int, 6> extent)
+{
+  vtkNew<vtkImageData> part;
+  part->DeepCopy(MakeImage());
+  part->Crop(extent.data());
+  scene.Mapper->SetInputData(part);
+  return scene.Render();
+}
+
+TEST(TriangleCasterMapperBehavior, PartsCompositeToTheWhole)
+{
+  constexpr double Largest = 1e-4; // a slab that the border cuts has two samples instead of one
+  ImageScene scene;
+  scene.Mapper->SetSampleDistance(0); // which follows from the number of points
+  vtkCamera* camera = scene.Renderer->GetActiveCamera();
+  camera->SetPosition(40, 12, 14);
+  camera->SetFocalPoint(6.5, 5, 4);
+  scene.Renderer->ResetCameraClippingRange();
+  const std::array<int, 6> all = { 0, ImageSize[0] - 1, 0, ImageSize[1] - 1, 0, ImageSize[2] - 1 };
+  const std::vector<float> whole = scene.Render();
+  const std::string distance = scene.Get("distance");
+
+  std::array<int, 6> far = all;
+  std::array<int, 6> near = all;
+  far[1] = near[0] = 6;
+  RenderPart(scene, far);
+  EXPECT_NE(scene.Get("distance"), distance);
+  scene.Mapper->SetWholeExtent(all.data());
+  const std::vector<float> behind = RenderPart(scene, far);
+  EXPECT_EQ(scene.Get("distance"), distance);
+  std::vector<float> sum = RenderPart(scene, near);
+  EXPECT_GT(FindDifference(sum, whole), Largest);
+  for (std::size_t i = 0; i < sum.size(); i += 4)
+  {
+    const float transmittance = 1 - sum[i + 3];
+    for (std::size_t channel = 0; channel < 4; ++channel)
+    {
+      sum[i + channel] += transmittance * behind[i + channel];
+    }
+  }
+  EXPECT_LT(FindDifference(sum, whole), Largest);
+}
+
 TEST(TriangleCasterMapperBehavior, KeepsTheDistanceThatItChose)
 {
   ImageScene scene;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Isosurfaces/IsosurfaceWindow.h"
 
+#include "OpenGL/LoadedFunctions.h"
+
 #include "Base/Stopwatch.h"
 #include "Setup/SceneCamera.h"
 #include "Setup/SceneOptions.h"
@@ -20,8 +22,6 @@
 #include "vtkVolumeCollection.h"
 
 #include <algorithm>
-
-#include <vtk_glew.h>
 
 namespace tetralux
 {

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOrderedVolume.h"
+
+#include "AllProcesses.h"
+#include "Base/Stopwatch.h"
+#include "Compositing/OrderedPictures.h"
+#include "Compositing/PictureCapture.h"
+#include "Compositing/ProcessOrder.h"
+#include "Frame/ImageCompositor.h"
+
+#include "vtkMath.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPropCollection.h"
+#include "vtkRenderer.h"
+#include "vtkVolume.h"
+
+#include <algorithm>
+#include <exception>
+
+vtkStandardNewMacro(vtkOrderedVolume);
+
+//------------------------------------------------------------------------------------------------
+class vtkOrderedVolume::Internals
+{
+public:
+  vtkSmartPointer<vtkVolume> Volume;
+  double Bounds[6] = { 1, -1, 1, -1, 1, -1 }; ///< of all processes
+  tetralux::PictureCapture Capture;
+  tetralux::ImageCompositor Compositor;
+  std::size_t Bytes = 0;
+  double Seconds = 0;
+};
+
+//------------------------------------------------------------------------------------------------
+vtkOrderedVolume::vtkOrderedVolume()
+  : Private(std::make_unique<Internals>())
+{
+}
+
+//------------------------------------------------------------------------------------------------
+vtkOrderedVolume::~vtkOrderedVolume() = default;
+
+//------------------------------------------------------------------------------------------------
+void vtkOrderedVolume::SetVolume(vtkVolume* volume) { this->Private->Volume = volume; }
+
+//------------------------------------------------------------------------------------------------
+void vtkOrderedVolume::PrepareFrame(vtkRenderer* renderer)
+{
+  vtkVolume* volume = this->Private->Volume;
+  tetralux::UniteBounds(
+    volume->GetVisibility() ? volume->GetBounds() : nullptr, this->Private->Bounds);
+  if (tetralux::IsParallel())
+  {
+    tetralux::LetAllProcessesDraw(renderer);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+vtkTypeInt64 vtkOrderedVolume::GetNumberOfBytes() const
+{
+  return static_cast<vtkTypeInt64>(this->Private->Bytes);
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkOrderedVolume::GetSeconds() const { return this->Private->Seconds; }
+
+//------------------------------------------------------------------------------------------------
+double* vtkOrderedVolume::GetBounds()
+{
+  double* bounds = this->Private->Bounds;
+  return vtkMath::AreBoundsInitialized(bounds) ? bounds : nullptr;
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkOrderedVolume::GetVolumes(vtkPropCollection* volumes)
+{
+  this->Private->Volume->GetVolumes(volumes);
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkOrderedVolume::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  vtkVolume* volume = this->Private->Volume;
+  return volume->GetVisibility() ? volume->RenderOpaqueGeometry(viewport) : 0;
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkOrderedVolume::RenderTranslucentPolygonalGeometry(vtkViewport* viewport)
+{
+  vtkVolume* volume = this->Private->Volume;
+  return volume->GetVisibility() ? volume->RenderTranslucentPolygonalGeometry(viewport) : 0;
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkOrderedVolume::RenderVolumetricGeometry(vtkViewport* viewport)
+{
+  vtkVolume* volume = this->Private->Volume;
+  int rendered = 0;
+  const auto drawPart = [&]
+  {
+    if (volume->GetVisibility())
+    {
+      rendered = volume->RenderVolumetricGeometry(viewport);
+    }
+  };
+  auto* renderer = vtkRenderer::SafeDownCast(viewport);
+  const std::vector<int> order = tetralux::FindProcessOrder(renderer);
+  this->Private->Bytes = 0;
+  this->Private->Seconds = 0;
+  if (order.size() < 2 || renderer->GetSelector())
+  {
+    drawPart();
+    return rendered;
+  }
+
+  // Whatever fails in one process, the others wait for its picture.
+  tetralux::PartialPicture mine;
+  try
+  {
+    mine = this->Private->Capture.Draw(renderer, drawPart);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+  const tetralux::Stopwatch stopwatch;
+  const tetralux::OrderedPictures pictures =
+    tetralux::CompositePictures(vtkMultiProcessController::GetGlobalController(), order, mine,
+      tetralux::FindPictureOrigin(renderer));
+  this->Private->Bytes = pictures.Bytes;
+  const tetralux::PixelRectangle& shown = pictures.Whole.Rectangle;
+  if (shown.Width > 0)
+  {
+    try
+    {
+      this->Private->Compositor.Composite(
+        vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), shown,
+        pictures.Whole.Colors.data(), shown.Width, shown.Height,
+        { 0, 0, shown.Width, shown.Height });
+    }
+    catch (const std::exception& error)
+    {
+      vtkErrorMacro(<< error.what());
+    }
+  }
+  this->Private->Seconds = stopwatch.GetSeconds();
+  return rendered;
+}
+
+//------------------------------------------------------------------------------------------------
+vtkTypeBool vtkOrderedVolume::HasTranslucentPolygonalGeometry()
+{
+  vtkVolume* volume = this->Private->Volume;
+  return volume->GetVisibility() && volume->HasTranslucentPolygonalGeometry();
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkOrderedVolume::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Private->Volume->ReleaseGraphicsResources(window);
+  this->Private->Capture.ReleaseGraphicsResources(window);
+  this->Private->Compositor.ReleaseGraphicsResources(window);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkOrderedVolume::SetAllocatedRenderTime(double seconds, vtkViewport* viewport)
+{
+  this->Superclass::SetAllocatedRenderTime(seconds, viewport);
+  this->Private->Volume->SetAllocatedRenderTime(seconds, viewport);
+}
+
+//------------------------------------------------------------------------------------------------
+vtkMTimeType vtkOrderedVolume::GetRedrawMTime()
+{
+  return std::max(this->Superclass::GetRedrawMTime(), this->Private->Volume->GetRedrawMTime());
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkOrderedVolume::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Volume: " << this->Private->Volume.Get() << "\n";
+  os << indent << "NumberOfBytes: " << this->GetNumberOfBytes() << "\n";
+  os << indent << "Seconds: " << this->GetSeconds() << "\n";
+}
