@@ -51,40 +51,6 @@ constexpr double InteractiveFactor = 2;
 /// SampleDistanceByError begins with slices this much farther apart.
 constexpr double CoarsestFactor = 4;
 
-/// The smallest rectangle with all that contributes; empty if nothing does.
-PixelRectangle FindCovered(const tetralux::CPUPicture& picture)
-{
-  const int width = picture.Grid.Width;
-  int left = width;
-  int right = -1;
-  int lower = -1;
-  int upper = -1;
-  for (int j = 0; j < picture.Grid.Height; ++j)
-  {
-    const float* row = picture.Depths.data() + static_cast<std::size_t>(j) * width;
-    int first = 0;
-    while (first < width && row[first] == -1)
-    {
-      ++first;
-    }
-    if (first == width)
-    {
-      continue;
-    }
-    int last = width - 1;
-    while (row[last] == -1)
-    {
-      --last;
-    }
-    left = std::min(left, first);
-    right = std::max(right, last);
-    lower = lower < 0 ? j : lower;
-    upper = j;
-  }
-  return right < 0 ? PixelRectangle()
-                   : PixelRectangle{ left, lower, right + 1 - left, upper + 1 - lower };
-}
-
 tetralux::LightSum ToLightSum(int sum)
 {
   switch (sum)
@@ -319,7 +285,7 @@ PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
       this->Last.reset(); // in the record now
     }
   }
-  return frame.Aborted ? PixelRectangle() : FindCovered(picture);
+  return frame.Aborted ? PixelRectangle() : tetralux::FindCovered(picture);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -103,22 +103,20 @@ bool CPUDrawing::IsKept(const MapperFrame& frame) const
 void CPUDrawing::Composite(
   const MapperFrame& frame, const CPUPicture& picture, const PixelRectangle& visible)
 {
-  const int width = picture.Grid.Width;
-  const int height = picture.Grid.Height;
   const LastPicture& last = this->Last;
-  const float* depths = last.Depths.data();
-  if (!last.Colors.empty())
+  MemoryPicture drawn;
+  drawn.Width = picture.Grid.Width;
+  drawn.Height = picture.Grid.Height;
+  drawn.Depths = last.Depths.data();
+  if (last.Colors.empty())
   {
-    this->Compositor.CompositeOpaque(
-      frame.Window, visible, last.Colors.data(), depths, width, height, last.Covered);
-    return;
+    drawn.Colors = picture.Colors.data();
   }
-  if (!last.Depths.empty())
+  else
   {
-    this->Compositor.WriteDepth(frame.Window, visible, depths, width, height, last.Covered);
+    drawn.Bytes = last.Colors.data();
   }
-  this->Compositor.Composite(
-    frame.Window, visible, picture.Colors.data(), width, height, last.Covered);
+  this->Compositor.Composite(frame.Window, visible, drawn, last.Covered);
 }
 
 void CPUDrawing::ReleaseGraphicsResources(vtkWindow* window)

@@ -3,7 +3,7 @@
 #define tetralux_CPUPicture_h
 
 #include "Base/Span.h"
-#include "Frame/CameraRays.h"
+#include "Frame/DrawnViewport.h"
 #include "View/DepthMap.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
@@ -26,6 +26,9 @@ struct CPUPicture
   DepthMap Depth;     ///< of the window
   Span<float> Depths; ///< to be filled: distance along the ray, -1 where there is nothing
 };
+
+/// The smallest rectangle of rays with all that contributes; empty if nothing does.
+PixelRectangle FindCovered(const CPUPicture& picture);
 
 } // namespace tetralux
 

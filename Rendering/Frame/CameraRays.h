@@ -41,6 +41,11 @@ public:
   /// Adds the near and the far plane.
   void AddClippingRange(RayLimits& limits) const;
 
+  /// Pixels of the visible part that a box may cover; empty if it covers none. worldFromBox: rows of
+  /// an affine matrix. center and halfSize: of the box.
+  PixelRectangle FindCovered(
+    const double worldFromBox[16], const double center[3], const double halfSize[3]) const;
+
   /// What the depth buffer holds of points in the world.
   DepthMap GetDepthMap() const;
 
