@@ -142,6 +142,7 @@ private:
   vtkWeakPointer<vtkDataObject> Input; ///< of the last frame
   vtkMTimeType InputTime = 0;          ///< when that frame began
   double SliceError = 0;               ///< beside what the record has
+  double SliceDistance = 0;            ///< of the last picture
 };
 
 //------------------------------------------------------------------------------------------------
@@ -263,13 +264,20 @@ tetralux::ScalarSelection vtkTriangleCasterMapper::Internals::SelectScalars() co
 PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
   MapperFrame& frame, const tetralux::CPUPicture& picture)
 {
-  this->Last.reset();
-  this->SliceError = 0;
   const tetralux::ImagePlacement& placement = this->Preparation.GetPlacement();
   const tetralux::RayGrid grid = ToIndices(placement, picture.Grid);
   const tetralux::RayLimits limits = ToIndices(placement, picture.Limits);
   tetralux::ImageCasterOptions options = this->MakeOptions(grid, frame);
-  options.SampleDistance = this->ChooseSampleDistance(grid, limits, options, frame);
+  if (picture.OfSamples)
+  {
+    options.SampleDistance = this->SliceDistance;
+    this->Preparation.Caster.Cast(grid, limits, options, picture.Colors, picture.Depths);
+    return tetralux::FindCovered(picture);
+  }
+  this->Last.reset();
+  this->SliceError = 0;
+  this->SliceDistance = this->ChooseSampleDistance(grid, limits, options, frame);
+  options.SampleDistance = this->SliceDistance;
   const tetralux::ImageCastStatistics statistics =
     this->Preparation.Caster.Cast(grid, limits, options, picture.Colors, picture.Depths);
   frame.Aborted = statistics.Aborted;

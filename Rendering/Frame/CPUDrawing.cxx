@@ -15,11 +15,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
 namespace tetralux
 {
+namespace
+{
+
+constexpr float Infinity = std::numeric_limits<float>::infinity();
+
+/// Whether each ray is the middle of a pixel.
+bool IsOfPixels(const CameraRays& rays)
+{
+  return rays.GetGrid().Width == rays.GetVisible().Width &&
+    rays.GetGrid().Height == rays.GetVisible().Height;
+}
+
+/// The rays of samples; their depths are not read yet.
+OpaqueSamples MakeSamples(const CameraRays& rays, std::size_t samples)
+{
+  OpaqueSamples result;
+  result.Width = rays.GetGrid().Width;
+  result.Height = rays.GetGrid().Height;
+  result.Samples = static_cast<int>(samples);
+  result.PixelWidth = rays.GetWidth();
+  result.GetDistance = [&rays](int x, int y, double depth)
+  { return rays.GetDistance(x, y, depth); };
+  return result;
+}
+
+/// Moves the rays of a picture, in pixels.
+void ShiftRays(double x, double y, CPUPicture& picture)
+{
+  RayGrid& grid = picture.Grid;
+  DepthMap& map = picture.Depth;
+  for (int c = 0; c < 3; ++c)
+  {
+    const double move = x * grid.OriginStepX[c] + y * grid.OriginStepY[c];
+    grid.Origin[c] += move;
+    grid.Direction[c] += x * grid.DirectionStepX[c] + y * grid.DirectionStepY[c];
+    map.Depth[3] += map.Depth[c] * move;
+    map.Divisor[3] += map.Divisor[c] * move;
+  }
+}
+
+} // namespace
 
 void CPUDrawing::Draw(
   MapperFrame& frame, const RayDistances& distances, const PictureMaker& makePicture)
@@ -36,17 +79,27 @@ void CPUDrawing::Draw(
   picture.Grid = frame.MakeGrid(rays);
   picture.Limits = frame.MakeLimits(rays);
   picture.Depth = rays.GetDepthMap();
+  // Of frame buffers that are not multisampled, and where rays are not pixels: none.
+  const SamplePlaces places = IsOfPixels(rays) ? FindSamplePlaces() : SamplePlaces();
+  OpaqueSamples samples = MakeSamples(rays, places.size());
   if (frame.HasOpaqueGeometry())
   {
     const Stopwatch stopwatch;
     picture.OpaqueDistances = std::make_shared<const std::vector<float>>(
-      ReadOpaqueDistances(this->Opaque, frame.Window, rays));
+      this->FindOpaqueDistances(frame, rays, places, samples));
     frame.Seconds.emplace_back("depth_buffer", stopwatch.GetSeconds());
   }
   frame.Opaque = picture.OpaqueDistances && !picture.OpaqueDistances->empty();
   picture.Limits.MaximumDistances = frame.Opaque ? picture.OpaqueDistances->data() : nullptr;
 
   frame.AddViewToKey(rays, picture.Grid, picture.Limits);
+  frame.Key.Add(places.size());
+  if (!samples.Depths.empty())
+  {
+    Digester depths;
+    depths.Add(samples.Depths.data(), sizeof(float) * samples.Depths.size());
+    AddNumbersTo(frame.Key, depths.Get());
+  }
   if (frame.Opaque)
   {
     Digester distances;
@@ -57,7 +110,7 @@ void CPUDrawing::Draw(
   const PixelRectangle& visible = rays.GetVisible();
   const int width = picture.Grid.Width;
   const int height = picture.Grid.Height;
-  picture.IsWindowSized = width == visible.Width && height == visible.Height;
+  picture.IsWindowSized = IsOfPixels(rays) && places.empty();
   frame.Kept = this->IsKept(frame);
   const Stopwatch castStopwatch;
   MapperFrame::PrepareImage(frame.Image, width, height, picture.Colors, picture.Depths);
@@ -78,6 +131,12 @@ void CPUDrawing::Draw(
     this->SecondsPerRay = seconds / (static_cast<double>(width) * height);
     this->Last.Depths = frame.WindowDepths;
     this->Last.Colors = frame.WindowColors;
+    if (!places.empty() && this->Last.Covered.Width > 0 && !frame.IsMean)
+    {
+      const Stopwatch samplesStopwatch;
+      this->CastSamples(frame, rays, picture, places, samples, makePicture);
+      frame.Seconds.emplace_back("edges", samplesStopwatch.GetSeconds());
+    }
     if (frame.Final)
     {
       this->Last.Stamp.Set(frame.Key);
@@ -110,19 +169,108 @@ void CPUDrawing::Composite(
   drawn.Depths = last.Depths.data();
   if (last.Colors.empty())
   {
-    drawn.Colors = picture.Colors.data();
+    drawn.Colors = last.OtherColors.empty() ? picture.Colors.data() : last.OtherColors.data();
   }
   else
   {
     drawn.Bytes = last.Colors.data();
   }
   this->Compositor.Composite(frame.Window, visible, drawn, last.Covered);
+  if (!last.Samples.Pixels.empty())
+  {
+    this->EdgeCompositor.Composite(frame.Window, visible, last.Samples);
+  }
+}
+
+/// Reads what ends rays, and of a multisampled frame buffer what its samples have.
+std::vector<float> CPUDrawing::FindOpaqueDistances(const MapperFrame& frame, const CameraRays& rays,
+  const SamplePlaces& places, OpaqueSamples& samples)
+{
+  if (places.empty())
+  {
+    return ReadOpaqueDistances(this->Opaque, frame.Window, rays);
+  }
+  samples.Depths =
+    this->OpaqueOfSamples.Read(frame.Window, rays.GetVisible(), static_cast<int>(places.size()));
+  std::vector<float> distances = tetralux::FindOpaqueDistances(samples);
+  if (distances.empty())
+  {
+    samples.Depths.clear();
+  }
+  return distances;
+}
+
+/// Casts pixels at edges again, sample by sample.
+void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const CPUPicture& picture,
+  const SamplePlaces& places, const OpaqueSamples& opaque, const PictureMaker& makePicture)
+{
+  const int width = picture.Grid.Width;
+  const std::size_t size = picture.Depths.size();
+  PixelSamples& result = this->Last.Samples;
+  result.Samples = opaque.Samples;
+  result.Pixels = FindEdges(opaque, picture.Depths.data());
+  if (result.Pixels.empty())
+  {
+    return;
+  }
+
+  // What is drawn of the pixels themselves has none at edges.
+  this->Last.OtherColors.assign(picture.Colors.begin(), picture.Colors.end());
+  this->Last.OtherDepths.assign(frame.WindowDepths.begin(), frame.WindowDepths.end());
+  for (const std::int32_t pixel : result.Pixels)
+  {
+    std::fill_n(&this->Last.OtherColors[4 * static_cast<std::size_t>(pixel)], 4, 0.f);
+    if (!this->Last.OtherDepths.empty())
+    {
+      this->Last.OtherDepths[static_cast<std::size_t>(pixel)] = 1;
+    }
+  }
+  this->Last.Depths = this->Last.OtherDepths;
+
+  std::vector<float> colors(4 * size);
+  std::vector<float> depths(size);
+  std::vector<float> ends(size);
+  for (std::size_t sample = 0; sample < places.size(); ++sample)
+  {
+    const double x = places[sample][0] - 0.5;
+    const double y = places[sample][1] - 0.5;
+    std::fill(ends.begin(), ends.end(), -Infinity);
+    for (const std::int32_t pixel : result.Pixels)
+    {
+      const auto place = static_cast<std::size_t>(pixel);
+      const float depth = opaque.Depths.empty() ? 1 : opaque.Depths[sample * size + place];
+      ends[place] = depth < 1
+        ? static_cast<float>(rays.GetDistance(pixel % width + x, pixel / width + y, depth))
+        : Infinity;
+    }
+    CPUPicture ofSample = picture;
+    ShiftRays(x, y, ofSample);
+    ofSample.OfSamples = true;
+    ofSample.OpaqueDistances = nullptr;
+    ofSample.Limits.MaximumDistances = ends.data();
+    ofSample.Colors = colors;
+    ofSample.Depths = depths;
+    MapperFrame drawn = frame;
+    drawn.Progress = nullptr;
+    makePicture(drawn, ofSample);
+    for (const std::int32_t pixel : result.Pixels)
+    {
+      const auto place = static_cast<std::size_t>(pixel);
+      result.Colors.insert(result.Colors.end(), &colors[4 * place], &colors[4 * place] + 4);
+      if (!drawn.WindowDepths.empty())
+      {
+        result.Depths.push_back(drawn.WindowDepths[place]);
+      }
+    }
+  }
 }
 
 void CPUDrawing::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Compositor.ReleaseGraphicsResources(window);
+  this->EdgeCompositor.ReleaseGraphicsResources(window);
   this->Opaque.ReleaseGraphicsResources(window);
+  this->OpaqueOfSamples.ReleaseGraphicsResources(window);
 }
 
 double CPUDrawing::ChooseSampleDistance(

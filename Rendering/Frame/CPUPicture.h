@@ -18,7 +18,8 @@ namespace tetralux
 struct CPUPicture
 {
   RayGrid Grid;
-  bool IsWindowSized = false;                                ///< a ray is a pixel
+  bool IsWindowSized = false; ///< a ray is a pixel, which has one sample
+  bool OfSamples = false; ///< of samples at edges of the picture made before; most rays are empty
   std::shared_ptr<const std::vector<float>> OpaqueDistances; ///< what Limits point to
   RayLimits Limits;                                          ///< opaque geometry included
   double SampleDistance = 1;                                 ///< pixels from ray to ray

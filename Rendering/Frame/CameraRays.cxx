@@ -265,7 +265,7 @@ DepthMap CameraRays::GetDepthMap() const
   return map;
 }
 
-double CameraRays::GetDistance(int i, int j, double depth) const
+double CameraRays::GetDistance(double i, double j, double depth) const
 {
   double x, y;
   this->GetDevicePoint(i, j, x, y);
@@ -282,6 +282,21 @@ double CameraRays::GetDistance(int i, int j, double depth) const
     length = std::hypot(length, direction);
   }
   return along / length;
+}
+
+std::array<double, 2> CameraRays::GetWidth() const
+{
+  const auto measure = [](const double(&vector)[3])
+  { return std::hypot(vector[0], vector[1], vector[2]); };
+  double middle[3]; // of the grid
+  for (int c = 0; c < 3; ++c)
+  {
+    middle[c] = this->Grid.Direction[c] +
+      0.5 *
+        (this->Grid.Width * this->Grid.DirectionStepX[c] +
+          this->Grid.Height * this->Grid.DirectionStepY[c]);
+  }
+  return { measure(this->Grid.DirectionStepX) / measure(middle), measure(this->Grid.OriginStepX) };
 }
 
 } // namespace tetralux

@@ -92,6 +92,12 @@ private:
   vtkOpenGLState::ScopedglActiveTexture Unit;
 };
 
+bool IsOfSize(vtkTextureObject* texture, int width, int height)
+{
+  return static_cast<int>(texture->GetWidth()) == width &&
+    static_cast<int>(texture->GetHeight()) == height;
+}
+
 void SetFilter(vtkTextureObject* texture, int filter)
 {
   texture->SetMinificationFilter(filter);
@@ -155,6 +161,12 @@ void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectan
   vtkTextureObject* picture, const PixelRectangle& covered)
 {
   this->Context.Set(window);
+  if (IsOfSize(picture, rectangle.Width, rectangle.Height) &&
+    MemoryCompositor::CanComposite(MemoryPicture()))
+  {
+    this->Memory.Composite(window, rectangle.X, rectangle.Y, picture, covered);
+    return;
+  }
   this->Blend(rectangle, covered, picture);
 }
 
@@ -189,8 +201,7 @@ void ImageCompositor::Upload(const void* values, int type, int components,
   const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
   const int width = picture.Width;
   const int height = picture.Height;
-  if (texture->GetHandle() == 0 || static_cast<int>(texture->GetWidth()) != width ||
-    static_cast<int>(texture->GetHeight()) != height)
+  if (texture->GetHandle() == 0 || !IsOfSize(texture, width, height))
   {
     texture->SetContext(this->Context.Get());
     texture->SetWrapS(vtkTextureObject::ClampToEdge);
@@ -226,9 +237,9 @@ void ImageCompositor::Blend(
   state->vtkglDisable(GL_DEPTH_TEST);
   state->vtkglDepthMask(GL_FALSE);
   state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const bool sameSize = static_cast<int>(colors->GetWidth()) == rectangle.Width &&
-    static_cast<int>(colors->GetHeight()) == rectangle.Height;
-  SetFilter(colors, sameSize ? vtkTextureObject::Nearest : vtkTextureObject::Linear);
+  SetFilter(colors,
+    IsOfSize(colors, rectangle.Width, rectangle.Height) ? vtkTextureObject::Nearest
+                                                        : vtkTextureObject::Linear);
   this->Draw(this->Quad, CompositeImageFS, colors, nullptr);
 }
 

@@ -197,6 +197,33 @@ void MemoryCompositor::Composite(vtkOpenGLRenderWindow* window, int x, int y,
   }
 }
 
+void MemoryCompositor::Composite(vtkOpenGLRenderWindow* window, int x, int y,
+  vtkTextureObject* picture, const PixelRectangle& part)
+{
+  vtkOpenGLState* state = window->GetState();
+  this->SourceColors.resize(4 * static_cast<std::size_t>(part.Width) * part.Height);
+  {
+    const ValueRows rows(state);
+    this->Source->SetContext(window);
+    state->PushFramebufferBindings();
+    this->Source->Bind(GL_READ_FRAMEBUFFER);
+    glFramebufferTexture2D(
+      GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture->GetHandle(), 0);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glReadPixels(
+      part.X, part.Y, part.Width, part.Height, GL_RGBA, GL_FLOAT, this->SourceColors.data());
+    // Else it would keep the texture's memory after its owner let that go.
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    state->PopFramebufferBindings();
+  }
+  MemoryPicture read;
+  read.Width = part.Width;
+  read.Height = part.Height;
+  read.Colors = this->SourceColors.data();
+  this->Composite(
+    window, x + part.X, y + part.Y, read, PixelRectangle{ 0, 0, part.Width, part.Height });
+}
+
 /// Makes room for a rectangle in the textures.
 void MemoryCompositor::Prepare(vtkOpenGLRenderWindow* window, int width, int height, bool depths)
 {
@@ -267,6 +294,7 @@ void MemoryCompositor::Blend(const MemoryPicture& picture, const PixelRectangle&
 void MemoryCompositor::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Framebuffer->ReleaseGraphicsResources(window);
+  this->Source->ReleaseGraphicsResources(window);
   this->Colors->ReleaseGraphicsResources(window);
   this->Depths->ReleaseGraphicsResources(window);
 }

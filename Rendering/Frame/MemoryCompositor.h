@@ -43,6 +43,10 @@ public:
   void Composite(vtkOpenGLRenderWindow* window, int x, int y, const MemoryPicture& picture,
     const PixelRectangle& covered);
 
+  /// The same of a part of a texture of that window, which has premultiplied colours.
+  void Composite(vtkOpenGLRenderWindow* window, int x, int y, vtkTextureObject* picture,
+    const PixelRectangle& part);
+
   void ReleaseGraphicsResources(vtkWindow* window);
 
 private:
@@ -52,6 +56,9 @@ private:
   vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
   vtkNew<vtkTextureObject> Colors;
   vtkNew<vtkTextureObject> Depths;
+
+  vtkNew<vtkOpenGLFramebufferObject> Source; ///< to read textures
+  std::vector<float> SourceColors;
 
   // What was copied out of the frame buffer.
   std::vector<std::uint32_t> Pixels;

@@ -16,7 +16,7 @@ struct MemoryPicture
   /// Four a pixel, premultiplied.
   const float* Colors = nullptr;
 
-  /// Four a pixel, 0..255. The picture is opaque wherever its depth is below 1, and empty elsewhere.
+  /// Four a pixel, 0..255. The picture is opaque where its depth is below 1, and empty elsewhere.
   const std::uint8_t* Bytes = nullptr;
 
   /// One a pixel, what the depth buffer is to hold unless it holds less. Where it is 1 or more, the

@@ -34,8 +34,8 @@ MAPPERS = {
     "graphics card": tetralux.vtkTetrahedraGPURayCastMapper,
     "projection": tetralux.vtkTetrahedraProjectionMapper,
 }
-# Half of what a parallel view shows, in edges of the cube, and where its middle is. Of the last, the
-# sphere around the cube is in view, so that VTK asks the mapper for it.
+# Half of what a parallel view shows, in edges of the cube, and where its middle is. Of the last,
+# the sphere around the cube is in view, so that VTK asks the mapper for it.
 VIEWS = {"all": (0.45, 0.5), "a quarter": (1, 0.5), "nothing": (1, 2.2)}
 
 
