@@ -47,6 +47,20 @@ OpaqueSamples MakeSamples(const CameraRays& rays, std::size_t samples)
   return result;
 }
 
+/// The smallest rectangle with all of the pixels, y width + x, of which there is one at least.
+PixelRectangle FindBounds(const std::vector<std::int32_t>& pixels, int width)
+{
+  int left = width;
+  int right = 0;
+  for (const std::int32_t pixel : pixels) // by rows
+  {
+    left = std::min(left, pixel % width);
+    right = std::max(right, pixel % width);
+  }
+  const int lower = pixels.front() / width;
+  return { left, lower, right + 1 - left, pixels.back() / width + 1 - lower };
+}
+
 /// Moves the rays of a picture, in pixels.
 void ShiftRays(double x, double y, CPUPicture& picture)
 {
@@ -169,7 +183,7 @@ void CPUDrawing::Composite(
   drawn.Depths = last.Depths.data();
   if (last.Colors.empty())
   {
-    drawn.Colors = last.OtherColors.empty() ? picture.Colors.data() : last.OtherColors.data();
+    drawn.Colors = last.Samples.Pixels.empty() ? picture.Colors.data() : this->OtherColors.data();
   }
   else
   {
@@ -208,61 +222,80 @@ void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const C
   const std::size_t size = picture.Depths.size();
   PixelSamples& result = this->Last.Samples;
   result.Samples = opaque.Samples;
-  result.Pixels = FindEdges(opaque, picture.Depths.data());
+  result.Pixels = FindEdges(opaque, picture.Colors.data());
+  Json section;
+  section["samples"] = result.Samples;
+  section["pixels_at_edges"] = result.Pixels.size();
+  frame.Sections.emplace_back("multisampling", section);
   if (result.Pixels.empty())
   {
     return;
   }
+  this->SetEdgesApart(frame, picture);
 
-  // What is drawn of the pixels themselves has none at edges.
-  this->Last.OtherColors.assign(picture.Colors.begin(), picture.Colors.end());
-  this->Last.OtherDepths.assign(frame.WindowDepths.begin(), frame.WindowDepths.end());
-  for (const std::int32_t pixel : result.Pixels)
-  {
-    std::fill_n(&this->Last.OtherColors[4 * static_cast<std::size_t>(pixel)], 4, 0.f);
-    if (!this->Last.OtherDepths.empty())
-    {
-      this->Last.OtherDepths[static_cast<std::size_t>(pixel)] = 1;
-    }
-  }
-  this->Last.Depths = this->Last.OtherDepths;
-
-  std::vector<float> colors(4 * size);
-  std::vector<float> depths(size);
-  std::vector<float> ends(size);
+  // Other rays of the rectangle end before they begin.
+  const PixelRectangle part = FindBounds(result.Pixels, width);
+  const auto findPlace = [&part, width](std::int32_t pixel) {
+    return static_cast<std::size_t>(pixel / width - part.Y) * part.Width + pixel % width - part.X;
+  };
+  const std::size_t rayCount = static_cast<std::size_t>(part.Width) * part.Height;
+  this->SampleColors.resize(4 * rayCount);
+  this->SampleDistances.resize(rayCount);
+  this->SampleEnds.assign(rayCount, -Infinity);
   for (std::size_t sample = 0; sample < places.size(); ++sample)
   {
     const double x = places[sample][0] - 0.5;
     const double y = places[sample][1] - 0.5;
-    std::fill(ends.begin(), ends.end(), -Infinity);
     for (const std::int32_t pixel : result.Pixels)
     {
-      const auto place = static_cast<std::size_t>(pixel);
-      const float depth = opaque.Depths.empty() ? 1 : opaque.Depths[sample * size + place];
-      ends[place] = depth < 1
+      const float depth =
+        opaque.Depths.empty() ? 1 : opaque.Depths[sample * size + static_cast<std::size_t>(pixel)];
+      this->SampleEnds[findPlace(pixel)] = depth < 1
         ? static_cast<float>(rays.GetDistance(pixel % width + x, pixel / width + y, depth))
         : Infinity;
     }
     CPUPicture ofSample = picture;
-    ShiftRays(x, y, ofSample);
+    ShiftRays(part.X + x, part.Y + y, ofSample);
+    ofSample.Grid.Width = part.Width;
+    ofSample.Grid.Height = part.Height;
     ofSample.OfSamples = true;
     ofSample.OpaqueDistances = nullptr;
-    ofSample.Limits.MaximumDistances = ends.data();
-    ofSample.Colors = colors;
-    ofSample.Depths = depths;
+    ofSample.Limits.MaximumDistances = this->SampleEnds.data();
+    ofSample.Colors = this->SampleColors;
+    ofSample.Depths = this->SampleDistances;
     MapperFrame drawn = frame;
     drawn.Progress = nullptr;
     makePicture(drawn, ofSample);
     for (const std::int32_t pixel : result.Pixels)
     {
-      const auto place = static_cast<std::size_t>(pixel);
-      result.Colors.insert(result.Colors.end(), &colors[4 * place], &colors[4 * place] + 4);
+      const std::size_t place = findPlace(pixel);
+      const float* color = &this->SampleColors[4 * place];
+      result.Colors.insert(result.Colors.end(), color, color + 4);
       if (!drawn.WindowDepths.empty())
       {
         result.Depths.push_back(drawn.WindowDepths[place]);
       }
     }
   }
+}
+
+/// Takes pixels at edges out of copies of what the window gets of all pixels.
+void CPUDrawing::SetEdgesApart(const MapperFrame& frame, const CPUPicture& picture)
+{
+  std::vector<float>& colors = this->OtherColors;
+  std::vector<float>& depths = this->OtherDepths;
+  colors.assign(picture.Colors.begin(), picture.Colors.end());
+  depths.assign(frame.WindowDepths.begin(), frame.WindowDepths.end());
+  for (const std::int32_t pixel : this->Last.Samples.Pixels)
+  {
+    const auto place = static_cast<std::size_t>(pixel);
+    std::fill_n(&colors[4 * place], 4, 0.f);
+    if (!depths.empty())
+    {
+      depths[place] = 1;
+    }
+  }
+  this->Last.Depths = depths;
 }
 
 void CPUDrawing::ReleaseGraphicsResources(vtkWindow* window)

@@ -69,6 +69,7 @@ private:
     const SamplePlaces& places, OpaqueSamples& samples);
   void CastSamples(MapperFrame& frame, const CameraRays& rays, const CPUPicture& picture,
     const SamplePlaces& places, const OpaqueSamples& opaque, const PictureMaker& makePicture);
+  void SetEdgesApart(const MapperFrame& frame, const CPUPicture& picture);
 
   /// What the last frame brought into the window. The memory is that of its picture and its mapper.
   struct LastPicture
@@ -79,12 +80,7 @@ private:
     Span<const float> Depths;
     Span<const std::uint8_t> Colors;
 
-    /// Of a multisampled frame buffer, what the picture's edges show, and copies of the rest.
-    ///@{
-    PixelSamples Samples;
-    std::vector<float> OtherColors;
-    std::vector<float> OtherDepths;
-    ///@}
+    PixelSamples Samples; ///< of a multisampled frame buffer, at edges of the picture
   };
 
   ImageCompositor Compositor;
@@ -93,6 +89,14 @@ private:
   SampleDepths OpaqueOfSamples;
   LastPicture Last;
   double SecondsPerRay = 0; ///< of the last picture; 0: none yet
+
+  // Kept, since making memory takes as long as casting: what the window gets of pixels that are not
+  // at edges, of all, and one sample of those at edges.
+  std::vector<float> OtherColors;
+  std::vector<float> OtherDepths;
+  std::vector<float> SampleColors;
+  std::vector<float> SampleDistances;
+  std::vector<float> SampleEnds;
 };
 
 } // namespace tetralux

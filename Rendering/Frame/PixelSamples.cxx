@@ -4,6 +4,7 @@
 #include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -12,40 +13,47 @@ namespace tetralux
 namespace
 {
 
-/// Depths that differ by more than this many widths of a pixel are those of two surfaces, or of one
-/// that is seen under less than 15 degrees.
+/// Distances in a pixel that differ by more than this many widths of it are those of two surfaces,
+/// or of one that is seen under less than 15 degrees.
 constexpr double LargestStep = 4;
+
+/// How much the change of a channel, 0..1, may change from a pixel to the next one: an edge that is
+/// weaker is at most four steps of 8 bits off.
+constexpr float LargestBend = 1.f / 64;
 
 /// What vtkRenderer clears the depth buffer to.
 constexpr float EmptyDepth = 1;
 
-/// What pixels around one show, the nearest and the farthest.
-struct Neighborhood
-{
-  float Nearest = std::numeric_limits<float>::infinity();
-  float Farthest = -1;
-  bool Empty = false; ///< one of them shows nothing
-};
-
-Neighborhood LookAround(const OpaqueSamples& opaque, const float* distances, int x, int y)
-{
-  Neighborhood around;
-  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, opaque.Height - 1); ++j)
-  {
-    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, opaque.Width - 1); ++i)
-    {
-      const float distance = distances[static_cast<std::size_t>(j) * opaque.Width + i];
-      around.Empty = around.Empty || distance < 0;
-      around.Nearest = distance < 0 ? around.Nearest : std::min(around.Nearest, distance);
-      around.Farthest = std::max(around.Farthest, distance);
-    }
-  }
-  return around;
-}
-
 bool IsStep(const OpaqueSamples& opaque, double nearest, double farthest)
 {
   return farthest - nearest > LargestStep * (opaque.PixelWidth[0] * nearest + opaque.PixelWidth[1]);
+}
+
+bool IsShown(const float* color)
+{
+  return std::any_of(color, color + 4, [](float channel) { return channel != 0; });
+}
+
+/// Whether colours do not change evenly from a pixel to the next ones.
+bool IsAtEnd(const float* colors, int width, int height, int x, int y)
+{
+  const float* here = colors + 4 * (static_cast<std::size_t>(y) * width + x);
+  const auto bends = [here](std::ptrdiff_t step)
+  {
+    for (int c = 0; c < 4; ++c)
+    {
+      const float middle = here[c];
+      if (std::abs(here[c - 4 * step] - 2 * middle + here[c + 4 * step]) > LargestBend)
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  const bool across = x > 0 && x + 1 < width;
+  const bool along = y > 0 && y + 1 < height;
+  return (across && bends(1)) || (along && bends(width)) ||
+    (across && along && (bends(width + 1) || bends(width - 1)));
 }
 
 /// What the samples of a pixel have.
@@ -112,7 +120,7 @@ std::vector<float> FindOpaqueDistances(const OpaqueSamples& opaque)
   return distances;
 }
 
-std::vector<std::int32_t> FindEdges(const OpaqueSamples& opaque, const float* distances)
+std::vector<std::int32_t> FindEdges(const OpaqueSamples& opaque, const float* colors)
 {
   std::vector<std::uint8_t> edges(static_cast<std::size_t>(opaque.Width) * opaque.Height, 0);
   vtkSMPTools::For(0, opaque.Height,
@@ -122,11 +130,10 @@ std::vector<std::int32_t> FindEdges(const OpaqueSamples& opaque, const float* di
       {
         for (int x = 0; x < opaque.Width; ++x)
         {
-          const Neighborhood around = LookAround(opaque, distances, x, y);
           const std::size_t pixel = static_cast<std::size_t>(y) * opaque.Width + x;
-          const bool edge = around.Farthest >= 0 &&
-            (around.Empty || IsStep(opaque, around.Nearest, around.Farthest) ||
-              (!opaque.Depths.empty() && HasEdge(opaque, x, y, FindDepths(opaque, pixel))));
+          const bool edge = IsAtEnd(colors, opaque.Width, opaque.Height, x, y) ||
+            (!opaque.Depths.empty() && IsShown(colors + 4 * pixel) &&
+              HasEdge(opaque, x, y, FindDepths(opaque, pixel)));
           edges[pixel] = edge ? 1 : 0;
         }
       }

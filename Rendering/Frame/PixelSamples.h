@@ -40,11 +40,10 @@ struct OpaqueSamples
 /// is right for planes; else that of the first sample.
 TETRALUXRENDERING_EXPORT std::vector<float> FindOpaqueDistances(const OpaqueSamples& opaque);
 
-/// Pixels of which one ray is too few: where a surface ends before another one or before nothing,
-/// of opaque geometry and of what a picture shows. distances: along the rays to what the picture
-/// shows, -1 where nothing is.
+/// Pixels of which one ray is too few: where colours of a picture do not change evenly, and where
+/// opaque geometry ends within a pixel that is not empty. colors: four a pixel, premultiplied.
 TETRALUXRENDERING_EXPORT std::vector<std::int32_t> FindEdges(
-  const OpaqueSamples& opaque, const float* distances);
+  const OpaqueSamples& opaque, const float* colors);
 
 } // namespace tetralux
 
