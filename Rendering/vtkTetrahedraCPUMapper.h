@@ -6,6 +6,12 @@
  * Threads, the distance of rays, and the picture's way into the window. The picture does not depend
  * on the number of threads.
  *
+ * In a window with MultiSamples, where a ray is a pixel, pixels at edges are cast once for each
+ * sample, through its own place and up to its own opaque depth: edges of opaque geometry, and
+ * wherever colours change unevenly. What no ray through the middle of a pixel meets is not found.
+ * GetOutputImage has one ray a pixel. Pictures that light samples refine over several frames have
+ * one ray a pixel.
+ *
  * @sa vtkTetrahedraRayCastMapper, vtkTetrahedraIsosurfaceMapper
  */
 #ifndef vtkTetrahedraCPUMapper_h

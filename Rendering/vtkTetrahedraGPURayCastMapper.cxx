@@ -27,9 +27,11 @@
 
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkVolume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +45,7 @@ using tetralux::GpuReentry;
 using tetralux::Integrator;
 using tetralux::Json;
 using tetralux::MapperFrame;
+using tetralux::PixelRectangle;
 
 namespace
 {
@@ -80,7 +83,7 @@ private:
   void Upload(MapperFrame& frame, const tetralux::RayGrid& grid, const tetralux::WalkTables& tables,
     GpuReentry reentry);
   void Read(vtkImageData* image);
-  void Composite(MapperFrame& frame, const tetralux::PixelRectangle& visible);
+  void Composite(MapperFrame& frame, const CameraRays& rays);
   void Describe(const tetralux::GpuRayCastStatistics& statistics,
     const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
 
@@ -120,7 +123,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   {
     frame.Kept = true;
     frame.ReportProgress(1); // too late to abort
-    this->Composite(frame, rays.GetVisible());
+    this->Composite(frame, rays);
     return;
   }
   this->Last.Reset();
@@ -189,7 +192,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   if (!frame.Aborted)
   {
     frame.ReportProgress(1); // too late to abort
-    this->Composite(frame, rays.GetVisible());
+    this->Composite(frame, rays);
     this->Last.Set(frame.Key);
     frame.ReadPicture = [this](vtkImageData* image)
     {
@@ -375,18 +378,27 @@ void vtkTetrahedraGPURayCastMapper::Internals::Read(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::Internals::Composite(
-  MapperFrame& frame, const tetralux::PixelRectangle& visible)
+void vtkTetrahedraGPURayCastMapper::Internals::Composite(MapperFrame& frame, const CameraRays& rays)
 {
   const tetralux::Stopwatch stopwatch;
+  const tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
+  const PixelRectangle covered =
+    rays.FindCovered(frame.Volume->GetMatrix()->GetData(), mesh.GetCenter(), mesh.GetHalfSize());
   tetralux::RayPicture& picture = this->Caster.GetPicture();
   for (int band = 0; band < picture.GetNumberOfBands(); ++band)
   {
-    tetralux::PixelRectangle rectangle = visible;
-    rectangle.Y += picture.GetFirstRow(band);
+    PixelRectangle rectangle = rays.GetVisible();
+    const int firstRow = picture.GetFirstRow(band);
+    rectangle.Y += firstRow;
     rectangle.Height = picture.GetBand(band).GetSettings().Height;
-    this->Compositor.Composite(
-      frame.Window, rectangle, picture.GetBand(band).GetTexture(tetralux::RayPicture::Colors));
+    PixelRectangle part = covered;
+    part.Y = std::max(covered.Y - firstRow, 0);
+    part.Height = std::min(covered.Y + covered.Height - firstRow, rectangle.Height) - part.Y;
+    if (part.Width > 0 && part.Height > 0)
+    {
+      this->Compositor.Composite(frame.Window, rectangle,
+        picture.GetBand(band).GetTexture(tetralux::RayPicture::Colors), part);
+    }
   }
   frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
 }

@@ -195,6 +195,7 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     *frame.Scene, picture.Grid, picture.Limits, options, picture.Colors, picture.Depths);
   frame.Integration = tetralux::Integrator::Isosurfaces;
   frame.Aborted = statistics.Aborted;
+  frame.IsMean = sampled;
   frame.Final = !sampled || statistics.Samples + options.SamplesPerFrame > options.MaximumSamples;
   Describe(statistics, picture, frame);
   frame.ReportOmission(!options.AmbientOcclusion, "ambient occlusion", "it is off");

@@ -6,6 +6,9 @@
  * These mappers draw every pixel of every frame. What programs for VTK's ray casters say about the
  * distance of rays and about threads is accepted and not used; see Documentation/from_vtk.md.
  *
+ * In a window with MultiSamples, a pixel has one ray, up to the depth of one of its samples: edges
+ * are not antialiased.
+ *
  * @sa vtkTetrahedraGPURayCastMapper, vtkTetrahedraProjectionMapper
  */
 #ifndef vtkTetrahedraOpenGLMapper_h

@@ -23,8 +23,10 @@
 
 #include "vtkCellCenterDepthSort.h"
 #include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkVolume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -238,7 +240,14 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
 void vtkTetrahedraProjectionMapper::Internals::Composite(MapperFrame& frame, const CameraRays& rays)
 {
   const tetralux::Stopwatch stopwatch;
-  this->Compositor.Composite(frame.Window, rays.GetVisible(), this->Picture.GetTexture());
+  const tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
+  const tetralux::PixelRectangle covered =
+    rays.FindCovered(frame.Volume->GetMatrix()->GetData(), mesh.GetCenter(), mesh.GetHalfSize());
+  if (covered.Width > 0)
+  {
+    this->Compositor.Composite(
+      frame.Window, rays.GetVisible(), this->Picture.GetTexture(), covered);
+  }
   frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
 }
 

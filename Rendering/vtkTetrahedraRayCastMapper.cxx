@@ -91,9 +91,7 @@ tetralux::PixelRectangle vtkTetrahedraRayCastMapper::MakePicture(
   frame.Aborted = statistics.Aborted;
   Describe(statistics, picture, frame);
   this->WarnOfReentry(*frame.Scene->Mesh.GetMesh());
-  return statistics.Paths > 0
-    ? tetralux::PixelRectangle{ 0, 0, picture.Grid.Width, picture.Grid.Height }
-    : tetralux::PixelRectangle();
+  return frame.Aborted ? tetralux::PixelRectangle() : FindCovered(picture);
 }
 
 //------------------------------------------------------------------------------------------------

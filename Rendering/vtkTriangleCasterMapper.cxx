@@ -53,40 +53,6 @@ constexpr double InteractiveFactor = 2;
 /// SampleDistanceByError begins with slices this much farther apart.
 constexpr double CoarsestFactor = 4;
 
-/// The smallest rectangle with all that contributes; empty if nothing does.
-PixelRectangle FindCovered(const tetralux::CPUPicture& picture)
-{
-  const int width = picture.Grid.Width;
-  int left = width;
-  int right = -1;
-  int lower = -1;
-  int upper = -1;
-  for (int j = 0; j < picture.Grid.Height; ++j)
-  {
-    const float* row = picture.Depths.data() + static_cast<std::size_t>(j) * width;
-    int first = 0;
-    while (first < width && row[first] == -1)
-    {
-      ++first;
-    }
-    if (first == width)
-    {
-      continue;
-    }
-    int last = width - 1;
-    while (row[last] == -1)
-    {
-      --last;
-    }
-    left = std::min(left, first);
-    right = std::max(right, last);
-    lower = lower < 0 ? j : lower;
-    upper = j;
-  }
-  return right < 0 ? PixelRectangle()
-                   : PixelRectangle{ left, lower, right + 1 - left, upper + 1 - lower };
-}
-
 tetralux::LightSum ToLightSum(int sum)
 {
   switch (sum)
@@ -180,6 +146,7 @@ private:
   vtkWeakPointer<vtkDataObject> Input; ///< of the last frame
   vtkMTimeType InputTime = 0;          ///< when that frame began
   double SliceError = 0;               ///< beside what the record has
+  double SliceDistance = 0;            ///< of the last picture
 };
 
 //------------------------------------------------------------------------------------------------
@@ -301,13 +268,20 @@ tetralux::ScalarSelection vtkTriangleCasterMapper::Internals::SelectScalars() co
 PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
   MapperFrame& frame, const tetralux::CPUPicture& picture)
 {
-  this->Last.reset();
-  this->SliceError = 0;
   const tetralux::ImagePlacement& placement = this->Preparation.GetPlacement();
   const tetralux::RayGrid grid = ToIndices(placement, picture.Grid);
   const tetralux::RayLimits limits = ToIndices(placement, picture.Limits);
   tetralux::ImageCasterOptions options = this->MakeOptions(grid, frame);
-  options.SampleDistance = this->ChooseSampleDistance(grid, limits, options, frame);
+  if (picture.OfSamples)
+  {
+    options.SampleDistance = this->SliceDistance;
+    this->Preparation.Caster.Cast(grid, limits, options, picture.Colors, picture.Depths);
+    return tetralux::FindCovered(picture);
+  }
+  this->Last.reset();
+  this->SliceError = 0;
+  this->SliceDistance = this->ChooseSampleDistance(grid, limits, options, frame);
+  options.SampleDistance = this->SliceDistance;
   const tetralux::ImageCastStatistics statistics =
     this->Preparation.Caster.Cast(grid, limits, options, picture.Colors, picture.Depths);
   frame.Aborted = statistics.Aborted;
@@ -323,7 +297,7 @@ PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
       this->Last.reset(); // in the record now
     }
   }
-  return frame.Aborted ? PixelRectangle() : FindCovered(picture);
+  return frame.Aborted ? PixelRectangle() : tetralux::FindCovered(picture);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -45,6 +45,9 @@
  * COMPOSITE_BLEND, TF_2D, PreIntegration, BYTE_GRADIENTS, maps of light and depth cueing. TF_2D is
  * of COMPOSITE_BLEND only. Warnings say what of the property is not used.
  *
+ * In a window with MultiSamples, pixels at edges are cast once for each sample, as
+ * vtkTetrahedraCPUMapper says.
+ *
  * @sa vtkFixedPointVolumeRayCastMapper, vtkTetrahedraRayCastMapper
  */
 #ifndef vtkTriangleCasterMapper_h

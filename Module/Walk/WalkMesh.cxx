@@ -135,7 +135,8 @@ void WalkMesh::MeasureBox()
     {
       // Halved before they are added, so that no sum overflows.
       this->Center[a] = 0.5 * lo[a] + 0.5 * hi[a];
-      radius = std::hypot(radius, 0.5 * hi[a] - 0.5 * lo[a]);
+      this->HalfSize[a] = 0.5 * hi[a] - 0.5 * lo[a];
+      radius = std::hypot(radius, this->HalfSize[a]);
     }
     this->Radius = radius > 0 ? radius : 1;
   }

@@ -53,6 +53,9 @@ public:
   const double* GetCenter() const { return this->Center; }
   double GetRadius() const { return this->Radius; }
 
+  /// Half the edges of the box around the points, of which Center is the middle.
+  const double* GetHalfSize() const { return this->HalfSize; }
+
   /// Moves the points: new coordinates of the points of GetMesh(), three each. Cells, their order
   /// and their neighbours stay; what follows from coordinates is made anew, and the boxes over the
   /// boundary are fitted. What MakeConvex added is dropped. Returns false, and changes nothing, if
@@ -105,6 +108,7 @@ private:
   std::int64_t NumberOfNonManifoldFaces = 0;
   std::int64_t NumberOfComponents = 0;
   double Center[3] = { 0, 0, 0 };
+  double HalfSize[3] = { 0, 0, 0 };
   double Radius = 1;
   std::vector<WalkPoint<float>> FloatPoints;
   std::vector<WalkPoint<double>> DoublePoints;

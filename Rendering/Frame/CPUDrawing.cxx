@@ -15,11 +15,68 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
 namespace tetralux
 {
+namespace
+{
+
+constexpr float Infinity = std::numeric_limits<float>::infinity();
+
+/// Whether each ray is the middle of a pixel.
+bool IsOfPixels(const CameraRays& rays)
+{
+  return rays.GetGrid().Width == rays.GetVisible().Width &&
+    rays.GetGrid().Height == rays.GetVisible().Height;
+}
+
+/// The rays of samples; their depths are not read yet.
+OpaqueSamples MakeSamples(const CameraRays& rays, std::size_t samples)
+{
+  OpaqueSamples result;
+  result.Width = rays.GetGrid().Width;
+  result.Height = rays.GetGrid().Height;
+  result.Samples = static_cast<int>(samples);
+  result.PixelWidth = rays.GetWidth();
+  result.GetDistance = [&rays](int x, int y, double depth)
+  { return rays.GetDistance(x, y, depth); };
+  return result;
+}
+
+/// The smallest rectangle with all of the pixels, y width + x, of which there is one at least.
+PixelRectangle FindBounds(const std::vector<std::int32_t>& pixels, int width)
+{
+  int left = width;
+  int right = 0;
+  for (const std::int32_t pixel : pixels) // by rows
+  {
+    left = std::min(left, pixel % width);
+    right = std::max(right, pixel % width);
+  }
+  const int lower = pixels.front() / width;
+  return { left, lower, right + 1 - left, pixels.back() / width + 1 - lower };
+}
+
+/// Moves the rays of a picture, in pixels.
+void ShiftRays(double x, double y, CPUPicture& picture)
+{
+  RayGrid& grid = picture.Grid;
+  DepthMap& map = picture.Depth;
+  for (int c = 0; c < 3; ++c)
+  {
+    const double move = x * grid.OriginStepX[c] + y * grid.OriginStepY[c];
+    grid.Origin[c] += move;
+    grid.Direction[c] += x * grid.DirectionStepX[c] + y * grid.DirectionStepY[c];
+    map.Depth[3] += map.Depth[c] * move;
+    map.Divisor[3] += map.Divisor[c] * move;
+  }
+}
+
+} // namespace
 
 void CPUDrawing::Draw(
   MapperFrame& frame, const RayDistances& distances, const PictureMaker& makePicture)
@@ -36,17 +93,27 @@ void CPUDrawing::Draw(
   picture.Grid = frame.MakeGrid(rays);
   picture.Limits = frame.MakeLimits(rays);
   picture.Depth = rays.GetDepthMap();
+  // Of frame buffers that are not multisampled, and where rays are not pixels: none.
+  const SamplePlaces places = IsOfPixels(rays) ? FindSamplePlaces() : SamplePlaces();
+  OpaqueSamples samples = MakeSamples(rays, places.size());
   if (frame.HasOpaqueGeometry())
   {
     const Stopwatch stopwatch;
     picture.OpaqueDistances = std::make_shared<const std::vector<float>>(
-      ReadOpaqueDistances(this->Opaque, frame.Window, rays));
+      this->FindOpaqueDistances(frame, rays, places, samples));
     frame.Seconds.emplace_back("depth_buffer", stopwatch.GetSeconds());
   }
   frame.Opaque = picture.OpaqueDistances && !picture.OpaqueDistances->empty();
   picture.Limits.MaximumDistances = frame.Opaque ? picture.OpaqueDistances->data() : nullptr;
 
   frame.AddViewToKey(rays, picture.Grid, picture.Limits);
+  frame.Key.Add(places.size());
+  if (!samples.Depths.empty())
+  {
+    Digester depths;
+    depths.Add(samples.Depths.data(), sizeof(float) * samples.Depths.size());
+    AddNumbersTo(frame.Key, depths.Get());
+  }
   if (frame.Opaque)
   {
     Digester distances;
@@ -57,7 +124,7 @@ void CPUDrawing::Draw(
   const PixelRectangle& visible = rays.GetVisible();
   const int width = picture.Grid.Width;
   const int height = picture.Grid.Height;
-  picture.IsWindowSized = width == visible.Width && height == visible.Height;
+  picture.IsWindowSized = IsOfPixels(rays) && places.empty();
   frame.Kept = this->IsKept(frame);
   const Stopwatch castStopwatch;
   MapperFrame::PrepareImage(frame.Image, width, height, picture.Colors, picture.Depths);
@@ -78,6 +145,12 @@ void CPUDrawing::Draw(
     this->SecondsPerRay = seconds / (static_cast<double>(width) * height);
     this->Last.Depths = frame.WindowDepths;
     this->Last.Colors = frame.WindowColors;
+    if (!places.empty() && this->Last.Covered.Width > 0 && !frame.IsMean)
+    {
+      const Stopwatch samplesStopwatch;
+      this->CastSamples(frame, rays, picture, places, samples, makePicture);
+      frame.Seconds.emplace_back("edges", samplesStopwatch.GetSeconds());
+    }
     if (frame.Final)
     {
       this->Last.Stamp.Set(frame.Key);
@@ -103,28 +176,134 @@ bool CPUDrawing::IsKept(const MapperFrame& frame) const
 void CPUDrawing::Composite(
   const MapperFrame& frame, const CPUPicture& picture, const PixelRectangle& visible)
 {
-  const int width = picture.Grid.Width;
-  const int height = picture.Grid.Height;
   const LastPicture& last = this->Last;
-  const float* depths = last.Depths.data();
-  if (!last.Colors.empty())
+  MemoryPicture drawn;
+  drawn.Width = picture.Grid.Width;
+  drawn.Height = picture.Grid.Height;
+  drawn.Depths = last.Depths.data();
+  if (last.Colors.empty())
   {
-    this->Compositor.CompositeOpaque(
-      frame.Window, visible, last.Colors.data(), depths, width, height, last.Covered);
+    drawn.Colors = last.Samples.Pixels.empty() ? picture.Colors.data() : this->OtherColors.data();
+  }
+  else
+  {
+    drawn.Bytes = last.Colors.data();
+  }
+  this->Compositor.Composite(frame.Window, visible, drawn, last.Covered);
+  if (!last.Samples.Pixels.empty())
+  {
+    this->EdgeCompositor.Composite(frame.Window, visible, last.Samples);
+  }
+}
+
+/// Reads what ends rays, and of a multisampled frame buffer what its samples have.
+std::vector<float> CPUDrawing::FindOpaqueDistances(const MapperFrame& frame, const CameraRays& rays,
+  const SamplePlaces& places, OpaqueSamples& samples)
+{
+  if (places.empty())
+  {
+    return ReadOpaqueDistances(this->Opaque, frame.Window, rays);
+  }
+  samples.Depths =
+    this->OpaqueOfSamples.Read(frame.Window, rays.GetVisible(), static_cast<int>(places.size()));
+  std::vector<float> distances = tetralux::FindOpaqueDistances(samples);
+  if (distances.empty())
+  {
+    samples.Depths.clear();
+  }
+  return distances;
+}
+
+/// Casts pixels at edges again, sample by sample.
+void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const CPUPicture& picture,
+  const SamplePlaces& places, const OpaqueSamples& opaque, const PictureMaker& makePicture)
+{
+  const int width = picture.Grid.Width;
+  const std::size_t size = picture.Depths.size();
+  PixelSamples& result = this->Last.Samples;
+  result.Samples = opaque.Samples;
+  result.Pixels = FindEdges(opaque, picture.Colors.data());
+  Json section;
+  section["samples"] = result.Samples;
+  section["pixels_at_edges"] = result.Pixels.size();
+  frame.Sections.emplace_back("multisampling", section);
+  if (result.Pixels.empty())
+  {
     return;
   }
-  if (!last.Depths.empty())
+  this->SetEdgesApart(frame, picture);
+
+  // Other rays of the rectangle end before they begin.
+  const PixelRectangle part = FindBounds(result.Pixels, width);
+  const auto findPlace = [&part, width](std::int32_t pixel) {
+    return static_cast<std::size_t>(pixel / width - part.Y) * part.Width + pixel % width - part.X;
+  };
+  const std::size_t rayCount = static_cast<std::size_t>(part.Width) * part.Height;
+  this->SampleColors.resize(4 * rayCount);
+  this->SampleDistances.resize(rayCount);
+  this->SampleEnds.assign(rayCount, -Infinity);
+  for (std::size_t sample = 0; sample < places.size(); ++sample)
   {
-    this->Compositor.WriteDepth(frame.Window, visible, depths, width, height, last.Covered);
+    const double x = places[sample][0] - 0.5;
+    const double y = places[sample][1] - 0.5;
+    for (const std::int32_t pixel : result.Pixels)
+    {
+      const float depth =
+        opaque.Depths.empty() ? 1 : opaque.Depths[sample * size + static_cast<std::size_t>(pixel)];
+      this->SampleEnds[findPlace(pixel)] = depth < 1
+        ? static_cast<float>(rays.GetDistance(pixel % width + x, pixel / width + y, depth))
+        : Infinity;
+    }
+    CPUPicture ofSample = picture;
+    ShiftRays(part.X + x, part.Y + y, ofSample);
+    ofSample.Grid.Width = part.Width;
+    ofSample.Grid.Height = part.Height;
+    ofSample.OfSamples = true;
+    ofSample.OpaqueDistances = nullptr;
+    ofSample.Limits.MaximumDistances = this->SampleEnds.data();
+    ofSample.Colors = this->SampleColors;
+    ofSample.Depths = this->SampleDistances;
+    MapperFrame drawn = frame;
+    drawn.Progress = nullptr;
+    makePicture(drawn, ofSample);
+    for (const std::int32_t pixel : result.Pixels)
+    {
+      const std::size_t place = findPlace(pixel);
+      const float* color = &this->SampleColors[4 * place];
+      result.Colors.insert(result.Colors.end(), color, color + 4);
+      if (!drawn.WindowDepths.empty())
+      {
+        result.Depths.push_back(drawn.WindowDepths[place]);
+      }
+    }
   }
-  this->Compositor.Composite(
-    frame.Window, visible, picture.Colors.data(), width, height, last.Covered);
+}
+
+/// Takes pixels at edges out of copies of what the window gets of all pixels.
+void CPUDrawing::SetEdgesApart(const MapperFrame& frame, const CPUPicture& picture)
+{
+  std::vector<float>& colors = this->OtherColors;
+  std::vector<float>& depths = this->OtherDepths;
+  colors.assign(picture.Colors.begin(), picture.Colors.end());
+  depths.assign(frame.WindowDepths.begin(), frame.WindowDepths.end());
+  for (const std::int32_t pixel : this->Last.Samples.Pixels)
+  {
+    const auto place = static_cast<std::size_t>(pixel);
+    std::fill_n(&colors[4 * place], 4, 0.f);
+    if (!depths.empty())
+    {
+      depths[place] = 1;
+    }
+  }
+  this->Last.Depths = depths;
 }
 
 void CPUDrawing::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Compositor.ReleaseGraphicsResources(window);
+  this->EdgeCompositor.ReleaseGraphicsResources(window);
   this->Opaque.ReleaseGraphicsResources(window);
+  this->OpaqueOfSamples.ReleaseGraphicsResources(window);
 }
 
 double CPUDrawing::ChooseSampleDistance(

@@ -7,18 +7,24 @@
 #include "Frame/CPUPicture.h"
 #include "Frame/ImageCompositor.h"
 #include "Frame/OpaqueDepth.h"
+#include "Frame/PixelSamples.h"
+#include "Frame/SampleCompositor.h"
+#include "Frame/SampleDepths.h"
 #include "TetraluxRenderingModule.h"
 
 #include "vtkType.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 class vtkWindow;
 
 namespace tetralux
 {
 
+class CameraRays;
 struct MapperFrame;
 
 /// Distances from ray to ray, in pixels.
@@ -34,6 +40,10 @@ struct RayDistances
 /// what limits them before, the way into the window after. Where the picture would be the last one
 /// again, that is composited. Keeps how long the last picture took, and graphics resources of one
 /// window.
+///
+/// Where the frame buffer is multisampled and a ray is a pixel, pixels at edges are cast again for
+/// each sample, through the sample's own place and up to its own opaque depth. All others have the
+/// ray through their middle.
 class TETRALUXRENDERING_EXPORT CPUDrawing
 {
 public:
@@ -54,6 +64,13 @@ private:
     const MapperFrame& frame, const CPUPicture& picture, const PixelRectangle& visible);
   bool IsKept(const MapperFrame& frame) const;
 
+  using SamplePlaces = std::vector<std::array<double, 2>>;
+  std::vector<float> FindOpaqueDistances(const MapperFrame& frame, const CameraRays& rays,
+    const SamplePlaces& places, OpaqueSamples& samples);
+  void CastSamples(MapperFrame& frame, const CameraRays& rays, const CPUPicture& picture,
+    const SamplePlaces& places, const OpaqueSamples& opaque, const PictureMaker& makePicture);
+  void SetEdgesApart(const MapperFrame& frame, const CPUPicture& picture);
+
   /// What the last frame brought into the window. The memory is that of its picture and its mapper.
   struct LastPicture
   {
@@ -62,12 +79,24 @@ private:
     PixelRectangle Covered;
     Span<const float> Depths;
     Span<const std::uint8_t> Colors;
+
+    PixelSamples Samples; ///< of a multisampled frame buffer, at edges of the picture
   };
 
   ImageCompositor Compositor;
+  SampleCompositor EdgeCompositor;
   OpaqueDepth Opaque;
+  SampleDepths OpaqueOfSamples;
   LastPicture Last;
   double SecondsPerRay = 0; ///< of the last picture; 0: none yet
+
+  // Kept, since making memory takes as long as casting: what the window gets of pixels that are not
+  // at edges, of all, and one sample of those at edges.
+  std::vector<float> OtherColors;
+  std::vector<float> OtherDepths;
+  std::vector<float> SampleColors;
+  std::vector<float> SampleDistances;
+  std::vector<float> SampleEnds;
 };
 
 } // namespace tetralux

@@ -3,7 +3,7 @@
 #define tetralux_CPUPicture_h
 
 #include "Base/Span.h"
-#include "Frame/CameraRays.h"
+#include "Frame/DrawnViewport.h"
 #include "View/DepthMap.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
@@ -18,7 +18,8 @@ namespace tetralux
 struct CPUPicture
 {
   RayGrid Grid;
-  bool IsWindowSized = false;                                ///< a ray is a pixel
+  bool IsWindowSized = false; ///< a ray is a pixel, which has one sample
+  bool OfSamples = false; ///< of samples at edges of the picture made before; most rays are empty
   std::shared_ptr<const std::vector<float>> OpaqueDistances; ///< what Limits point to
   RayLimits Limits;                                          ///< opaque geometry included
   double SampleDistance = 1;                                 ///< pixels from ray to ray
@@ -26,6 +27,9 @@ struct CPUPicture
   DepthMap Depth;     ///< of the window
   Span<float> Depths; ///< to be filled: distance along the ray, -1 where there is nothing
 };
+
+/// The smallest rectangle of rays with all that contributes; empty if nothing does.
+PixelRectangle FindCovered(const CPUPicture& picture);
 
 } // namespace tetralux
 

@@ -208,6 +208,49 @@ void CameraRays::AddClippingRange(RayLimits& limits) const
   }
 }
 
+PixelRectangle CameraRays::FindCovered(
+  const double worldFromBox[16], const double center[3], const double halfSize[3]) const
+{
+  const PixelRectangle& whole = this->Viewport.Whole;
+  const PixelRectangle& visible = this->Viewport.Visible;
+  const PixelRectangle all{ 0, 0, visible.Width, visible.Height };
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  double lower[2] = { Infinity, Infinity };
+  double upper[2] = { -Infinity, -Infinity };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Vector4 point = { 0, 0, 0, 1 };
+    for (int c = 0; c < 3; ++c)
+    {
+      point[c] = center[c] + ((corner >> c & 1) != 0 ? halfSize[c] : -halfSize[c]);
+    }
+    point = Multiply(worldFromBox, point);
+    for (int c = 0; c < 3; ++c)
+    {
+      point[c] -= this->Position[c];
+    }
+    point = Multiply(this->DeviceFromWorld, point);
+    const double x = (point[0] / point[3] + 1) / 2 * whole.Width + whole.X - visible.X;
+    const double y = (point[1] / point[3] + 1) / 2 * whole.Height + whole.Y - visible.Y;
+    if (!(point[3] > 0) || !std::isfinite(x) || !std::isfinite(y))
+    {
+      return all; // a part of the box is behind the eye
+    }
+    lower[0] = std::min(lower[0], x);
+    lower[1] = std::min(lower[1], y);
+    upper[0] = std::max(upper[0], x);
+    upper[1] = std::max(upper[1], y);
+  }
+  // A pixel more on each side, for what rounding does.
+  const auto clamp = [](double x, int size)
+  { return static_cast<int>(std::max(0., std::min(x, static_cast<double>(size)))); };
+  const int x0 = clamp(std::floor(lower[0]) - 1, visible.Width);
+  const int y0 = clamp(std::floor(lower[1]) - 1, visible.Height);
+  const int x1 = clamp(std::ceil(upper[0]) + 1, visible.Width);
+  const int y1 = clamp(std::ceil(upper[1]) + 1, visible.Height);
+  return x0 < x1 && y0 < y1 ? PixelRectangle{ x0, y0, x1 - x0, y1 - y0 } : PixelRectangle();
+}
+
 DepthMap CameraRays::GetDepthMap() const
 {
   DepthMap map;
@@ -222,7 +265,7 @@ DepthMap CameraRays::GetDepthMap() const
   return map;
 }
 
-double CameraRays::GetDistance(int i, int j, double depth) const
+double CameraRays::GetDistance(double i, double j, double depth) const
 {
   double x, y;
   this->GetDevicePoint(i, j, x, y);
@@ -239,6 +282,21 @@ double CameraRays::GetDistance(int i, int j, double depth) const
     length = std::hypot(length, direction);
   }
   return along / length;
+}
+
+std::array<double, 2> CameraRays::GetWidth() const
+{
+  const auto measure = [](const double(&vector)[3])
+  { return std::hypot(vector[0], vector[1], vector[2]); };
+  double middle[3]; // of the grid
+  for (int c = 0; c < 3; ++c)
+  {
+    middle[c] = this->Grid.Direction[c] +
+      0.5 *
+        (this->Grid.Width * this->Grid.DirectionStepX[c] +
+          this->Grid.Height * this->Grid.DirectionStepY[c]);
+  }
+  return { measure(this->Grid.DirectionStepX) / measure(middle), measure(this->Grid.OriginStepX) };
 }
 
 } // namespace tetralux

@@ -41,12 +41,21 @@ public:
   /// Adds the near and the far plane.
   void AddClippingRange(RayLimits& limits) const;
 
+  /// Pixels of the visible part that a box may cover; empty if it covers none. worldFromBox: rows
+  /// of an affine matrix. center and halfSize: of the box.
+  PixelRectangle FindCovered(
+    const double worldFromBox[16], const double center[3], const double halfSize[3]) const;
+
   /// What the depth buffer holds of points in the world.
   DepthMap GetDepthMap() const;
 
   /// Distance in world units from the start of ray (i, j) to where the depth buffer (0..1) has this
-  /// value.
-  double GetDistance(int i, int j, double depth) const;
+  /// value. There are rays between those of the grid, too.
+  double GetDistance(double i, double j, double depth) const;
+
+  /// Width of a ray, its distance to the next one: the first number times the distance from its
+  /// start, plus the second one.
+  std::array<double, 2> GetWidth() const;
 
   /// What pixels show, as homogeneous world coordinates relative to the camera's position: ray (i,
   /// j) at depth d is at Farthest + i FarthestStepX + j FarthestStepY + (1 - d) Nearer.

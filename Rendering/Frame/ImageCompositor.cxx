@@ -65,12 +65,52 @@ private:
   std::vector<Mask> Masks;
 };
 
+/// While one lives, a picture that is drawn over the whole viewport fills a rectangle, and only a
+/// part of that is drawn.
+class PartOfViewport
+{
+public:
+  /// part: of the rectangle.
+  PartOfViewport(vtkOpenGLState* state, const PixelRectangle& rectangle, const PixelRectangle& part)
+    : CullFace(state, GL_CULL_FACE)
+    , ScissorTest(state, GL_SCISSOR_TEST)
+    , Scissor(state)
+    , Viewport(state)
+    , Unit(state)
+  {
+    state->vtkglDisable(GL_CULL_FACE);
+    state->vtkglEnable(GL_SCISSOR_TEST);
+    state->vtkglViewport(rectangle.X, rectangle.Y, rectangle.Width, rectangle.Height);
+    state->vtkglScissor(rectangle.X + part.X, rectangle.Y + part.Y, part.Width, part.Height);
+  }
+
+private:
+  vtkOpenGLState::ScopedglEnableDisable CullFace;
+  vtkOpenGLState::ScopedglEnableDisable ScissorTest;
+  vtkOpenGLState::ScopedglScissor Scissor;
+  vtkOpenGLState::ScopedglViewport Viewport;
+  vtkOpenGLState::ScopedglActiveTexture Unit;
+};
+
+bool IsOfSize(vtkTextureObject* texture, int width, int height)
+{
+  return static_cast<int>(texture->GetWidth()) == width &&
+    static_cast<int>(texture->GetHeight()) == height;
+}
+
+void SetFilter(vtkTextureObject* texture, int filter)
+{
+  texture->SetMinificationFilter(filter);
+  texture->SetMagnificationFilter(filter);
+}
+
 } // namespace
 
 ImageCompositor::ImageCompositor()
   : Context(
       [this](vtkOpenGLRenderWindow* window)
       {
+        this->Memory.ReleaseGraphicsResources(window);
         this->Texture->ReleaseGraphicsResources(window);
         this->ByteTexture->ReleaseGraphicsResources(window);
         this->DepthTexture->ReleaseGraphicsResources(window);
@@ -84,123 +124,123 @@ ImageCompositor::ImageCompositor()
 ImageCompositor::~ImageCompositor() = default;
 
 void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
-  const float* colors, int width, int height, const PixelRectangle& covered)
+  const MemoryPicture& picture, const PixelRectangle& covered)
 {
   this->Context.Set(window);
-  const PixelRectangle target =
-    this->Upload(rectangle, { colors, VTK_FLOAT, 4, width, height }, covered, this->Texture);
-  this->Composite(window, target, this->Texture);
+  const bool sameSize = picture.Width == rectangle.Width && picture.Height == rectangle.Height;
+  if (sameSize && MemoryCompositor::CanComposite(picture))
+  {
+    this->Memory.Composite(window, rectangle.X, rectangle.Y, picture, covered);
+    return;
+  }
+  // Where a ray is a pixel, what is empty needs neither upload nor drawing.
+  const PixelRectangle part =
+    sameSize ? covered : PixelRectangle{ 0, 0, picture.Width, picture.Height };
+  const PixelRectangle drawn =
+    sameSize ? covered : PixelRectangle{ 0, 0, rectangle.Width, rectangle.Height };
+  if (picture.Depths)
+  {
+    this->Upload(picture.Depths, VTK_FLOAT, 1, picture, part, this->DepthTexture);
+  }
+  if (picture.Bytes)
+  {
+    this->Upload(picture.Bytes, VTK_UNSIGNED_CHAR, 4, picture, part, this->ByteTexture);
+    SetFilter(this->ByteTexture, vtkTextureObject::Nearest);
+    this->DrawDepth(rectangle, drawn, this->OpaqueQuad, CompositeOpaqueFS, this->ByteTexture);
+    return;
+  }
+  this->Upload(picture.Colors, VTK_FLOAT, 4, picture, part, this->Texture);
+  if (picture.Depths)
+  {
+    this->DrawDepth(rectangle, drawn, this->DepthQuad, CompositeDepthFS, nullptr);
+  }
+  this->Blend(rectangle, drawn, this->Texture);
 }
 
-void ImageCompositor::WriteDepth(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
-  const float* depths, int width, int height, const PixelRectangle& covered)
+void ImageCompositor::Composite(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle,
+  vtkTextureObject* picture, const PixelRectangle& covered)
 {
   this->Context.Set(window);
-  const PixelRectangle target =
-    this->Upload(rectangle, { depths, VTK_FLOAT, 1, width, height }, covered, this->DepthTexture);
-  this->DrawDepth(target, this->DepthQuad, CompositeDepthFS, nullptr);
+  if (IsOfSize(picture, rectangle.Width, rectangle.Height) &&
+    MemoryCompositor::CanComposite(MemoryPicture()))
+  {
+    this->Memory.Composite(window, rectangle.X, rectangle.Y, picture, covered);
+    return;
+  }
+  this->Blend(rectangle, covered, picture);
 }
 
-void ImageCompositor::CompositeOpaque(vtkOpenGLRenderWindow* window,
-  const PixelRectangle& rectangle, const std::uint8_t* colors, const float* depths, int width,
-  int height, const PixelRectangle& covered)
-{
-  this->Context.Set(window);
-  this->Upload(rectangle, { depths, VTK_FLOAT, 1, width, height }, covered, this->DepthTexture);
-  const PixelRectangle target = this->Upload(
-    rectangle, { colors, VTK_UNSIGNED_CHAR, 4, width, height }, covered, this->ByteTexture);
-  this->ByteTexture->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->ByteTexture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  this->DrawDepth(target, this->OpaqueQuad, CompositeOpaqueFS, this->ByteTexture);
-}
-
-/// Draws the depth texture over what the buffers hold, with colours if there are any.
-void ImageCompositor::DrawDepth(const PixelRectangle& target,
+/// Draws the depth texture over what the buffers hold, with colours if there are any. part: of the
+/// rectangle.
+void ImageCompositor::DrawDepth(const PixelRectangle& rectangle, const PixelRectangle& part,
   std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* shader, vtkTextureObject* colors)
 {
   vtkOpenGLState* state = this->Context.Get()->GetState();
+  const PartOfViewport drawn(state, rectangle, part);
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  const vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
-  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
   const vtkOpenGLState::ScopedglDepthMask depthMask(state);
   const vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
   const vtkOpenGLState::ScopedglColorMask colorMask(state);
-  const vtkOpenGLState::ScopedglViewport viewport(state);
-  const vtkOpenGLState::ScopedglActiveTexture unit(state);
   state->vtkglDisable(GL_BLEND);
   state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_CULL_FACE);
-  state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglDepthMask(GL_TRUE);
   // Rays end at what the buffer holds, but where a ray covers several pixels, one may be nearer.
   state->vtkglDepthFunc(GL_LEQUAL);
   const GLboolean mask = colors ? GL_TRUE : GL_FALSE;
   state->vtkglColorMask(mask, mask, mask, mask);
-  state->vtkglViewport(target.X, target.Y, target.Width, target.Height);
-  this->DepthTexture->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->DepthTexture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  SetFilter(this->DepthTexture, vtkTextureObject::Nearest);
   this->Draw(quad, shader, colors, this->DepthTexture);
 }
 
-/// Makes the texture of what is covered of a picture. Returns where it belongs in the window.
-PixelRectangle ImageCompositor::Upload(const PixelRectangle& rectangle, const Memory& memory,
-  const PixelRectangle& covered, vtkTextureObject* texture)
+/// Brings a part of a picture's values into a texture of all of them, which is made where there is
+/// none of that size.
+void ImageCompositor::Upload(const void* values, int type, int components,
+  const MemoryPicture& picture, const PixelRectangle& part, vtkTextureObject* texture)
 {
-  // Where a ray is a pixel, what is empty needs neither upload nor drawing.
-  const bool sameSize = memory.Width == rectangle.Width && memory.Height == rectangle.Height;
-  const PixelRectangle part =
-    sameSize ? covered : PixelRectangle{ 0, 0, memory.Width, memory.Height };
   const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
-  texture->SetContext(this->Context.Get());
-  texture->SetWrapS(vtkTextureObject::ClampToEdge);
-  texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  const std::size_t bytes = memory.Components * (memory.Type == VTK_FLOAT ? sizeof(float) : 1);
-  const auto* first = static_cast<const char*>(memory.Values) +
-    bytes * (static_cast<std::size_t>(part.Y) * memory.Width + part.X);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, memory.Width);
-  const bool made = texture->Create2DFromRaw(
-    part.Width, part.Height, memory.Components, memory.Type, const_cast<char*>(first)); // only read
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  if (!made)
+  const int width = picture.Width;
+  const int height = picture.Height;
+  if (texture->GetHandle() == 0 || !IsOfSize(texture, width, height))
   {
-    throw std::runtime_error("no texture of " + std::to_string(part.Width) + " x " +
-      std::to_string(part.Height) + " pixels could be made");
+    texture->SetContext(this->Context.Get());
+    texture->SetWrapS(vtkTextureObject::ClampToEdge);
+    texture->SetWrapT(vtkTextureObject::ClampToEdge);
+    if (!texture->Create2DFromRaw(width, height, components, type, nullptr))
+    {
+      throw std::runtime_error("no texture of " + std::to_string(width) + " x " +
+        std::to_string(height) + " pixels could be made");
+    }
   }
+  const std::size_t bytes = components * (type == VTK_FLOAT ? sizeof(float) : 1);
+  const auto* first =
+    static_cast<const char*>(values) + bytes * (static_cast<std::size_t>(part.Y) * width + part.X);
+  texture->Activate();
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, width);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, part.X, part.Y, part.Width, part.Height,
+    texture->GetFormat(type, components, false), texture->GetDataType(type), first);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   texture->Deactivate();
-  return sameSize
-    ? PixelRectangle{ rectangle.X + part.X, rectangle.Y + part.Y, part.Width, part.Height }
-    : rectangle;
 }
 
-void ImageCompositor::Composite(
-  vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle, vtkTextureObject* picture)
+/// Blends the picture over a part of the rectangle that it belongs to.
+void ImageCompositor::Blend(
+  const PixelRectangle& rectangle, const PixelRectangle& part, vtkTextureObject* colors)
 {
-  this->Context.Set(window);
-  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState* state = this->Context.Get()->GetState();
+  const PartOfViewport drawn(state, rectangle, part);
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  const vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
-  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
   const vtkOpenGLState::ScopedglDepthMask depthMask(state);
   const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
-  const vtkOpenGLState::ScopedglViewport viewport(state);
-  const vtkOpenGLState::ScopedglActiveTexture unit(state);
   state->vtkglEnable(GL_BLEND);
   state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_CULL_FACE);
-  state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglDepthMask(GL_FALSE);
   state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  state->vtkglViewport(rectangle.X, rectangle.Y, rectangle.Width, rectangle.Height);
-
-  const bool sameSize = static_cast<int>(picture->GetWidth()) == rectangle.Width &&
-    static_cast<int>(picture->GetHeight()) == rectangle.Height;
-  const int filter = sameSize ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
-  picture->SetMinificationFilter(filter);
-  picture->SetMagnificationFilter(filter);
-
-  this->Draw(this->Quad, CompositeImageFS, picture, nullptr);
+  SetFilter(colors,
+    IsOfSize(colors, rectangle.Width, rectangle.Height) ? vtkTextureObject::Nearest
+                                                        : vtkTextureObject::Linear);
+  this->Draw(this->Quad, CompositeImageFS, colors, nullptr);
 }
 
 /// Draws a picture, depths or both by a shader, whose program quad keeps.

@@ -72,6 +72,8 @@ struct MapperFrame
   bool Aborted = false;
   bool Kept = false; ///< composited as it is: the picture of the last frame has the same Key
   bool Final = true; ///< false: the next frame refines the picture, if nothing changes
+  /// The picture is a mean that frames refine, which other rays would begin anew.
+  bool IsMean = false;
   std::vector<std::pair<std::string, double>> Seconds; ///< of the stages of DrawFrame
   Integrator Integration = Integrator::ClosedForm;
   std::vector<std::pair<std::string, Json>> Sections; ///< of the mapper itself

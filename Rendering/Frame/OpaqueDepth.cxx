@@ -2,6 +2,8 @@
 #include "Frame/OpaqueDepth.h"
 #include "OpenGL/LoadedFunctions.h"
 
+#include "Frame/BoundForReading.h"
+
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -14,73 +16,6 @@ namespace tetralux
 {
 namespace
 {
-
-/// A texture's format, and how its values are handed over.
-struct DepthFormat
-{
-  GLenum Internal;
-  GLenum Format;
-  GLenum Type;
-  std::size_t Bytes;
-};
-
-/// That of the depth buffer bound for reading: depths are copied only between equal ones.
-DepthFormat FindDepthFormat(bool windowsOwn)
-{
-  const auto get = [windowsOwn](bool stencil, GLenum parameter)
-  {
-    GLint value = 0;
-    GLint type = GL_NONE;
-    const GLenum attachment = stencil ? (windowsOwn ? GL_STENCIL : GL_STENCIL_ATTACHMENT)
-                                      : (windowsOwn ? GL_DEPTH : GL_DEPTH_ATTACHMENT);
-    glGetFramebufferAttachmentParameteriv(
-      GL_READ_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
-    if (type != GL_NONE)
-    {
-      glGetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, attachment, parameter, &value);
-    }
-    return value;
-  };
-  const GLint bits = get(false, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
-  if (bits == 0)
-  {
-    throw std::runtime_error("there is no depth buffer to take opaque geometry from");
-  }
-  const bool isFloat = get(false, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
-  const bool stencil = get(true, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE) > 0;
-  if (isFloat)
-  {
-    return stencil
-      ? DepthFormat{ GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8 }
-      : DepthFormat{ GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4 };
-  }
-  if (stencil)
-  {
-    return { GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, 4 };
-  }
-  const GLenum internal = bits == 16 ? GL_DEPTH_COMPONENT16
-    : bits == 24                     ? GL_DEPTH_COMPONENT24
-                                     : GL_DEPTH_COMPONENT32;
-  return { internal, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, static_cast<std::size_t>(4) };
-}
-
-/// While one lives, reading comes from a frame buffer; then both that were bound are bound again.
-class ReadingFrom
-{
-public:
-  ReadingFrom(vtkOpenGLState* state, unsigned int framebuffer)
-    : State(state)
-  {
-    state->PushFramebufferBindings();
-    state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  }
-  ~ReadingFrom() { this->State->PopFramebufferBindings(); }
-  ReadingFrom(const ReadingFrom&) = delete;
-  ReadingFrom& operator=(const ReadingFrom&) = delete;
-
-private:
-  vtkOpenGLState* State;
-};
 
 /// The frame buffer that is bound for drawing; between frames, the one that frames are drawn into.
 unsigned int FindSource(vtkOpenGLRenderWindow* window)
@@ -114,7 +49,7 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
   }
   vtkOpenGLState* state = window->GetState();
   const unsigned int source = FindSource(window);
-  const ReadingFrom reading(state, source);
+  const BoundForReading reading(state, source);
   const DepthFormat format = FindDepthFormat(source == 0);
 
   const vtkOpenGLState::ScopedglActiveTexture unit(state);
@@ -122,35 +57,20 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
   state->vtkglDisable(GL_SCISSOR_TEST);
   const int width = rectangle.Width;
   const int height = rectangle.Height;
-  const bool changed = this->Bytes == 0 || format.Internal != this->Format ||
+  const bool changed = this->Bytes == 0 || !(format == this->Format) ||
     static_cast<int>(this->Texture->GetWidth()) != width ||
     static_cast<int>(this->Texture->GetHeight()) != height;
   if (changed)
   {
     this->Bytes = 0;
-    this->Texture->ReleaseGraphicsResources(window);
-    this->Texture->SetContext(window);
-    this->Texture->SetInternalFormat(format.Internal);
-    this->Texture->SetFormat(format.Format);
-    this->Texture->SetDataType(format.Type);
-    this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
-    this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-    this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
-    this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-    if (!this->Texture->Allocate2D(width, height, 1, VTK_FLOAT))
-    {
-      throw std::runtime_error("no depth texture could be made");
-    }
-    this->Texture->Deactivate();
-    this->Format = format.Internal;
+    AllocateDepths(this->Texture, window, format, width, height, 0);
+    this->Format = format;
   }
   this->Framebuffer->SetContext(window);
   this->Framebuffer->Bind(GL_DRAW_FRAMEBUFFER);
   if (changed)
   {
-    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER,
-      format.Format == GL_DEPTH_STENCIL ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
-      GL_TEXTURE_2D, this->Texture->GetHandle(), 0);
+    AttachDepths(this->Texture, format);
     unsigned int none = GL_NONE;
     state->vtkglDrawBuffers(1, &none);
   }
@@ -166,7 +86,7 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
 void OpaqueDepth::Read(Span<float> depths)
 {
   vtkOpenGLState* state = this->Context.Get()->GetState();
-  const ReadingFrom reading(state, this->Framebuffer->GetFBOIndex());
+  const BoundForReading reading(state, this->Framebuffer->GetFBOIndex());
   state->vtkglReadBuffer(GL_NONE);
   GLint alignment = 0;
   glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
@@ -185,7 +105,7 @@ bool OpaqueDepth::IsSame(vtkOpenGLRenderWindow* window, const PixelRectangle& re
   }
   OpaqueDepth now;
   now.Copy(window, rectangle);
-  if (now.Format != this->Format || now.Bytes != this->Bytes)
+  if (!(now.Format == this->Format) || now.Bytes != this->Bytes)
   {
     return false;
   }

@@ -3,6 +3,7 @@
 #define tetralux_OpaqueDepth_h
 
 #include "Base/Span.h"
+#include "Frame/DepthFormat.h"
 #include "Frame/DrawnViewport.h"
 #include "OpenGL/ContextResources.h"
 #include "TetraluxRenderingModule.h"
@@ -52,7 +53,7 @@ public:
 private:
   vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
   vtkNew<vtkTextureObject> Texture;
-  unsigned int Format = 0;
+  DepthFormat Format;
   std::size_t Bytes = 0;
   ContextResources Context;
 };

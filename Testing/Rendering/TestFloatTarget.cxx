@@ -158,7 +158,7 @@ TEST_F(FloatTargetTest, CompositesAsAPictureFromMemoryDoes)
   tetralux::ImageCompositor compositor;
   const tetralux::PixelRectangle rectangle{ 3, 2, 10, 6 };
   const OpenGLSnapshot before = TakeOpenGLSnapshot(this->Window);
-  compositor.Composite(this->Window, rectangle, this->Target.GetTexture(0));
+  compositor.Composite(this->Window, rectangle, this->Target.GetTexture(0), { 0, 0, 10, 6 });
   EXPECT_EQ(FindDifferences(before, TakeOpenGLSnapshot(this->Window)), "");
   const std::vector<unsigned char> drawn = this->ReadWindow();
   this->Render();
@@ -167,7 +167,11 @@ TEST_F(FloatTargetTest, CompositesAsAPictureFromMemoryDoes)
   {
     colors.insert(colors.end(), color.begin(), color.end());
   }
-  compositor.Composite(this->Window, rectangle, colors.data(), 10, 6, { 0, 0, 10, 6 });
+  tetralux::MemoryPicture picture;
+  picture.Width = 10;
+  picture.Height = 6;
+  picture.Colors = colors.data();
+  compositor.Composite(this->Window, rectangle, picture, { 0, 0, 10, 6 });
   EXPECT_EQ(FindDifferences(before, TakeOpenGLSnapshot(this->Window)), "");
   EXPECT_EQ(drawn, this->ReadWindow());
   const std::size_t inside = 4 * (4 * 24 + 5);
