@@ -53,7 +53,8 @@ double FindBrightness(const SceneInput& input, const WalkMesh& mesh)
   return std::exp2(std::ceil(StepsOfDoubling * std::log2(brightness)) / StepsOfDoubling);
 }
 
-/// Shares of the error of functions: of what is not linear in the property, the rest of runs.
+/// Share of the error of functions that subdividing a property takes. Runs take what it leaves, all
+/// of it if the property is piecewise linear.
 constexpr double ShareOfSubdivision = 1. / 4;
 
 /// Whether values are the same; those that are no numbers, too.
@@ -442,7 +443,6 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   // Nothing stands for anything else where no error is allowed, and where it would save nothing.
   const bool exact = allowed <= SmallestFunctionError || this->Scene.Mesh.HasCellScalars() ||
     this->Components.Shown != ComponentUse::Kind::One || !std::isfinite(brightness);
-  const double ofRuns = exact ? 0 : (1 - ShareOfSubdivision) * allowed / brightness;
   const double maximumError =
     std::max((exact ? 1 : ShareOfSubdivision) * allowed, SmallestFunctionError);
   CacheKey exactKey = GetPropertyKey(input.Property);
@@ -455,19 +455,20 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   CacheKey key = exactKey;
   key.Add(maximumError);
   key.Add(longestPath);
-  const auto makeTolerance = [&](const TransferFunction& function)
+  const auto makeTolerance = [&](const TransferFunction& function, double error)
   {
     RunTolerance tolerance;
     if (!exact)
     {
+      const double ofRuns = (allowed - error) / brightness;
       tolerance = MakeRunTolerance(settings.Model, function, ofRuns, longestPath);
       tolerance.Picture *= brightness;
     }
     return tolerance;
   };
-  const CacheKey toleranceKey = CacheKey::Of(ofRuns, longestPath);
+  const CacheKey toleranceKey = CacheKey::Of(exact, allowed, brightness, longestPath);
   // Error and path matter only to a property that had to be approximated, and to runs.
-  const bool sameFunction = this->Function.Has(this->FunctionIsExact ? exactKey : key);
+  const bool sameFunction = this->Function.Has(this->PropertyError == 0 ? exactKey : key);
   if (sameFunction && this->Tolerance.Has(toleranceKey))
   {
     return;
@@ -477,7 +478,7 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   if (sameFunction)
   {
     SceneOptics& optics = this->Scene.Optics;
-    if (optics.SetRunTolerance(makeTolerance(optics.GetTransferFunction())))
+    if (optics.SetRunTolerance(makeTolerance(optics.GetTransferFunction(), this->PropertyError)))
     {
       this->Last.Rebuilt.push_back("transfer function");
     }
@@ -498,9 +499,9 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
     this->Scene.Optics.SetIsosurfaces(IsosurfacesFromProperty(input.Property, function.Function));
   }
   this->Scene.Optics.SetTransferFunction(
-    function.Function, function.Error, makeTolerance(function.Function));
-  this->FunctionIsExact = function.Error == 0;
-  this->Function.Set(this->FunctionIsExact ? exactKey : key);
+    function.Function, function.Error, makeTolerance(function.Function, function.Error));
+  this->PropertyError = function.Error;
+  this->Function.Set(this->PropertyError == 0 ? exactKey : key);
   this->Tolerance.Set(toleranceKey);
   this->Last.FunctionSeconds = stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("transfer function");

@@ -134,8 +134,8 @@ private:
   CacheStamp Scalars;
   CacheStamp Colors;
   CacheStamp Function;
-  bool FunctionIsExact = false; ///< so it does not depend on the error that is allowed
-  CacheStamp Tolerance;         ///< of the runs of the function
+  double PropertyError = 0; ///< 0: the function does not depend on the error that is allowed
+  CacheStamp Tolerance;     ///< of the runs of the function
 
   std::string ArrayName;
   SegmentTable Table;
