@@ -120,6 +120,8 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(MapperFrame& frame)
     frame.Surface = tetralux::GetMaterial(frame.Property);
     input.LightVaries = tetralux::FindLighting(true, frame.Settings.SmoothShading, frame.Lights) ==
       tetralux::Lighting::Varying;
+    input.Lights = &frame.Lights;
+    input.Surface = &frame.Surface;
   }
   this->Peaks.BeforeFrame = tetralux::GetPeakMemory();
   const bool ready = this->Preparation.Update(settings, input,
@@ -242,8 +244,8 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   frame.Errors.emplace_back("transfer_function", frame.Scene->Optics.GetFunctionError());
 
   const bool cellData = scene.Mesh.HasCellScalars();
-  frame.ReportOmission(frame.Scene->Optics.GetFunctionError() == 0, "subdivided transfer function",
-    "it is piecewise linear");
+  frame.ReportOmission(frame.Scene->Optics.GetFunctionError() == 0,
+    "approximated transfer function", "each of its intervals is exact");
   frame.ReportOmission(cellData, "scalars varying in cells", "the array is of cells");
   frame.ReportOmission(!cellData, "constant cells", "the array is of points");
   frame.ReportOmission(frame.Integration == tetralux::Integrator::OpticalDepth,

@@ -145,9 +145,9 @@ public:
   ///@{
   /**
    * Set the largest absolute error per premultiplied channel, 0 to 1. Default 1e-4. Rays end early,
-   * arithmetic is in single precision, and colour functions that are not piecewise linear are
-   * subdivided, each as far as its share of this error allows. If the GetErrorEstimate() of a frame
-   * is above it, one warning for each cause has both numbers.
+   * arithmetic is in single precision, and a few parabolas stand for the colour function, each as
+   * far as its share of this error allows (0: none). If the GetErrorEstimate() of a frame is above
+   * it, one warning for each cause has both numbers.
    *
    * @warning Below 1e-6 the single precision of the picture limits the error, and no warning is
    * given.
@@ -509,7 +509,7 @@ public:
    * GetStatistics() has below "error": ending rays early, the integrals, adding segments up in
    * single precision or in the colour buffer, tables, rounding coordinates and scalars
    * ("geometry"), PerspectiveInterpolation off, a wrong order of cells, and colour functions that
-   * were subdivided.
+   * are approximated.
    *
    * Tables and "geometry" are measured on some thousand rays through the mesh. Where "geometry" is
    * not 0, pixels that graze are not covered: those in which the exact picture itself changes by

@@ -27,6 +27,8 @@ struct SegmentLanes
   void (*IntegrateConstant)(const float* depth, float* opacity, float* transmittance);
   void (*IntegrateSegment)(
     const float* d0, const float* d1, float* front, float* back, float* transmittance);
+  void (*IntegrateCurvedSegment)(
+    const float* d0, const float* d1, float* front, float* back, float* bulge);
 };
 
 /// Those of every instruction set that this processor has.

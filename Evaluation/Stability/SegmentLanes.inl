@@ -43,6 +43,15 @@ SegmentLanes MakeSegmentLanes(InstructionSet set)
     Store(back, w.Back);
     Store(transmittance, w.Transmittance);
   };
+  lanes.IntegrateCurvedSegment =
+    [](const float* d0, const float* d1, float* front, float* back, float* bulge)
+  {
+    Float8 ofBulge;
+    const SegmentWeights w = IntegrateCurvedSegment(LoadFloat8(d0), LoadFloat8(d1), ofBulge);
+    Store(front, w.Front);
+    Store(back, w.Back);
+    Store(bulge, ofBulge);
+  };
   return lanes;
 }
 

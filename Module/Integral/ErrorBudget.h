@@ -13,7 +13,7 @@ struct ErrorSpending
   bool EndsEarly = false;    ///< rays end where little is left to see
   bool Tabulated = false;    ///< segments are looked up in a table
   bool Buffered = false;     ///< colours are composited in a buffer of less than single precision
-  bool Approximated = false; ///< functions of the property are not piecewise linear
+  bool Approximated = false; ///< others stand for functions of the property
   bool LightVaries = false;  ///< on a ray's way through a cell
   bool Sliced = false;       ///< the distance of slices follows from the error
 };
@@ -27,7 +27,7 @@ struct ErrorBudget
   double Rounding = 0; ///< weights of segments, and adding them up
 
   // Of frames that spend it, else 0.
-  double Functions = 0;   ///< approximating functions that are not piecewise linear
+  double Functions = 0;   ///< approximating functions
   double Termination = 0; ///< ending rays early
   double Table = 0;       ///< looking segments up
   double Buffer = 0;      ///< rounding what is in the frame buffer
@@ -45,22 +45,33 @@ struct ErrorBudget
   }
 };
 
-/// Rounding takes an eighth, geometry a quarter and functions an eighth, which geometry takes where
-/// they are exact. Of the other half a table, or light, and a buffer take a quarter of all each,
-/// and slices three eighths. Ending rays early takes what they leave.
+/// Rounding takes an eighth, and geometry three. Of the other half a table, or light, and a buffer
+/// take a quarter of all each, and slices three eighths. Ending rays early takes what they leave.
+/// Functions that are approximated take a quarter of all (an eighth beside slices, or light that
+/// varies): one eighth from geometry, and the other one from the other half, or if that is all taken
+/// from geometry, too.
 inline ErrorBudget MakeErrorBudget(double maximumError, const ErrorSpending& spending)
 {
   ErrorBudget budget;
-  budget.Rounding = 0.125 * maximumError;
-  budget.Functions = spending.Approximated ? 0.125 * maximumError : 0;
-  budget.Geometry = 0.375 * maximumError - budget.Functions;
-  budget.Table = spending.Tabulated ? 0.25 * maximumError : 0;
-  budget.Buffer = spending.Buffered ? 0.25 * maximumError : 0;
-  budget.Light = spending.LightVaries ? 0.25 * maximumError : 0;
-  budget.Slices = spending.Sliced ? 0.375 * maximumError : 0;
-  budget.Termination = spending.EndsEarly
-    ? 0.5 * maximumError - budget.Table - budget.Buffer - budget.Light - budget.Slices
-    : 0;
+  const double eighth = 0.125 * maximumError;
+  budget.Rounding = eighth;
+  budget.Geometry = 3 * eighth;
+  budget.Table = spending.Tabulated ? 2 * eighth : 0;
+  budget.Buffer = spending.Buffered ? 2 * eighth : 0;
+  budget.Light = spending.LightVaries ? 2 * eighth : 0;
+  budget.Slices = spending.Sliced ? 3 * eighth : 0;
+  double left = 4 * eighth - budget.Table - budget.Buffer - budget.Light - budget.Slices;
+  if (spending.Approximated)
+  {
+    const bool least = spending.Sliced || spending.LightVaries;
+    budget.Functions = (least ? 1 : 2) * eighth;
+    budget.Geometry -= eighth;
+    if (!least)
+    {
+      (left > 0 ? left : budget.Geometry) -= eighth;
+    }
+  }
+  budget.Termination = spending.EndsEarly ? left : 0;
   return budget;
 }
 

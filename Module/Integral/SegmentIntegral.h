@@ -137,7 +137,8 @@ TETRALUX_INLINE SegmentWeights IntegrateThinSegment(Float8 d0, Float8 d1)
 }
 
 /// The weight of a colour 4 w (1 - w) along a thin segment, as a share of its opacity: 2 / 3 in the
-/// limit. By iteratively reweighted least squares over |b| <= D <= ThinDepth; error 2.4e-4.
+/// limit. By iteratively reweighted least squares over |b| <= D <= ThinDepth; error 2.4e-4, within
+/// BulgeShareError.
 TETRALUX_INLINE Float8 FindBulgeShare(Float8 d0, Float8 d1)
 {
   const Float8 depth = Float8(0.5f) * (d0 + d1);
@@ -147,36 +148,89 @@ TETRALUX_INLINE Float8 FindBulgeShare(Float8 d0, Float8 d1)
   return Fma(depth * depth, Polynomial(b, p1), Polynomial(b, p0));
 }
 
+/// The integral I of a thick segment. transmittance: exp(-D).
+TETRALUX_INLINE Float8 IntegrateThickSegment(
+  Float8 d0, Float8 d1, Float8 transmittance, Mask8 thick)
+{
+  // Equal ends would divide 0 by 0. Any smaller slope leaves the same limit, 1 / D0 - ..., since
+  // both functions are then at arguments where they are 1 / x to rounding.
+  const Float8 depth = Float8(0.5f) * (d0 + d1);
+  const Float8 b = Float8(0.5f) * (d1 - d0);
+  const Float8 floor = Float8(1e-12f) * depth;
+  const Float8 slopeRoot = Sqrt(Max(Abs(b), floor));
+  const Float8 scale = Float8(0.5f) / slopeRoot;
+  const Float8 x0 = d0 * scale;
+  const Float8 x1 = d1 * scale;
+  const Mask8 falling = b < Float8(0.f);
+  Float8 integral = Float8(0.f);
+  if (Any(thick & falling))
+  {
+    integral = (Dawson(x0) - transmittance * Dawson(x1)) / slopeRoot;
+  }
+  if (Any(AndNot(thick, falling)))
+  {
+    constexpr float HalfRootOfPi = 0.886226925f;
+    integral = Select(falling, integral,
+      Float8(HalfRootOfPi) * (Erfcx(x0) - transmittance * Erfcx(x1)) / slopeRoot);
+  }
+  return integral;
+}
+
+/// Sets the weights of the lanes that are thick.
+TETRALUX_INLINE void SetThickWeights(Mask8 thick, Float8 integral, SegmentWeights& w)
+{
+  w.Front = Select(thick, Max(Float8(0.f), Float8(1.f) - integral), w.Front);
+  w.Back = Select(thick, Max(Float8(0.f), integral - w.Transmittance), w.Back);
+}
+
 /// Weights of a segment from its optical depths, both at least 0 and at most LargestSingleDepth.
 TETRALUX_INLINE SegmentWeights IntegrateSegment(Float8 d0, Float8 d1)
 {
   SegmentWeights w = IntegrateThinSegment(d0, d1);
-  const Float8 depth = Float8(0.5f) * (d0 + d1);
-  const Mask8 thick = Float8(ThinDepth) < depth;
+  const Mask8 thick = Float8(ThinDepth) < Float8(0.5f) * (d0 + d1);
   if (Any(thick))
   {
-    // Equal ends would divide 0 by 0. Any smaller slope leaves the same limit, 1 / D0 - ..., since
-    // both functions are then at arguments where they are 1 / x to rounding.
-    const Float8 b = Float8(0.5f) * (d1 - d0);
-    const Float8 floor = Float8(1e-12f) * depth;
-    const Float8 slopeRoot = Sqrt(Max(Abs(b), floor));
-    const Float8 scale = Float8(0.5f) / slopeRoot;
-    const Float8 x0 = d0 * scale;
-    const Float8 x1 = d1 * scale;
-    const Mask8 falling = b < Float8(0.f);
-    Float8 integral = Float8(0.f);
-    if (Any(thick & falling))
-    {
-      integral = (Dawson(x0) - w.Transmittance * Dawson(x1)) / slopeRoot;
-    }
-    if (Any(AndNot(thick, falling)))
-    {
-      constexpr float HalfRootOfPi = 0.886226925f;
-      integral = Select(falling, integral,
-        Float8(HalfRootOfPi) * (Erfcx(x0) - w.Transmittance * Erfcx(x1)) / slopeRoot);
-    }
-    w.Front = Select(thick, Max(Float8(0.f), Float8(1.f) - integral), w.Front);
-    w.Back = Select(thick, Max(Float8(0.f), integral - w.Transmittance), w.Back);
+    SetThickWeights(thick, IntegrateThickSegment(d0, d1, w.Transmittance, thick), w);
+  }
+  return w;
+}
+
+/// The weight of a colour 4 w (1 - w) along a thick segment. integral: I.
+///
+/// By parts it is 4 I - 8 M with M the integral of w exp(-T(w)), and D0 I + (D1 - D0) M = 1 -
+/// exp(-D). Where the slope is small, which that divides by, it is the weight at constant
+/// attenuation and the first term in the slope; the second one is below 0.001 times its square.
+TETRALUX_INLINE Float8 FindThickBulge(Float8 d0, Float8 d1, Float8 transmittance, Float8 integral)
+{
+  static constexpr float SmallSlope = 0.25f;
+  const Float8 depth = Float8(0.5f) * (d0 + d1);
+  const Float8 slope = d1 - d0;
+  const Float8 opacity = Float8(1.f) - transmittance;
+  const Mask8 small = Abs(slope) < Float8(SmallSlope);
+  const Float8 steep = Fma(Float8(4.f), integral,
+    Float8(-8.f) * (opacity - d0 * integral) / Select(small, Float8(1.f), slope));
+  // Moments of exp(-D w).
+  const Float8 inverse = Float8(1.f) / Max(depth, Float8(1.f));
+  const Float8 m1 = (opacity * inverse - transmittance) * inverse;
+  const Float8 m2 = (Float8(2.f) * m1 - transmittance) * inverse;
+  const Float8 m3 = (Float8(3.f) * m2 - transmittance) * inverse;
+  const Float8 even = Float8(4.f) * depth * (m1 - m2);
+  const Float8 odd = Float8(2.f) * (m1 - Float8(3.f) * m2 + Float8(2.f) * m3);
+  return Max(Float8(0.f), Select(small, Fma(slope, odd, even), steep));
+}
+
+/// Weights of a segment as IntegrateSegment has them, and bulge, of a colour 4 w (1 - w), whose
+/// error is BulgeShareError of the opacity.
+TETRALUX_INLINE SegmentWeights IntegrateCurvedSegment(Float8 d0, Float8 d1, Float8& bulge)
+{
+  SegmentWeights w = IntegrateThinSegment(d0, d1);
+  bulge = FindBulgeShare(d0, d1) * (w.Front + w.Back);
+  const Mask8 thick = Float8(ThinDepth) < Float8(0.5f) * (d0 + d1);
+  if (Any(thick))
+  {
+    const Float8 integral = IntegrateThickSegment(d0, d1, w.Transmittance, thick);
+    SetThickWeights(thick, integral, w);
+    bulge = Select(thick, FindThickBulge(d0, d1, w.Transmittance, integral), bulge);
   }
   return w;
 }

@@ -96,6 +96,43 @@ IntervalTable::Interval MakeInterval(
   return interval;
 }
 
+/// Adds the bulge of a run to a channel of its interval: with u = d / reach, 4 bulge u (1 - u),
+/// whichever end d is measured from.
+void AddBulge(IntervalTable::Interval& interval, int c, double bulge)
+{
+  const double reach =
+    interval.Reference == interval.Lo ? interval.Hi - interval.Lo : interval.Lo - interval.Hi;
+  if (bulge == 0 || reach == 0)
+  {
+    return;
+  }
+  const float far = interval.Color[c] + interval.ColorSlope[c] * reach;
+  interval.ColorSlope[c] += static_cast<float>(4 * bulge / reach);
+  interval.ColorBend[c] = static_cast<float>(-4 * bulge / (reach * reach));
+  if (interval.Color[c] >= 0 && far >= 0)
+  {
+    // So that none of the roundings on the way to a colour makes it negative.
+    constexpr float Roundings = 1.f / (1 << 22);
+    interval.Color[c] += Roundings *
+      (interval.Color[c] + std::abs(interval.ColorSlope[c] * reach) +
+        std::abs(interval.ColorBend[c] * reach * reach));
+  }
+}
+
+std::vector<FunctionRun> FindRuns(const TransferFunction& function, const RunTolerance& tolerance)
+{
+  if (tolerance.Allows())
+  {
+    return FindFunctionRuns(function, tolerance).Runs;
+  }
+  std::vector<FunctionRun> runs;
+  for (std::size_t k = 0; k + 1 < function.Nodes.size(); ++k)
+  {
+    runs.push_back({ k, k + 1, { 0, 0, 0 } });
+  }
+  return runs;
+}
+
 /// An interval without an end on one side.
 IntervalTable::Interval MakeConstantInterval(
   float lo, float hi, float reference, const TransferFunction::Value& value)
@@ -108,7 +145,7 @@ IntervalTable::Interval MakeConstantInterval(
 
 } // namespace
 
-IntervalTable MakeIntervalTable(const TransferFunction& function)
+IntervalTable MakeIntervalTable(const TransferFunction& function, const RunTolerance& tolerance)
 {
   Check(function);
   IntervalTable table;
@@ -128,10 +165,19 @@ IntervalTable MakeIntervalTable(const TransferFunction& function)
   constexpr float Infinity = std::numeric_limits<float>::infinity();
   table.Intervals.push_back(
     MakeConstantInterval(-Infinity, map(first), map(first), nodes.front().Left));
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
+  for (const FunctionRun& run : FindRuns(function, tolerance))
   {
-    table.Intervals.push_back(MakeInterval(
-      map(nodes[k].Scalar), map(nodes[k + 1].Scalar), nodes[k].Right, nodes[k + 1].Left));
+    const TransferFunction::Node& begin = nodes[run.First];
+    const TransferFunction::Node& end = nodes[run.Last];
+    IntervalTable::Interval interval =
+      MakeInterval(map(begin.Scalar), map(end.Scalar), begin.Right, end.Left);
+    for (int c = 0; c < 3; ++c)
+    {
+      AddBulge(interval, c, run.Bulge[c]);
+      table.Curved = table.Curved || interval.ColorBend[c] != 0;
+    }
+    table.Intervals.push_back(interval);
+    table.Exact = table.Exact && run.Last == run.First + 1;
   }
   table.Intervals.push_back(
     MakeConstantInterval(map(last), Infinity, map(last), nodes.back().Right));

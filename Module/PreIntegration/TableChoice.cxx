@@ -18,15 +18,17 @@ namespace tetralux
 namespace
 {
 
-/// Nodes between two scalars, on average over all segments of the rays, plus one.
-double CountPieces(const TransferFunction& function, const RaySample& sample)
+/// Ends of intervals between two scalars, on average over all segments of the rays, plus one.
+double CountPieces(const IntervalTable& table, const RaySample& sample)
 {
-  const auto rank = [&function](double s)
+  const std::vector<IntervalTable::Interval>& intervals = table.Intervals;
+  const auto rank = [&](double s)
   {
-    return std::upper_bound(function.Nodes.begin(), function.Nodes.end(), s,
-             [](double scalar, const TransferFunction::Node& node)
-             { return scalar < node.Scalar; }) -
-      function.Nodes.begin();
+    const auto x = static_cast<float>((s - table.Offset) / table.Scale);
+    return std::upper_bound(intervals.begin(), intervals.end(), x,
+             [](float scalar, const IntervalTable::Interval& interval)
+             { return scalar < interval.Lo; }) -
+      intervals.begin();
   };
   double pieces = 0;
   double segments = 0;
@@ -39,6 +41,16 @@ double CountPieces(const TransferFunction& function, const RaySample& sample)
     segments += static_cast<double>(ray.size());
   }
   return segments > 0 ? pieces / segments : 1;
+}
+
+/// The first rays of a sample, which are as random as all of them.
+RaySample TakeFew(const RaySample& sample)
+{
+  constexpr std::size_t FewRays = 32;
+  RaySample few;
+  few.Rays.assign(sample.Rays.begin(),
+    sample.Rays.begin() + static_cast<std::ptrdiff_t>(std::min(FewRays, sample.Rays.size())));
+  return few;
 }
 
 /// Sizes and scales in the order of their costs: scalars, lengths, steps for each doubling (0:
@@ -176,18 +188,54 @@ bool HasColorsUpToOne(const TransferFunction& function)
     });
 }
 
+constexpr const char* NoTable = "closed form: no table within the limits is right enough";
+
+/// Whether any of the largest tables may be right, as a few rays tell.
+bool IsWorthTrying(const TransferFunction& function, const TableGoal& goal,
+  const std::vector<PreIntegrationSettings>& candidates)
+{
+  // The last steps of the ladder, some of each scale.
+  constexpr std::size_t MostTried = 12;
+  const TableRays rays(function, TakeFew(*goal.Rays));
+  std::size_t tried = 0;
+  for (std::size_t k = candidates.size(); k-- > 0 && tried < MostTried;)
+  {
+    if (!Fits(candidates[k], goal.AnyFormat ? TexelFormat::UNorm8 : goal.Format, goal))
+    {
+      continue;
+    }
+    ++tried;
+    const VirtualTable table(function, candidates[k]);
+    if (rays.MayBeRight(goal.MaximumError,
+          [&table](double front, double back, double length, float rgba[4])
+          { table.LookUp(front, back, length, rgba); }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const TableGoal& goal)
 {
   TableChoice choice;
-  choice.PiecesPerSegment = CountPieces(function, *goal.Rays);
+  choice.PiecesPerSegment =
+    CountPieces(goal.Intervals ? *goal.Intervals : MakeIntervalTable(function), *goal.Rays);
   if (choice.PiecesPerSegment <= goal.LookupCost && !goal.AlwaysTable)
   {
     choice.Reason = "closed form: a segment has few pieces, a lookup takes longer";
     return choice;
   }
 
+  std::vector<PreIntegrationSettings> candidates = GetCandidates(goal);
+  if (goal.Doubtful && !goal.AlwaysTable && !IsWorthTrying(function, goal, candidates))
+  {
+    choice.Reason = NoTable;
+    choice.IsNoneRight = true;
+    return choice;
+  }
   const TableRays rays(function, *goal.Rays);
   const bool integersHold = HasColorsUpToOne(function);
   // A few rays tell most tables that are not right, for much less than it takes to fill them.
@@ -216,7 +264,6 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
     choice.PictureError = error;
     return true;
   };
-  std::vector<PreIntegrationSettings> candidates = GetCandidates(goal);
   for (PreIntegrationSettings& settings : candidates)
   {
     const auto fits = [&](TexelFormat format) { return Fits(settings, format, goal); };
@@ -239,7 +286,8 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
       }
     }
   }
-  choice.Reason = "closed form: no table within the limits is right enough";
+  choice.Reason = NoTable;
+  choice.IsNoneRight = true;
   if (!goal.AlwaysTable)
   {
     return choice;

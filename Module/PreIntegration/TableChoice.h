@@ -5,6 +5,7 @@
 // Which pre-integration table is right enough for pictures, see PreIntegrationError.h.
 
 #include "Integral/RaySegments.h"
+#include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationTable.h"
 
 #include <cstddef>
@@ -22,6 +23,13 @@ struct TableGoal
 
   /// What the table has to be right for; not nullptr.
   std::shared_ptr<const RaySample> Rays;
+
+  /// What the closed form is of: each is a piece. nullptr: MakeIntervalTable of the function.
+  const IntervalTable* Intervals = nullptr;
+
+  /// No table was right for a function before this one: a few rays and the largest tables decide
+  /// whether it is worth while to try.
+  bool Doubtful = false;
 
   // What the axes of the table reach to: no scalar or segment of a picture is beyond.
   double ScalarRange[2] = { 0, 1 };
@@ -51,6 +59,7 @@ struct TableChoice
 {
   /// nullptr, no table: the closed form is as fast, or no table within the limits is right enough.
   std::shared_ptr<PreIntegrationTable> Table;
+  bool IsNoneRight = false;    ///< tables were tried
   double PictureError = 0;     ///< EstimatePictureError of the table; 0 without one
   double PiecesPerSegment = 1; ///< of the rays, on average
   std::string Reason;          ///< one line

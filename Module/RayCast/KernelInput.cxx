@@ -35,6 +35,7 @@ void FillIntervals(const IntervalTable& table, KernelInput& in)
 {
   in.Intervals = table.Intervals.data();
   in.NumberOfIntervals = static_cast<int>(table.Intervals.size());
+  in.Curved = table.Curved;
 }
 
 void FillSurfaces(

@@ -73,7 +73,7 @@ struct ComponentPath
 
   TETRALUX_INLINE void Load(const IntervalTable::Interval* table, Int8 interval)
   {
-    const Int8 row = interval + interval + interval;
+    const Int8 row = FindIntervalRow(interval);
     const auto* rows = reinterpret_cast<const float*>(table);
     Float8 unused;
     GatherRows(rows, row, this->Lo, this->Hi, this->Reference, this->Attenuation);

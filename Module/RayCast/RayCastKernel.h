@@ -76,6 +76,7 @@ struct KernelInput
   // largest scalar these hold the scalar, as the intervals map it, for an attenuation.
   const IntervalTable::Interval* Intervals;
   int NumberOfIntervals;
+  bool Curved; ///< IntervalTable::Curved
   const CellValue* CellValues;
   float Color[3]; ///< OpticalDepth: where the colour is constant
   /// Values of surfaces i - 1 and i, for i from 0 up to their number.

@@ -14,6 +14,34 @@ namespace TETRALUX_ISA
 namespace
 {
 
+/// Colours of a piece, weighted.
+struct MixedColors
+{
+  Float8 C[3];
+};
+
+/// front, back: weights of the colours at both ends.
+TETRALUX_INLINE MixedColors MixLinear(const Piece& piece, Float8 front, Float8 back)
+{
+  const auto mix = [&](int c)
+  {
+    return Fma(
+      piece.GetColor(c, piece.X0, false), front, piece.GetColor(c, piece.X1, false) * back);
+  };
+  return { { mix(0), mix(1), mix(2) } };
+}
+
+/// bend: the weight of Piece::Bend on top.
+TETRALUX_INLINE MixedColors MixCurved(const Piece& piece, Float8 front, Float8 back, Float8 bend)
+{
+  const auto mix = [&](int c)
+  {
+    return Fma(piece.GetColor(c, piece.X0, true), front,
+      Fma(piece.GetColor(c, piece.X1, true), back, piece.Bend[c] * bend));
+  };
+  return { { mix(0), mix(1), mix(2) } };
+}
+
 /// The density-emitter model. RadianceT: Unlit or Lit.
 template <class Real, class RadianceT>
 class DensityEmitter : public PieceModel<Real, RadianceT, DensityEmitter<Real, RadianceT>>
@@ -27,12 +55,19 @@ public:
     this->Gathered.Enter(in, valid, cell, z0, z1);
   }
 
-  TETRALUX_INLINE void AddPiece(const KernelInput&, Mask8 contributes, const Piece& piece, V, V)
+  TETRALUX_INLINE void AddPiece(const KernelInput& in, Mask8 contributes, const Piece& piece, V, V)
   {
-    const SegmentWeights w = IntegrateSegment(piece.D0, piece.D1);
-    const auto mix = [&](int c)
-    { return Fma(piece.GetFront(c), w.Front, piece.GetBack(c) * w.Back); };
-    this->Gathered.Add(contributes, mix(0), mix(1), mix(2), w.Front + w.Back);
+    if (in.Curved)
+    {
+      Float8 bulge;
+      const SegmentWeights w = IntegrateCurvedSegment(piece.D0, piece.D1, bulge);
+      this->Add(contributes, MixCurved(piece, w.Front, w.Back, bulge * piece.GetBulgeOfBend()), w);
+    }
+    else
+    {
+      const SegmentWeights w = IntegrateSegment(piece.D0, piece.D1);
+      this->Add(contributes, MixLinear(piece, w.Front, w.Back), w);
+    }
   }
 
   TETRALUX_INLINE void AddConstant(Mask8 contributes, Float8 depth, const Float8 (&color)[3])
@@ -41,6 +76,12 @@ public:
     IntegrateConstant(depth, opacity, transmittance);
     this->Gathered.Add(
       contributes, color[0] * opacity, color[1] * opacity, color[2] * opacity, opacity);
+  }
+
+private:
+  TETRALUX_INLINE void Add(Mask8 contributes, const MixedColors& mixed, const SegmentWeights& w)
+  {
+    this->Gathered.Add(contributes, mixed.C[0], mixed.C[1], mixed.C[2], w.Front + w.Back);
   }
 };
 
@@ -134,13 +175,16 @@ public:
   using V = LanesOfReal<Real>;
   using PieceModel<Real, EmissionSum, Emission>::PieceModel;
 
-  TETRALUX_INLINE void AddPiece(const KernelInput&, Mask8 contributes, const Piece& piece, V, V)
+  TETRALUX_INLINE void AddPiece(const KernelInput& in, Mask8 contributes, const Piece& piece, V, V)
   {
-    // The integral of (d0 + (d1 - d0) w) (c0 + (c1 - c0) w) over w from 0 to 1.
+    // The integrals of d0 + (d1 - d0) w times 1 - w, w and 4 w (1 - w), over w from 0 to 1.
     const Float8 front = Fma(Float8(1.f / 3), piece.D0, Float8(1.f / 6) * piece.D1);
     const Float8 back = Fma(Float8(1.f / 6), piece.D0, Float8(1.f / 3) * piece.D1);
-    const auto mix = [&](int c) { return Fma(piece.GetFront(c), front, piece.GetBack(c) * back); };
-    this->Gathered.Add(contributes, mix(0), mix(1), mix(2));
+    const Float8 bulge = Float8(1.f / 3) * (piece.D0 + piece.D1);
+    const MixedColors mixed = in.Curved
+      ? MixCurved(piece, front, back, bulge * piece.GetBulgeOfBend())
+      : MixLinear(piece, front, back);
+    this->Gathered.Add(contributes, mixed.C[0], mixed.C[1], mixed.C[2]);
   }
 
   TETRALUX_INLINE void AddConstant(Mask8 contributes, Float8 depth, const Float8 (&color)[3])

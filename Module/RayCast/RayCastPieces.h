@@ -18,26 +18,34 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Part of a cell on which attenuation and colour are linear.
+/// Part of a cell on which attenuation is linear, and colour linear or a parabola.
 struct Piece
 {
   Float8 D0, D1; ///< attenuation at its ends times its length, at most LargestSingleDepth
   Float8 X0, X1; ///< scalar at its ends, relative to the reference of the interval
-  Float8 Color[3], Slope[3]; ///< colour at the reference, and its slope
+  Float8 Color[3], Slope[3]; ///< colour at the reference, and its slope there
+  Float8 Bend[3];            ///< of KernelInput::Curved
 
-  TETRALUX_INLINE Float8 GetFront(int c) const
+  /// A channel at a scalar relative to the reference.
+  TETRALUX_INLINE Float8 GetColor(int c, Float8 x, bool curved) const
   {
-    return Fma(this->Slope[c], this->X0, this->Color[c]);
+    const Float8 slope = curved ? Fma(this->Bend[c], x, this->Slope[c]) : this->Slope[c];
+    return Fma(slope, x, this->Color[c]);
   }
-  TETRALUX_INLINE Float8 GetBack(int c) const
+
+  /// How far a channel bulges from the line between both ends, per Bend: by 4 w (1 - w) times this,
+  /// with w from 0 to 1 along the piece.
+  TETRALUX_INLINE Float8 GetBulgeOfBend() const
   {
-    return Fma(this->Slope[c], this->X1, this->Color[c]);
+    // What has a bend is at most 2 wide; beyond the nodes products would overflow.
+    const Float8 width = this->X1 - this->X0;
+    return Float8(-0.25f) * Min(width * width, Float8(4.f));
   }
 };
 
-/// Cuts a cell at the nodes of the transfer function. The scalar runs linearly from s0 at z0 to s1
-/// at z1. Calls add(contributes, piece, from, to) for each piece that attenuates any ray, between
-/// two distances z. interval: the interval of each ray's last scalar; updated.
+/// Cuts a cell where an interval ends. The scalar runs linearly from s0 at z0 to s1 at z1. Calls
+/// add(contributes, piece, from, to) for each piece that attenuates any ray, between two distances
+/// z. interval: of the transfer function, where each ray's last scalar is; updated.
 template <class Real, class V, class AddT>
 TETRALUX_INLINE void CutAtNodes(
   const KernelInput& in, Int8& interval, Mask8 valid, V z0, V s0, V z1, V s1, AddT add)
@@ -57,6 +65,7 @@ TETRALUX_INLINE void CutAtNodes(
     }
     const bool uniform = !Any(AndNot(valid, interval == Int8(indices[leader])));
     Piece piece;
+    piece.Bend[0] = piece.Bend[1] = piece.Bend[2] = 0.f;
     Float8 lo, hi, reference, attenuation, attenuationSlope;
     if (uniform)
     {
@@ -70,17 +79,22 @@ TETRALUX_INLINE void CutAtNodes(
       {
         piece.Color[c] = t.Color[c];
         piece.Slope[c] = t.ColorSlope[c];
+        piece.Bend[c] = t.ColorBend[c];
       }
     }
     else
     {
-      const Int8 row = interval + interval + interval;
+      const Int8 row = FindIntervalRow(interval);
       const auto* rows = reinterpret_cast<const float*>(table);
       Float8 unused;
       GatherRows(rows, row, lo, hi, reference, attenuation);
       GatherRows(
         rows, row + Int8(1), attenuationSlope, piece.Color[0], piece.Color[1], piece.Color[2]);
       GatherRows(rows, row + Int8(2), piece.Slope[0], piece.Slope[1], piece.Slope[2], unused);
+      if (in.Curved)
+      {
+        GatherRows(rows, row + Int8(3), piece.Bend[0], piece.Bend[1], piece.Bend[2], unused);
+      }
     }
     const V bottom = ToPrecision<V>(lo);
     const V head = ToPrecision<V>(hi);

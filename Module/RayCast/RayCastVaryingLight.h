@@ -5,8 +5,9 @@
 // The density-emitter model under light that varies on a ray's way through a cell.
 //
 // The way is cut into parts on which light is nearly a parabola, see RayCastLightParts.h. On a
-// piece of the transfer function colour and attenuation are linear. Where a piece and a part
-// overlap the lit colour is taken for a parabola, too: linear between both ends, plus a bulge
+// piece of the transfer function attenuation is linear, and colour linear or a parabola. Where a
+// piece and a part overlap the lit colour is taken for a parabola, too: linear between both ends,
+// plus a bulge
 // 4 w (1 - w) times what the middle is off from that. The linear part has the weights of
 // SegmentIntegral.h, which are exact; the bulge has FindBulgeShare.
 
@@ -85,7 +86,7 @@ public:
       const Float8 backDepth = Select(last, d1, Fma(slope, end, d0)) * length;
       const SegmentWeights w = IntegrateThinSegment(frontDepth, backDepth);
       const Float8 ofBulge = FindBulgeShare(frontDepth, backDepth) * (w.Front + w.Back);
-      this->AddPart(rest, piece, w, ofBulge, begin, end, cellBegin, cellLength);
+      this->AddPart(in.Curved, rest, piece, w, ofBulge, begin, end, cellBegin, cellLength);
       hidden = Fma(one - hidden, w.Front + w.Back, hidden);
       begin = end;
       rest = AndNot(rest, last | (Float8(Opaque) < hidden));
@@ -100,15 +101,16 @@ private:
   static constexpr float Opaque = 1 - 1.f / (1 << 24);
 
   /// Adds what of a piece is between two shares of it.
-  TETRALUX_INLINE void AddPart(Mask8 valid, const Piece& piece, const SegmentWeights& w,
-    Float8 ofBulge, Float8 begin, Float8 end, Float8 cellBegin, Float8 cellLength)
+  TETRALUX_INLINE void AddPart(bool curved, Mask8 valid, const Piece& piece,
+    const SegmentWeights& w, Float8 ofBulge, Float8 begin, Float8 end, Float8 cellBegin,
+    Float8 cellLength)
   {
     const Float8 middle = Float8(0.5f) * (begin + end);
     const auto find = [&](Float8 share)
     {
       const Float8 x = Fma(piece.X1 - piece.X0, share, piece.X0);
-      const LaneVector color = { { Fma(piece.Slope[0], x, piece.Color[0]),
-        Fma(piece.Slope[1], x, piece.Color[1]), Fma(piece.Slope[2], x, piece.Color[2]) } };
+      const LaneVector color = { { piece.GetColor(0, x, curved), piece.GetColor(1, x, curved),
+        piece.GetColor(2, x, curved) } };
       return this->Parts.At(Fma(share, cellLength, cellBegin)).Apply(color);
     };
     const LaneVector front = find(begin);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,15 +33,48 @@ std::vector<float> ConvertTexels(const PreIntegrationTable& table)
   return texels;
 }
 
+/// Without padding, and infinite only at both ends: bits tell.
+bool AreEqual(
+  const std::vector<IntervalTable::Interval>& a, const std::vector<IntervalTable::Interval>& b)
+{
+  return a.size() == b.size() &&
+    std::memcmp(a.data(), b.data(), a.size() * sizeof(IntervalTable::Interval)) == 0;
+}
+
 } // namespace
 
-void SceneOptics::SetTransferFunction(const TransferFunction& function, double error)
+void SceneOptics::SetTransferFunction(
+  const TransferFunction& function, double error, const RunTolerance& tolerance)
 {
-  this->Intervals = MakeIntervalTable(function);
+  IntervalTable intervals = MakeIntervalTable(function, tolerance);
   this->Function = function;
-  this->FunctionError = error;
+  this->ApproximationError = error;
+  this->SetIntervals(std::move(intervals), tolerance);
+}
+
+bool SceneOptics::SetRunTolerance(const RunTolerance& tolerance)
+{
+  IntervalTable intervals = MakeIntervalTable(this->Function, tolerance);
+  const bool changed = !AreEqual(intervals.Intervals, this->Intervals.Intervals);
+  if (changed)
+  {
+    this->SetIntervals(std::move(intervals), tolerance);
+  }
+  this->SetFunctionError(tolerance);
+  return changed;
+}
+
+void SceneOptics::SetIntervals(IntervalTable intervals, const RunTolerance& tolerance)
+{
+  this->Intervals = std::move(intervals);
+  this->SetFunctionError(tolerance);
   this->FunctionVersion = MakeVersion();
   this->SetTable(nullptr, 0);
+}
+
+void SceneOptics::SetFunctionError(const RunTolerance& tolerance)
+{
+  this->FunctionError = this->ApproximationError + (this->Intervals.Exact ? 0 : tolerance.Picture);
 }
 
 void SceneOptics::SetComponents(ComponentFunctions components)

@@ -27,12 +27,19 @@ public:
   OpticalModel GetModel() const { return this->Model; }
 
   /// Replaces the function, and removes the table. error: of a channel, if the function
-  /// approximates another one. Throws std::invalid_argument as MakeIntervalTable does. Isosurfaces
-  /// need no function.
-  void SetTransferFunction(const TransferFunction& function, double error = 0);
-  double GetFunctionError() const { return this->FunctionError; }
+  /// approximates another one. tolerance: for the intervals, which stand for it along rays. Throws
+  /// std::invalid_argument as MakeIntervalTable does. Isosurfaces need no function.
+  void SetTransferFunction(
+    const TransferFunction& function, double error = 0, const RunTolerance& tolerance = {});
   const TransferFunction& GetTransferFunction() const { return this->Function; }
   const IntervalTable& GetIntervalTable() const { return this->Intervals; }
+
+  /// Sets the tolerance alone. Returns whether other intervals follow from it: then it is as if the
+  /// function were another one.
+  bool SetRunTolerance(const RunTolerance& tolerance);
+
+  /// What a channel of a picture is off by, by both.
+  double GetFunctionError() const { return this->FunctionError; }
 
   /// Sets functions of several scalars, in place of the one of SetTransferFunction, of which the
   /// first one is the scalar: for OpticalModel::EmissionAbsorption. Without functions: of the one
@@ -74,6 +81,9 @@ public:
   const float* GetFloatTexels() const;
 
 private:
+  void SetIntervals(IntervalTable intervals, const RunTolerance& tolerance);
+  void SetFunctionError(const RunTolerance& tolerance);
+
   OpticalModel Model = OpticalModel::EmissionAbsorption;
   TransferFunction Function;
   IntervalTable Intervals;
@@ -82,6 +92,7 @@ private:
   std::vector<Isosurface> Surfaces;
   std::shared_ptr<const PreIntegrationTable> Table;
   double TableError = 0;
+  double ApproximationError = 0; ///< of Function
   double FunctionError = 0;
   std::uint64_t FunctionVersion = 0;
   std::uint64_t SurfacesVersion = 0;

@@ -85,7 +85,7 @@ public:
     Float8 lower, upper;
     for (int step = 0;; ++step)
     {
-      GatherRows(rows, index + index + index, lower, upper, this->Reference, this->Opacity);
+      GatherRows(rows, ShiftLeft(index, 2), lower, upper, this->Reference, this->Opacity);
       const Mask8 above = upper <= finite;
       if (step == transfer.MostSteps || !Any(above))
       {
@@ -93,7 +93,7 @@ public:
       }
       index = index + Ones(above);
     }
-    this->Row = index + index + index;
+    this->Row = ShiftLeft(index, 2); // four rows of an interval
     this->Rows = rows;
     this->Offset = x - this->Reference;
     GatherRows(rows, this->Row + Int8(1), this->OpacitySlope, this->Color[0], this->Color[1],

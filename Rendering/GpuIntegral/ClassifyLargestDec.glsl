@@ -10,13 +10,13 @@ vec4 ClassifyLargest(float largest)
   }
   largest = BoundScalar(largest);
   int interval = GetFirstInterval(transferBuckets, largest);
-  vec4 bounds = texelFetch(transferIntervals, 3 * interval);
+  vec4 bounds = texelFetch(transferIntervals, 4 * interval);
   while (bounds.y <= largest)
   {
-    bounds = texelFetch(transferIntervals, 3 * ++interval);
+    bounds = texelFetch(transferIntervals, 4 * ++interval);
   }
-  vec4 slopeColor = texelFetch(transferIntervals, 3 * interval + 1);
-  vec3 colorSlope = texelFetch(transferIntervals, 3 * interval + 2).xyz;
+  vec4 slopeColor = texelFetch(transferIntervals, 4 * interval + 1);
+  vec3 colorSlope = texelFetch(transferIntervals, 4 * interval + 2).xyz;
   float x = largest - bounds.z;
   float opacity = clamp(bounds.w + slopeColor.x * x, 0.0, 1.0);
   return opacity * vec4(slopeColor.yzw + colorSlope * x, 1.0);

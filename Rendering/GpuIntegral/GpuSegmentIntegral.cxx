@@ -107,6 +107,7 @@ void GpuSegmentIntegral::Update(vtkOpenGLRenderWindow* window, const SegmentSour
     source.Integrator == Integrator::LitClosedForm || source.Integrator == Integrator::VaryingLight;
   this->OnlyThin = emitsAndAbsorbs && source.Intervals &&
     source.Intervals->MaximumAttenuation * source.LongestSegment <= ThinDepth;
+  this->Curved = source.Intervals && source.Intervals->Curved;
   for (int c = 0; c < 3; ++c)
   {
     this->Color[c] = static_cast<float>(source.Color[c]);
@@ -197,6 +198,7 @@ std::string GpuSegmentIntegral::GetFlatDeclarations() const
   else
   {
     code += this->OnlyThin ? "#define ONLY_THIN_SEGMENTS\n" : "";
+    code += this->Curved ? "#define CURVED_COLORS\n" : "";
     code += std::string(SegmentWeightsDec) + ScalarBucketsDec + TransferIntervalsDec;
   }
   if (this->Integrator == Integrator::Maximum)

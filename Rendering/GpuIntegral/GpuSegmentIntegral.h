@@ -143,6 +143,7 @@ private:
   bool OfCells = false;
   bool Shaded = false;
   bool OnlyThin = false;
+  bool Curved = false; ///< IntervalTable::Curved
   float Color[3] = { 0, 0, 0 };
 
   TextureBuffer Intervals;

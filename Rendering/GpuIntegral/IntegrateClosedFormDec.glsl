@@ -10,8 +10,11 @@ vec4 IntegrateSegment(float front, float back, float len)
   do
   {
     Piece piece = TakePiece(walk);
-    vec2 weights = WeighSegment(piece.FrontDepth, piece.BackDepth);
+    vec3 weights = WeighSegment(piece.FrontDepth, piece.BackDepth);
     vec3 color = weights.x * piece.FrontColor + weights.y * piece.BackColor;
+#ifdef CURVED_COLORS
+    color += weights.z * piece.Bulge;
+#endif
     gathered += (1.0 - gathered.a) * vec4(color, weights.x + weights.y);
   } while (walk.More);
   return gathered;

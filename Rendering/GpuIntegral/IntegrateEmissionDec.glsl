@@ -8,10 +8,13 @@ vec4 IntegrateSegment(float front, float back, float len)
   do
   {
     Piece piece = TakePiece(walk);
-    // The integral of (d0 + (d1 - d0) w) (c0 + (c1 - c0) w) over w from 0 to 1.
+    // The integrals of d0 + (d1 - d0) w times 1 - w, w and 4 w (1 - w), over w from 0 to 1.
     float d0 = piece.FrontDepth / 6.0;
     float d1 = piece.BackDepth / 6.0;
     gathered += (2.0 * d0 + d1) * piece.FrontColor + (d0 + 2.0 * d1) * piece.BackColor;
+#ifdef CURVED_COLORS
+    gathered += 2.0 * (d0 + d1) * piece.Bulge;
+#endif
   } while (walk.More);
   return vec4(gathered, 0.0);
 }

@@ -54,15 +54,6 @@ vec3 ApplyLight(LightPart part, float share, vec3 color)
     ((part.Bend.Add * x + part.Slope.Add) * x + part.Middle.Add);
 }
 
-// As in SegmentIntegral.h.
-float FindBulgeShare(float d0, float d1)
-{
-  float depth = 0.5 * (d0 + d1);
-  float b = 0.5 * (d1 - d0);
-  return 0.66644458 + b * (0.06649459 + b * 0.00453237) +
-    depth * depth * (-0.01047766 - 0.00124714 * b);
-}
-
 vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradient,
   vec3 backGradient, vec3 frontPoint, vec3 backPoint, vec3 direction)
 {
@@ -113,11 +104,11 @@ vec4 IntegrateShadedSegment(float front, float back, float len, vec3 frontGradie
       float ofBulge = FindBulgeShare(frontDepth, backDepth) * opacity;
       float middle = 0.5 * (begin + end);
       vec3 frontColor =
-        ApplyLight(light, share, mix(piece.FrontColor, piece.BackColor, begin));
+        ApplyLight(light, share, GetPieceColor(piece, begin));
       vec3 backColor = ApplyLight(light, segmentBegin + end * segmentLength,
-        mix(piece.FrontColor, piece.BackColor, end));
+        GetPieceColor(piece, end));
       vec3 middleColor = ApplyLight(light, segmentBegin + middle * segmentLength,
-        mix(piece.FrontColor, piece.BackColor, middle));
+        GetPieceColor(piece, middle));
       vec3 bulge = middleColor - 0.5 * (frontColor + backColor);
       vec3 color = weights.x * frontColor + weights.y * backColor + ofBulge * bulge;
       gathered += (1.0 - gathered.a) * vec4(color, opacity);

@@ -62,13 +62,25 @@ vec2 WeighThinSegment(float d0, float d1)
   return ExpMinusSmall(halfDepth) * vec2(mean + bracket, mean - bracket);
 }
 
-// The same for any depth.
-vec2 WeighSegment(float d0, float d1)
+// The weight of a colour 4 w (1 - w) along a thin segment, as a share of its opacity: as in
+// SegmentIntegral.h.
+float FindBulgeShare(float d0, float d1)
+{
+  float depth = 0.5 * (d0 + d1);
+  float b = 0.5 * (d1 - d0);
+  return 0.66644458 + b * (0.06649459 + b * 0.00453237) +
+    depth * depth * (-0.01047766 - 0.00124714 * b);
+}
+
+// The same for any depth: weights of the front, of the back, and with CURVED_COLORS of a colour
+// 4 w (1 - w).
+vec3 WeighSegment(float d0, float d1)
 {
 #ifdef ONLY_THIN_SEGMENTS
-  return WeighThinSegment(d0, d1);
+  vec2 thin = WeighThinSegment(d0, d1);
+  return vec3(thin, FindBulgeShare(d0, d1) * (thin.x + thin.y));
 #else
-  vec2 weights = vec2(0.0);
+  vec3 weights = vec3(0.0);
   float slope = d1 - d0;
   float begin = 0.0; // of the part, as a share of the segment
   float front = d0;  // attenuation there
@@ -83,8 +95,15 @@ vec2 WeighSegment(float d0, float d1)
     float back = last ? d1 : d0 + slope * end;
     vec2 part01 = WeighThinSegment(front * share, back * share);
     float transmittance = 1.0 - (weights.x + weights.y);
-    weights += transmittance *
+    weights.xy += transmittance *
       vec2(part01.x * (1.0 - begin) + part01.y * (1.0 - end), part01.x * begin + part01.y * end);
+#ifdef CURVED_COLORS
+    // In the part 4 w (1 - w) is linear between its ends, plus a bulge of the same shape.
+    float bulge = FindBulgeShare(front * share, back * share) * (part01.x + part01.y);
+    weights.z += transmittance *
+      (4.0 * (part01.x * begin * (1.0 - begin) + part01.y * end * (1.0 - end)) +
+        bulge * share * share);
+#endif
     if (last)
     {
       break;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts a segment, along which the scalar runs linearly, at the nodes of the transfer function, and
-// walks over the pieces, front to back. Needs ScalarBucketsDec.glsl. To be used as
+// Cuts a segment, along which the scalar runs linearly, where intervals of the transfer function
+// end, and walks over the pieces, front to back. Needs ScalarBucketsDec.glsl. To be used as
 //
 //   SegmentWalk walk = StartWalk(front, back, len);
 //   do
@@ -12,9 +12,9 @@
 // with the test at the end: a software renderer runs a loop's body once more where it is at the
 // begin.
 
-// Three texels for each interval, as IntervalTable has them: Lo, Hi, Reference, Attenuation;
-// AttenuationSlope, Color; ColorSlope. The first one begins and the last one ends beyond all
-// scalars.
+// Four texels for each interval, as IntervalTable has them: Lo, Hi, Reference, Attenuation;
+// AttenuationSlope, Color; ColorSlope; ColorBend. The first one begins and the last one ends beyond
+// all scalars. Without CURVED_COLORS there are no bends.
 uniform samplerBuffer transferIntervals;
 uniform isamplerBuffer transferBuckets;
 
@@ -25,12 +25,26 @@ const float SmallestScalar = 1e-30;
 // Larger ones count as this, as in the mesh: all are inside of an interval.
 const float LargestScalar = 1e30;
 
-// A part of a segment on which attenuation and colour are linear; of no length at times.
+// A part of a segment on which attenuation is linear, and colour linear or a parabola; of no length
+// at times.
 struct Piece
 {
   float FrontDepth, BackDepth; // attenuation at its ends times its length, 0..LargestDepth
   vec3 FrontColor, BackColor;
+#ifdef CURVED_COLORS
+  vec3 Bulge; // in the middle, from the line between both ends
+#endif
 };
+
+// The colour of a piece at a share of it.
+vec3 GetPieceColor(Piece piece, float share)
+{
+  vec3 color = mix(piece.FrontColor, piece.BackColor, share);
+#ifdef CURVED_COLORS
+  color += 4.0 * share * (1.0 - share) * piece.Bulge;
+#endif
+  return color;
+}
 
 // What of a segment is left.
 struct SegmentWalk
@@ -59,9 +73,9 @@ SegmentWalk StartWalk(float front, float back, float len)
 // The next piece.
 Piece TakePiece(inout SegmentWalk walk)
 {
-  vec4 bounds = texelFetch(transferIntervals, 3 * walk.Interval);
-  vec4 slopeColor = texelFetch(transferIntervals, 3 * walk.Interval + 1);
-  vec3 colorSlope = texelFetch(transferIntervals, 3 * walk.Interval + 2).xyz;
+  vec4 bounds = texelFetch(transferIntervals, 4 * walk.Interval);
+  vec4 slopeColor = texelFetch(transferIntervals, 4 * walk.Interval + 1);
+  vec3 colorSlope = texelFetch(transferIntervals, 4 * walk.Interval + 2).xyz;
   float lo = bounds.x;
   float hi = bounds.y;
   float front = walk.FrontScalar;
@@ -85,6 +99,13 @@ Piece TakePiece(inout SegmentWalk walk)
   piece.BackDepth = clamp((bounds.w + slopeColor.x * x1) * len, 0.0, LargestDepth);
   piece.FrontColor = slopeColor.yzw + colorSlope * x0;
   piece.BackColor = slopeColor.yzw + colorSlope * x1;
+#ifdef CURVED_COLORS
+  vec3 bend = texelFetch(transferIntervals, 4 * walk.Interval + 3).xyz;
+  // In this order nothing overflows where there is no bend, however far from the nodes.
+  piece.FrontColor += (bend * x0) * x0;
+  piece.BackColor += (bend * x1) * x1;
+  piece.Bulge = (bend * (x1 - x0)) * (-0.25 * (x1 - x0));
+#endif
 
   walk.Length = tooLow ? walk.Length : walk.Length * ((back - end) * inverse);
   walk.FrontScalar = end;

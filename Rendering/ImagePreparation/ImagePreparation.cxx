@@ -147,6 +147,7 @@ void ImagePreparation::PrepareFunction(const ImageInput& input, const SelectedAr
   const double gradientLength = (steps[0] + steps[1] + steps[2]) / 3; // as VTK has it
   ErrorSpending spending;
   spending.Approximated = true;
+  spending.Sliced = true; // the least that functions have
   const double maximumError =
     std::max(MakeErrorBudget(input.MaximumError, spending).Functions, SmallestFunctionError);
   CacheKey exactKey = GetPropertyKey(input.Property);

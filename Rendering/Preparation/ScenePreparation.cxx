@@ -35,6 +35,28 @@ double GetLargestScale(const vtkMatrix4x4* worldFromMesh)
   return MeasureStretch(rows).Largest;
 }
 
+/// How much brighter than colours lights make them, in steps of a fifth, so that a light which moves
+/// a little changes nothing. Infinite if the matrix has no inverse.
+double FindBrightness(const SceneInput& input, const WalkMesh& mesh)
+{
+  if (!input.Lights || !input.Surface)
+  {
+    return 1;
+  }
+  double inverse[16];
+  vtkMatrix4x4::Invert(input.Matrix->GetData(), inverse);
+  double meshFromWorld[3][4];
+  std::copy_n(inverse, 12, &meshFromWorld[0][0]);
+  const double brightness = FindLargestBrightness(*input.Lights, *input.Surface, meshFromWorld,
+    mesh.GetCenter(), mesh.GetRadius(), MeasureMeshToWorld(meshFromWorld).Smallest);
+  constexpr double StepsOfDoubling = 4;
+  return std::exp2(std::ceil(StepsOfDoubling * std::log2(brightness)) / StepsOfDoubling);
+}
+
+/// Share of the error of functions that subdividing a property takes. Runs take what it leaves, all
+/// of it if the property is piecewise linear.
+constexpr double ShareOfSubdivision = 1. / 4;
+
 /// Whether values are the same; those that are no numbers, too.
 bool HaveSameBits(const std::vector<double>& a, const std::vector<double>& b)
 {
@@ -415,8 +437,14 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
     std::log2(2 * this->Scene.Mesh.GetMesh()->GetRadius() * GetLargestScale(input.Matrix))));
   ErrorSpending spending;
   spending.Approximated = true;
+  spending.LightVaries = input.LightVaries;
+  const double allowed = MakeErrorBudget(settings.MaximumError, spending).Functions;
+  const double brightness = FindBrightness(input, *this->Scene.Mesh.GetMesh());
+  // Nothing stands for anything else where no error is allowed, and where it would save nothing.
+  const bool exact = allowed <= SmallestFunctionError || this->Scene.Mesh.HasCellScalars() ||
+    this->Components.Shown != ComponentUse::Kind::One || !std::isfinite(brightness);
   const double maximumError =
-    std::max(MakeErrorBudget(settings.MaximumError, spending).Functions, SmallestFunctionError);
+    std::max((exact ? 1 : ShareOfSubdivision) * allowed, SmallestFunctionError);
   CacheKey exactKey = GetPropertyKey(input.Property);
   exactKey.Add(settings.Model);
   AddComponents(input.Property, this->Components, exactKey);
@@ -427,12 +455,37 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   CacheKey key = exactKey;
   key.Add(maximumError);
   key.Add(longestPath);
-  // Error and path matter only to a property that had to be approximated.
-  if (this->Function.Has(this->FunctionIsExact ? exactKey : key))
+  const auto makeTolerance = [&](const TransferFunction& function, double error)
+  {
+    RunTolerance tolerance;
+    if (!exact)
+    {
+      const double ofRuns = (allowed - error) / brightness;
+      tolerance = MakeRunTolerance(settings.Model, function, ofRuns, longestPath);
+      tolerance.Picture *= brightness;
+    }
+    return tolerance;
+  };
+  const CacheKey toleranceKey = CacheKey::Of(exact, allowed, brightness, longestPath);
+  // Error and path matter only to a property that had to be approximated, and to runs.
+  const bool sameFunction = this->Function.Has(this->PropertyError == 0 ? exactKey : key);
+  if (sameFunction && this->Tolerance.Has(toleranceKey))
   {
     return;
   }
   const Stopwatch stopwatch;
+  this->Tolerance.Reset();
+  if (sameFunction)
+  {
+    SceneOptics& optics = this->Scene.Optics;
+    if (optics.SetRunTolerance(makeTolerance(optics.GetTransferFunction(), this->PropertyError)))
+    {
+      this->Last.Rebuilt.push_back("transfer function");
+    }
+    this->Tolerance.Set(toleranceKey);
+    this->Last.FunctionSeconds = stopwatch.GetSeconds();
+    return;
+  }
   this->Function.Reset();
   this->Scene.Optics.SetModel(settings.Model);
   PropertyTransferFunction function = this->MakeFunctions(input, maximumError, longestPath);
@@ -445,9 +498,11 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   {
     this->Scene.Optics.SetIsosurfaces(IsosurfacesFromProperty(input.Property, function.Function));
   }
-  this->Scene.Optics.SetTransferFunction(function.Function, function.Error);
-  this->FunctionIsExact = function.Error == 0;
-  this->Function.Set(this->FunctionIsExact ? exactKey : key);
+  this->Scene.Optics.SetTransferFunction(
+    function.Function, function.Error, makeTolerance(function.Function, function.Error));
+  this->PropertyError = function.Error;
+  this->Function.Set(this->PropertyError == 0 ? exactKey : key);
+  this->Tolerance.Set(toleranceKey);
   this->Last.FunctionSeconds = stopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("transfer function");
 }
@@ -505,6 +560,7 @@ void ScenePreparation::PrepareTable(const MapperSettings& settings, const SceneI
     std::max(MakeErrorBudget(settings.MaximumError, spending).Table, SmallestFunctionError);
   goal.MaximumBytes = wishes.MaximumBytes;
   goal.Rays = this->Scene.Mesh.DrawRays(scale);
+  goal.Intervals = &optics.GetIntervalTable();
   this->Scene.Mesh.PrepareLongestEdge();
   goal.LongestSegment = this->Scene.Mesh.GetLongestEdge() * scale; // no segment is longer
   std::copy_n(this->Scene.Mesh.GetScalarRange(), 2, goal.ScalarRange);

@@ -4,6 +4,7 @@
 
 #include "Base/Cached.h"
 #include "Intake/TetrahedraIntake.h"
+#include "Optics/OpticalModel.h"
 #include "Preparation/ComponentsFromProperty.h"
 #include "Preparation/InputSignature.h"
 #include "Preparation/MapperSettings.h"
@@ -35,6 +36,8 @@ struct SceneInput
   vtkMatrix4x4* Matrix = nullptr; ///< of the volume: world from mesh
   bool Interactive = false;       ///< a frame that has to be there soon: a coarse table will do
   bool LightVaries = false;       ///< in cells, where anything is lit: no table will do
+  const std::vector<Light>* Lights = nullptr; ///< nullptr: nothing is lit
+  const Material* Surface = nullptr;          ///< nullptr: nothing is lit
 };
 
 /// Makes a VolumeScene of a data set and a property, and keeps it: each stage is done again only if
@@ -131,7 +134,8 @@ private:
   CacheStamp Scalars;
   CacheStamp Colors;
   CacheStamp Function;
-  bool FunctionIsExact = false; ///< so it does not depend on the error that is allowed
+  double PropertyError = 0; ///< 0: the function does not depend on the error that is allowed
+  CacheStamp Tolerance;     ///< of the runs of the function
 
   std::string ArrayName;
   SegmentTable Table;

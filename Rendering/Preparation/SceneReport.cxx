@@ -124,6 +124,7 @@ Json DescribeTables(const ScenePreparation& preparation)
   tables["blank_tetrahedra"] = scene.Mesh.GetNumberOfBlankCells();
   tables["removed_tetrahedra"] = removedCells;
   tables["transfer_function_nodes"] = scene.Optics.GetTransferFunction().Nodes.size();
+  tables["transfer_function_intervals"] = scene.Optics.GetIntervalTable().Intervals.size();
   tables["bytes"] = mesh.GetTableSize();
   if (const Convexification* convex = mesh.GetConvexification())
   {

@@ -65,9 +65,19 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
     return false;
   }
   const bool hadTable = this->Table != nullptr;
+  // What was found of one function is true of most that it is edited into.
+  const bool doubtful = sameRequest && this->NoneWasRight;
   this->Decided = false;
 
-  if (request.Interactive && request.Goal.AlwaysTable)
+  if (request.Interactive && !request.Goal.AlwaysTable)
+  {
+    // The closed form is right for any function: none is tried before the frame is there to stay.
+    this->Coarse = true;
+    this->Reason = "closed form: no table is tried during interaction";
+    this->PictureError = 0;
+    this->Table = nullptr;
+  }
+  else if (request.Interactive)
   {
     // Whichever the right settings are, coarse ones of the same axes do for now.
     PreIntegrationSettings settings;
@@ -85,19 +95,23 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
   }
   else
   {
-    TableChoice choice = ChoosePreIntegrationTable(function, request.Goal);
+    TableGoal goal = request.Goal;
+    goal.Doubtful = doubtful;
+    TableChoice choice = ChoosePreIntegrationTable(function, goal);
     if (!choice.Table && request.Goal.AlwaysTable)
     {
       throw std::invalid_argument(
         "no table of the sizes that are asked for fits into TableMaximumBytes");
     }
     this->Coarse = false;
+    this->NoneWasRight = choice.IsNoneRight;
     this->Reason = choice.Reason;
     this->PictureError = choice.PictureError;
     this->Table = std::move(choice.Table);
   }
   this->Function = function;
   this->Last = request;
+  this->Last.Goal.Intervals = nullptr;
   this->Decided = true;
   return hadTable || this->Table;
 }

@@ -20,7 +20,8 @@ public:
   struct Request
   {
     TableGoal Goal;
-    /// A frame of an interaction: a coarse table at once where the right one is not built yet.
+    /// A frame of an interaction: where the right one is not chosen yet, the closed form, or a
+    /// coarse table if there has to be one.
     bool Interactive = false;
   };
 
@@ -49,6 +50,7 @@ private:
 
   // What it was decided by.
   bool Decided = false;
+  bool NoneWasRight = false; ///< of the tables that were tried
   TransferFunction Function;
   Request Last;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Preparation/TransferFunctionFromProperty.h"
 
+#include "Preparation/FunctionChunks.h"
+
 #include "vtkColorTransferFunction.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkSmartPointer.h"
@@ -10,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -111,6 +114,15 @@ public:
     {
       this->Color = SearchOnce(this->Color);
     }
+    this->OpacityChunks.emplace(this->Opacity, this->Opacity->GetUseLogScale());
+    if (this->Color)
+    {
+      this->ColorChunks.emplace(this->Color.Get(), IsLogarithmic(this->Color));
+    }
+    else
+    {
+      this->GreyChunks.emplace(this->Grey, this->Grey->GetUseLogScale());
+    }
   }
 
   Value Evaluate(double scalar) const
@@ -121,15 +133,15 @@ public:
       // There is no logarithm below 0: it is below the range, too.
       const double below = (1 - LimitOffset) * this->Color->GetRange()[0];
       const double x = IsLogarithmic(this->Color) ? std::max(scalar, below) : scalar;
-      this->Color->GetTable(x, x, 1, value.Color);
+      this->ColorChunks->Evaluate(x, value.Color);
     }
     else
     {
-      this->Grey->GetTable(scalar, scalar, 1, value.Color);
+      this->GreyChunks->Evaluate(scalar, value.Color);
       value.Color[1] = value.Color[2] = value.Color[0];
     }
     double opacity = 0;
-    this->Opacity->GetTable(scalar, scalar, 1, &opacity);
+    this->OpacityChunks->Evaluate(scalar, &opacity);
     value.Attenuation =
       std::min(std::max(opacity, 0.) / this->UnitDistance, this->LargestAttenuation);
     if (!std::isfinite(value.Color[0]) || !std::isfinite(value.Color[1]) ||
@@ -239,6 +251,9 @@ private:
   vtkPiecewiseFunction* Opacity;
   vtkSmartPointer<vtkColorTransferFunction> Color;
   vtkPiecewiseFunction* Grey;
+  std::optional<FunctionChunks<vtkPiecewiseFunction>> OpacityChunks;
+  std::optional<FunctionChunks<vtkColorTransferFunction>> ColorChunks;
+  std::optional<FunctionChunks<vtkPiecewiseFunction>> GreyChunks;
   double UnitDistance;
   double LargestAttenuation;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The integrals in shaders against those in double precision.
 
+#include "BulgeWeight.h"
 #include "GlslEvaluator.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
 #include "GpuIntegral/ScalarBuckets.h"
@@ -8,6 +9,7 @@
 #include "Integral/RayIntegral.h"
 #include "Integral/SegmentIntegral.h"
 #include "OpenGLSnapshot.h"
+#include "Optics/BulgeShareError.h"
 #include "Optics/IntervalTable.h"
 #include "PreIntegration/PreIntegrationBuilder.h"
 #include "Stability/StabilityCases.h"
@@ -211,6 +213,50 @@ double GetOpacity(const TransferFunction&, const Arguments&, const SegmentRadian
   return expected.Opacity;
 }
 
+/// A function of which runs of colours are taken for parabolas.
+TransferFunction MakeSmoothFunction()
+{
+  TransferFunction function;
+  for (int k = 0; k <= 200; ++k)
+  {
+    const double t = k / 200.;
+    const TransferFunction::Value value{ { t * t, std::sin(3 * t), 1 - t * t * t }, 1 + t };
+    function.Nodes.push_back({ t, value, value });
+  }
+  return function;
+}
+
+TEST_F(GpuSegmentIntegralTest, WeightsOfBulgesAreThoseInDoublePrecision)
+{
+  std::vector<Arguments> cases;
+  for (int k = -24; k <= 24; ++k)
+  {
+    for (const double share : { 0., 1e-3, 0.1, 0.4999, 0.5, 0.6, 0.9, 1. })
+    {
+      const double depth = 1.3 * std::pow(10, 0.25 * k);
+      cases.push_back(
+        { static_cast<float>(2 * depth * share), static_cast<float>(2 * depth * (1 - share)) });
+    }
+  }
+  const TransferFunction function = MakeSmoothFunction();
+  const IntervalTable table = tetralux::MakeIntervalTable(
+    function, MakeRunTolerance(tetralux::OpticalModel::EmissionAbsorption, function, 1e-2, 1));
+  ASSERT_TRUE(table.Curved);
+  tetralux::SegmentSource source;
+  source.Intervals = &table;
+  this->Expression = "vec4(WeighSegment(a.x, a.y), 0.0)";
+  const std::vector<Result> results = this->Integrate(source, cases);
+  double largest = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+  {
+    const double opacity = static_cast<double>(results[i][0]) + results[i][1];
+    const double expected = tetralux::GetBulgeWeight(cases[i][0], cases[i][1]);
+    largest = std::max(largest, std::abs(results[i][2] - expected) / opacity);
+  }
+  std::cout << "largest error of an opacity " << largest << "\n";
+  EXPECT_LE(largest, tetralux::BulgeShareError);
+}
+
 TEST_F(GpuSegmentIntegralTest, WeightsAreThoseInDoublePrecision)
 {
   std::vector<Arguments> cases;
@@ -230,7 +276,7 @@ TEST_F(GpuSegmentIntegralTest, WeightsAreThoseInDoublePrecision)
   const IntervalTable table = tetralux::MakeIntervalTable(MakeFunction(1, 1e-2));
   tetralux::SegmentSource source;
   source.Intervals = &table;
-  this->Expression = "vec4(WeighSegment(a.x, a.y), 0.0, 0.0)";
+  this->Expression = "vec4(WeighSegment(a.x, a.y).xy, 0.0, 0.0)";
   const std::vector<Result> results = this->Integrate(source, cases);
   this->Expression = "vec4(GetOpacity(0.5 * (a.x + a.y)))";
   const std::vector<Result> opacities = this->Integrate(source, cases);

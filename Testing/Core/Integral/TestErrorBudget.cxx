@@ -67,7 +67,8 @@ TEST(ErrorBudget, ChoicesDoNotChangeTheSharesOfTablesAndFunctions)
     [](const ErrorSpending& spending, const ErrorBudget& budget, double)
     {
       const ErrorBudget table = MakeErrorBudget(1e-3, { false, true, false, false });
-      const ErrorBudget functions = MakeErrorBudget(1e-3, { false, false, false, true });
+      const ErrorBudget functions =
+        MakeErrorBudget(1e-3, { false, false, false, true, spending.LightVaries });
       EXPECT_TRUE(!spending.Tabulated || budget.Table == table.Table);
       EXPECT_TRUE(!spending.Approximated || budget.Functions == functions.Functions);
     });

@@ -5,6 +5,9 @@
 #include "ReferenceScenes.h"
 #include "Stability/SegmentLanes.h"
 
+#include "BulgeWeight.h"
+#include "Optics/BulgeShareError.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -387,6 +390,45 @@ TEST(SegmentIntegral, WeightsAgreeWithQuadrature)
   for (std::size_t set = 0; set < sets.size(); ++set)
   {
     Report(sets[set], "Weights", largest[set]);
+  }
+}
+
+// Of any depth; the other weights are those of IntegrateSegment.
+TEST(SegmentIntegral, WeightsOfBulgesAgreeWithQuadrature)
+{
+  const std::vector<SegmentLanes> sets = GetSegmentLanes();
+  std::vector<double> largest(sets.size(), 0.);
+  for (const Ends& ends : MakeEnds(400))
+  {
+    Lanes expected;
+    for (int lane = 0; lane < NumberOfLanes; ++lane)
+    {
+      expected[lane] =
+        static_cast<float>(tetralux::GetBulgeWeight(ends.Front[lane], ends.Back[lane]));
+    }
+    for (std::size_t set = 0; set < sets.size(); ++set)
+    {
+      Lanes front, back, transmittance, curvedFront, curvedBack, bulge;
+      sets[set].IntegrateSegment(
+        ends.Front.data(), ends.Back.data(), front.data(), back.data(), transmittance.data());
+      sets[set].IntegrateCurvedSegment(
+        ends.Front.data(), ends.Back.data(), curvedFront.data(), curvedBack.data(), bulge.data());
+      EXPECT_EQ(front, curvedFront);
+      EXPECT_EQ(back, curvedBack);
+      for (int lane = 0; lane < NumberOfLanes; ++lane)
+      {
+        const double opacity = static_cast<double>(front[lane]) + back[lane];
+        const double error = std::abs(static_cast<double>(bulge[lane]) - expected[lane]) / opacity;
+        ASSERT_LE(error, tetralux::BulgeShareError)
+          << sets[set].Name << ": " << ends.Front[lane] << " to " << ends.Back[lane] << ", "
+          << bulge[lane] << " instead of " << expected[lane];
+        largest[set] = std::max(largest[set], error);
+      }
+    }
+  }
+  for (std::size_t set = 0; set < sets.size(); ++set)
+  {
+    Report(sets[set], "Weights of bulges", largest[set]);
   }
 }
 

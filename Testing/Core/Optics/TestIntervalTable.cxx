@@ -119,7 +119,7 @@ TEST(IntervalTable, NodesLieFromMinusOneToOne)
   // 0.5 to 0, 0 to 7, 7 to 2, 2 to 11.
   EXPECT_DOUBLE_EQ(table.AttenuationVariation, 0.5 + 7 + 5 + 9);
   // The kernels gather rows of four floats.
-  static_assert(sizeof(IntervalTable::Interval) == 48, "three rows of four floats");
+  static_assert(sizeof(IntervalTable::Interval) == 64, "four rows of four floats");
   static_assert(alignof(IntervalTable::Interval) == 16, "rows are loaded aligned");
 }
 
