@@ -172,7 +172,10 @@ public:
     this->Options.MaximumError = 1e-12;
     this->Options.Arithmetic = precision;
     this->Options.NumberOfThreads = 1;
-    this->Options.PortableKernels = portable;
+    if (portable)
+    {
+      this->Options.Kernels = InstructionSet::Generic;
+    }
   }
 
   StabilityResult operator()(const StabilityCase& segment)

@@ -146,6 +146,7 @@ struct RayCastKernels
 RayCastKernels GetRayCastKernelsGeneric();
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
 RayCastKernels GetRayCastKernelsAvx2();
+RayCastKernels GetRayCastKernelsAvx512();
 #endif
 
 } // namespace tetralux

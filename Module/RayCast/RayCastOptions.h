@@ -3,8 +3,10 @@
 #define tetralux_RayCastOptions_h
 
 #include "Optics/OpticalModel.h"
+#include "Simd/InstructionSet.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace tetralux
@@ -48,9 +50,9 @@ struct RayCastOptions
 
   int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
 
-  /// Use the kernels that run on any processor even where there are faster ones; the pictures
-  /// differ by rounding. For tests of those kernels.
-  bool PortableKernels = false;
+  /// Which kernels cast: some that are compiled and that the processor has. Without a value: the
+  /// widest. Pictures of those for any processor differ by rounding.
+  std::optional<InstructionSet> Kernels;
 
   /// Called every few milliseconds, by the calling thread only, with the share that is done, 0..1.
   /// Returns false to abort. The last call is with 1, when nothing is left to abort. May be empty.

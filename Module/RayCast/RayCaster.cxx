@@ -30,12 +30,18 @@ constexpr int InitialCrossings = 32;
 RayCastKernels GetKernels(InstructionSet set)
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  if (set == InstructionSet::Avx2)
+  switch (set)
   {
-    return GetRayCastKernelsAvx2();
+    case InstructionSet::Avx512:
+      return GetRayCastKernelsAvx512();
+    case InstructionSet::Avx2:
+      return GetRayCastKernelsAvx2();
+    default:
+      break;
   }
-#endif
+#else
   static_cast<void>(set);
+#endif
   return GetRayCastKernelsGeneric();
 }
 
@@ -212,8 +218,7 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
     in.Colors = colors.data();
     in.Depths = depths.data();
 
-    const InstructionSet set =
-      options.PortableKernels ? InstructionSet::Generic : GetInstructionSet();
+    const InstructionSet set = options.Kernels.value_or(GetWidestInstructionSet());
     const RayCastKernel kernel = ChooseKernel(set, choices);
     std::vector<ThreadMemory> threads(
       options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads());

@@ -35,8 +35,8 @@ double GetLargestScale(const vtkMatrix4x4* worldFromMesh)
   return MeasureStretch(rows).Largest;
 }
 
-/// How much brighter than colours lights make them, in steps of a fifth, so that a light which moves
-/// a little changes nothing. Infinite if the matrix has no inverse.
+/// How much brighter than colours lights make them, in steps of a fifth, so that a light which
+/// moves a little changes nothing. Infinite if the matrix has no inverse.
 double FindBrightness(const SceneInput& input, const WalkMesh& mesh)
 {
   if (!input.Lights || !input.Surface)

@@ -72,6 +72,11 @@ VolumeScene RayScene::MakeVolumeScene() const
   return volume;
 }
 
+std::optional<InstructionSet> ChooseKernels(bool portable)
+{
+  return portable ? std::optional<InstructionSet>(InstructionSet::Generic) : std::nullopt;
+}
+
 RayPicture Cast(VolumeScene& volume, const RayScene& scene, const RayCastOptions& options)
 {
   const std::size_t pixels = static_cast<std::size_t>(scene.Grid.Width) * scene.Grid.Height;

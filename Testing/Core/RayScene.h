@@ -6,6 +6,7 @@
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 
+#include <optional>
 #include <vector>
 
 namespace tetralux
@@ -48,6 +49,9 @@ struct RayPicture
 };
 
 RayPicture Cast(VolumeScene& volume, const RayScene& scene, const RayCastOptions& options = {});
+
+/// The kernels for any processor, or else the widest.
+std::optional<InstructionSet> ChooseKernels(bool portable);
 
 /// A field between 0 and 1 over the box of a mesh, smooth and without symmetry.
 std::vector<double> MakeSmoothField(const TetrahedralMesh& mesh);

@@ -143,7 +143,7 @@ protected:
       {
         EXPECT_LE(Compare(this->Scene.Render(error), exact), error + SumRounding) << error;
         EXPECT_LE(this->GetNumberOfIntervals(), intervals);
-        // It is of few intervals that pictures are made, but for errors as small as the map's kinks.
+        // Pictures are made of few intervals, but for errors as small as the map's kinks.
         constexpr double KinksOfMaps = 1e-4;
         constexpr int Many = 200;
         constexpr int Few = 50;

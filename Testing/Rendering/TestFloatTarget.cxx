@@ -213,7 +213,7 @@ TEST_F(FloatTargetTest, ArraysOfShadersLeaveStateAsItWas)
   const OpenGLSnapshot before = TakeOpenGLSnapshot(this->Window);
   integral.Update(this->Window, source);
   EXPECT_EQ(FindDifferences(before, TakeOpenGLSnapshot(this->Window)), "");
-  EXPECT_EQ(integral.GetNumberOfBytes(), 3u * 48 + 4 * (1024 + 2));
+  EXPECT_EQ(integral.GetNumberOfBytes(), 3u * 64 + 4 * (1024 + 2));
   integral.ReleaseGraphicsResources(this->Window);
   EXPECT_EQ(integral.GetNumberOfBytes(), 0u);
 }

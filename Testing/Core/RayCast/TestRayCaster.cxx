@@ -485,7 +485,7 @@ void CompareWithReference(
   {
     RayCastOptions options;
     options.Arithmetic = version.Arithmetic;
-    options.PortableKernels = version.Portable;
+    options.Kernels = ChooseKernels(version.Portable);
     pictures.push_back(Cast(volume, scene, options));
     for (std::size_t p = 0; p < pixels; ++p)
     {
@@ -504,7 +504,7 @@ void CompareWithReference(
       &differences == &kernelDifferences[0] ? Precision::Single : Precision::Double;
     options.MaximumError = 1e-9;
     const RayPicture fast = Cast(volume, scene, options);
-    options.PortableKernels = true;
+    options.Kernels = InstructionSet::Generic;
     const RayPicture portable = Cast(volume, scene, options);
     geometryError = std::max(geometryError, fast.Statistics.GeometryError);
     for (std::size_t p = 0; p < pixels; ++p)

@@ -84,7 +84,7 @@ void ExpectWithinError(
           options.MaximumError = error;
           for (const bool portable : { false, true })
           {
-            options.PortableKernels = portable;
+            options.Kernels = tetralux::ChooseKernels(portable);
             const RayPicture picture = Cast(volume, scene, options);
             // Emission alone may exceed 1; single precision is relative to it.
             const float largest =

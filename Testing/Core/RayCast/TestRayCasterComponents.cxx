@@ -189,7 +189,7 @@ TEST_P(RayCasterComponents, MatchSmallSteps)
   EXPECT_LE(FindLargestError(Cast(volume, scene.Rays, exact).Colors, expected), ExactGoal);
 
   RayCastOptions portable;
-  portable.PortableKernels = true;
+  portable.Kernels = InstructionSet::Generic;
   EXPECT_LE(FindLargestError(Cast(volume, scene.Rays, portable).Colors, expected), ErrorGoal);
   RayCastOptions imaginary;
   imaginary.ReentryBy = Reentry::Imaginary;

@@ -72,7 +72,7 @@ public:
     RayCastOptions options;
     const Precision all[] = { Precision::Automatic, Precision::Single, Precision::Double };
     options.Arithmetic = all[this->Below(3)];
-    options.PortableKernels = this->Chance(0.3);
+    options.Kernels = ChooseKernels(this->Chance(0.3));
     options.NumberOfThreads = this->Chance(0.1) ? 3 : 1;
     options.MaximumError = this->Chance(0.1) ? 0 : std::pow(10, this->Between(-7, 0));
     return options;

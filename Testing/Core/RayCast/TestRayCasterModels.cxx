@@ -241,7 +241,7 @@ TEST_P(Models, AgreeWithReference)
     for (const Precision precision : { Precision::Automatic, Precision::Single, Precision::Double })
     {
       RayCastOptions options;
-      options.PortableKernels = portable;
+      options.Kernels = ChooseKernels(portable);
       options.Arithmetic = precision;
       const RayPicture picture = Cast(volume, scene, options);
       SCOPED_TRACE(std::string(portable ? "portable, " : "") + "integrator " +
@@ -279,6 +279,29 @@ TEST_P(Models, AgreeWithReference)
       EXPECT_LE(grazed, GrazedShare * static_cast<double>(covered));
       EXPECT_LE(depthOutliers, DepthOutlierShare * static_cast<double>(covered));
     }
+  }
+}
+
+TEST_P(Models, VectorKernelsGiveTheSameBits)
+{
+  if (GetWidestInstructionSet() != InstructionSet::Avx512)
+  {
+    GTEST_SKIP() << "this processor has no AVX-512";
+  }
+  const RayScene scene = this->GetParam().Make();
+  VolumeScene volume = scene.MakeVolumeScene();
+  for (const Precision precision : { Precision::Single, Precision::Double })
+  {
+    RayCastOptions options;
+    options.Arithmetic = precision;
+    options.Kernels = InstructionSet::Avx2;
+    const RayPicture expected = Cast(volume, scene, options);
+    options.Kernels = InstructionSet::Avx512;
+    const RayPicture picture = Cast(volume, scene, options);
+    EXPECT_EQ(expected.Statistics.InstructionSet, "AVX2");
+    EXPECT_EQ(picture.Statistics.InstructionSet, "AVX-512");
+    EXPECT_TRUE(picture.Colors == expected.Colors);
+    EXPECT_TRUE(picture.Depths == expected.Depths);
   }
 }
 

@@ -91,7 +91,7 @@ TEST(RayCasterTable, IsTheClosedFormButForTheErrorOfTheTable)
           {
             RayCastOptions options;
             options.Arithmetic = precision;
-            options.PortableKernels = portable;
+            options.Kernels = ChooseKernels(portable);
             const RayPicture picture = Cast(volume, scene, options);
             EXPECT_EQ(picture.Statistics.Integration, Integrator::Table);
             EXPECT_EQ(picture.Statistics.TableError, bound);
