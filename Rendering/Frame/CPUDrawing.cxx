@@ -248,11 +248,12 @@ void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const C
     const double y = places[sample][1] - 0.5;
     for (const std::int32_t pixel : result.Pixels)
     {
+      const int column = pixel % width;
+      const int row = pixel / width;
       const float depth =
         opaque.Depths.empty() ? 1 : opaque.Depths[sample * size + static_cast<std::size_t>(pixel)];
-      this->SampleEnds[findPlace(pixel)] = depth < 1
-        ? static_cast<float>(rays.GetDistance(pixel % width + x, pixel / width + y, depth))
-        : Infinity;
+      this->SampleEnds[findPlace(pixel)] =
+        depth < 1 ? static_cast<float>(rays.GetDistance(column + x, row + y, depth)) : Infinity;
     }
     CPUPicture ofSample = picture;
     ShiftRays(part.X + x, part.Y + y, ofSample);

@@ -35,8 +35,8 @@ void BlendColors(const float* __restrict colors, std::uint32_t* __restrict pixel
     const float rest = 1 - alpha;
     const auto blend = [rest](float added, int channel)
     {
-      const float sum = 255.f * added + rest * static_cast<float>(channel);
-      return static_cast<std::uint32_t>(static_cast<int>((sum < 255.f ? sum : 255.f) + 0.5f));
+      const float sum = 255.f * added + rest * static_cast<float>(channel) + 0.5f;
+      return static_cast<std::uint32_t>(static_cast<int>(sum < 255.f ? sum : 255.f));
     };
     pixels[k] = blend(ToUnit(colors[4 * k]), before & 255) |
       blend(ToUnit(colors[4 * k + 1]), (before >> 8) & 255) << 8 |

@@ -207,11 +207,12 @@ TEST(IsosurfaceMapperWindow, HoldsDepthsOfSeveralSamples)
   sampled.Window->SetMultiSamples(4);
   sampled.SetSurfaces({ { 0.3, 1 } });
   sampled.Window->Render();
-  // At edges, the window has that of one sample, which is not in the middle.
-  const int atEdges = std::stoi(GetStatistic(sampled.GetMapper(), "pixels_at_edges"));
-  EXPECT_NEAR(
-    static_cast<double>(sampled.CountWindowDepths()), static_cast<double>(depths), atEdges);
-  EXPECT_LT(4 * atEdges, depths);
+  // The window has the depth of one sample, less than half a pixel from the middle: that moves the
+  // outline, which hides about as much on one side as it shows on the other.
+  constexpr double MovedShare = 0.02;
+  EXPECT_NEAR(static_cast<double>(sampled.CountWindowDepths()), static_cast<double>(depths),
+    MovedShare * static_cast<double>(depths));
+  EXPECT_GT(std::stoi(GetStatistic(sampled.GetMapper(), "pixels_at_edges")), 100);
 }
 
 TEST(IsosurfaceMapperWindow, VolumesBehindOpaqueSurfacesAreHidden)
