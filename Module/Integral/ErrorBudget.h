@@ -48,8 +48,8 @@ struct ErrorBudget
 /// Rounding takes an eighth, and geometry three. Of the other half a table, or light, and a buffer
 /// take a quarter of all each, and slices three eighths. Ending rays early takes what they leave.
 /// Functions that are approximated take a quarter of all (an eighth beside slices, or light that
-/// varies): one eighth from geometry, and the other one from the other half, or if that is all taken
-/// from geometry, too.
+/// varies): one eighth from geometry, and the other one from the other half, or if that is all
+/// taken from geometry, too.
 inline ErrorBudget MakeErrorBudget(double maximumError, const ErrorSpending& spending)
 {
   ErrorBudget budget;
