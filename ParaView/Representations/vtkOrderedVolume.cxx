@@ -7,6 +7,7 @@
 #include "Compositing/PictureCapture.h"
 #include "Compositing/ProcessOrder.h"
 #include "Frame/ImageCompositor.h"
+#include "Frame/MemoryPicture.h"
 
 #include "vtkMath.h"
 #include "vtkMultiProcessController.h"
@@ -135,9 +136,12 @@ int vtkOrderedVolume::RenderVolumetricGeometry(vtkViewport* viewport)
   {
     try
     {
+      tetralux::MemoryPicture picture;
+      picture.Width = shown.Width;
+      picture.Height = shown.Height;
+      picture.Colors = pictures.Whole.Colors.data();
       this->Private->Compositor.Composite(
-        vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), shown,
-        pictures.Whole.Colors.data(), shown.Width, shown.Height,
+        vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), shown, picture,
         { 0, 0, shown.Width, shown.Height });
     }
     catch (const std::exception& error)
