@@ -13,7 +13,7 @@ namespace tetralux
 namespace
 {
 
-/// Polygons of a leaf at most. Measured on the blunt fin and a ring of 3 million cells.
+/// Polygons of a leaf at most: as many as are placed together.
 constexpr std::int32_t LeafSize = 8;
 
 /// Nodes of the whole tree below which a subtree is one task.
