@@ -18,7 +18,7 @@ want_paraview=false
 for wish in "$@"; do
   case "$wish" in
     test)
-      packages+=(libgtest-dev libboost-dev python3-numpy python3-h5py clang-format clang-tidy
+      packages+=(libgtest-dev libbenchmark-dev libboost-dev python3-numpy python3-h5py clang-format clang-tidy
         xvfb xauth) # windows without a screen
       ;;
     neon)

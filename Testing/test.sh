@@ -61,7 +61,7 @@ check_statically() {
 
 require "setup" Examples/setup.sh test
 require "configure" cmake --preset release -DTETRALUX_BUILD_TESTING=ON -DTETRALUX_WRAP_PYTHON=ON \
-  -DTETRALUX_WARNINGS_AS_ERRORS=ON
+  -DTETRALUX_BUILD_BENCHMARKS=ON -DTETRALUX_WARNINGS_AS_ERRORS=ON
 require "build" cmake --build --preset release
 run_tests release build
 
