@@ -18,8 +18,8 @@ want_paraview=false
 for wish in "$@"; do
   case "$wish" in
     test)
-      packages+=(libgtest-dev libbenchmark-dev libboost-dev python3-numpy python3-h5py clang-format clang-tidy
-        xvfb xauth) # windows without a screen
+      packages+=(libgtest-dev libbenchmark-dev libboost-dev python3-numpy python3-h5py
+        clang-format clang-tidy xvfb xauth) # windows without a screen
       ;;
     neon)
       packages+=(g++-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user)

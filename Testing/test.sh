@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # All tests, from a fresh machine: installs what is missing, builds, runs every test, the core tests
-# once more under the sanitizers but for those of numbers alone, those of lanes on an emulated ARM
-# processor, and the checks of format, text and static analysis. Warnings of the compiler are errors.
+# once more under the sanitizers but for those of numbers alone, those of lanes on an emulated
+# processor, and the checks of format, text and static analysis. Warnings of the compiler are
+# errors.
 # TETRALUX_DATA: a folder with the data sets that some tests need; without it they are skipped.
 # Ends with "N passed, N failed"; the exit status is 0 where none failed.
 set -uo pipefail

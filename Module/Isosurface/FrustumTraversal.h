@@ -179,9 +179,9 @@ public:
   {
   }
 
-  /// Calls hit(polygons, ids, count) with the polygons that the packet may hit, at most LaneCount at
-  /// a time, leaf by leaf, nearer ones before those farther; after a leaf of which any call returned
-  /// true, setFarthest(), which may move Frustum's farthest depth.
+  /// Calls hit(polygons, ids, count) with the polygons that the packet may hit, at most LaneCount
+  /// at a time, leaf by leaf, nearer ones before those farther. After a leaf of which any call
+  /// returned true it calls setFarthest(), which may move Frustum's farthest depth.
   template <class Hit, class SetFarthest>
   TETRALUX_INLINE void ForEachBatch(const Hit& hit, const SetFarthest& setFarthest)
   {

@@ -29,8 +29,8 @@
 //   a * b              of the same
 //   a / b, Sqrt(a)     of Float8 and Double8, rounded as IEEE 754 says
 //   Abs(a)             of Float8 and Double8: clears the sign, that of a zero too
-//   Fma(a, b, c)       a * b + c, rounded once. LanesGeneric.h rounds the product too, since a fused
-//                      one without hardware for it is a slow call.
+//   Fma(a, b, c)       a * b + c, rounded once. LanesGeneric.h rounds the product too, since a
+//                      fused one without hardware for it is a slow call.
 //   Min(a, b)          a < b ? a : b. So b if either is not a number, and b of two zeros.
 //   Max(a, b)          a > b ? a : b, with the same consequences
 //   a < b, a <= b      of Float8 and Double8; false if either is not a number
