@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing from the distribution's packages (Debian 12 or later, and what derives
-# from it): Examples/setup.sh [test] [paraview]. With "test", also what the tests need; with
-# "paraview", what the plugin needs.
+# from it): Examples/setup.sh [test] [neon] [paraview]. With "test", also what the tests need; with
+# "neon", a compiler for 64-bit ARM and an emulator; with "paraview", what the plugin needs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -18,8 +18,11 @@ want_paraview=false
 for wish in "$@"; do
   case "$wish" in
     test)
-      packages+=(libgtest-dev libboost-dev python3-numpy python3-h5py clang-format clang-tidy
-        xvfb xauth) # windows without a screen
+      packages+=(libgtest-dev libbenchmark-dev libboost-dev python3-numpy python3-h5py
+        clang-format clang-tidy xvfb xauth) # windows without a screen
+      ;;
+    neon)
+      packages+=(g++-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user)
       ;;
     paraview)
       want_paraview=true
@@ -30,7 +33,7 @@ for wish in "$@"; do
         xvfb xauth) # its pvpython and pvbatch need a display
       ;;
     *)
-      echo "usage: setup.sh [test] [paraview]" >&2
+      echo "usage: setup.sh [test] [neon] [paraview]" >&2
       exit 2
       ;;
   esac

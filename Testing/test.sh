@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # All tests, from a fresh machine: installs what is missing, builds, runs every test, the core tests
-# once more under the sanitizers but for those of numbers alone, and the checks of format, text and
-# static analysis. Warnings of the compiler are errors.
+# once more under the sanitizers but for those of numbers alone, those of lanes on an emulated
+# processor, and the checks of format, text and static analysis. Warnings of the compiler are
+# errors.
 # TETRALUX_DATA: a folder with the data sets that some tests need; without it they are skipped.
 # Ends with "N passed, N failed"; the exit status is 0 where none failed.
 set -uo pipefail
@@ -61,7 +62,7 @@ check_statically() {
 
 require "setup" Examples/setup.sh test
 require "configure" cmake --preset release -DTETRALUX_BUILD_TESTING=ON -DTETRALUX_WRAP_PYTHON=ON \
-  -DTETRALUX_WARNINGS_AS_ERRORS=ON
+  -DTETRALUX_BUILD_BENCHMARKS=ON -DTETRALUX_WARNINGS_AS_ERRORS=ON
 require "build" cmake --build --preset release
 run_tests release build
 
@@ -69,6 +70,7 @@ require "configure with sanitizers" cmake --preset sanitize -DTETRALUX_WARNINGS_
 require "build with sanitizers" cmake --build --preset sanitize
 run_tests sanitize build-sanitize
 
+check "lanes and kernels for 64-bit ARM" Testing/test_neon.sh
 check "clang-format" check_format
 check "text" check_text
 check "clang-tidy" check_statically

@@ -40,8 +40,7 @@ class BlockTraversal
 public:
   BlockTraversal(const TraceTree& tree, const RayFrame& frame, const TraceLimits& limits,
     RayBlock& block, const Start& start, TraceCounts& counts)
-    : Tree(tree)
-    , Frame(frame)
+    : Frame(frame)
     , Limits(limits)
     , Block(block)
     , StartPacket(start)
@@ -55,17 +54,9 @@ public:
 
   void Trace()
   {
-    this->Walk.Walk(
-      [this](const MinMaxTree::Node& node)
-      {
-        const bool changed = ForEachLeafBatch(this->Tree, node, this->Counts,
-          [this](const Isopolygon* polygons, const std::int64_t* ids, int count)
-          { return this->HitLanes(polygons, ids, count); });
-        if (changed)
-        {
-          this->SetFarthest();
-        }
-      });
+    this->Walk.ForEachBatch([this](const Isopolygon* polygons, const std::int64_t* ids, int count)
+      { return this->HitLanes(polygons, ids, count); },
+      [this] { this->SetFarthest(); });
   }
 
 private:
@@ -217,7 +208,6 @@ private:
     return changed;
   }
 
-  const TraceTree& Tree;
   const RayFrame& Frame;
   const TraceLimits& Limits;
   RayBlock& Block;

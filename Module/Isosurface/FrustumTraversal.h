@@ -122,6 +122,51 @@ private:
   const TraceLimits& Limits;
 };
 
+/// Calls hit(polygons, ids, count) with the polygons of a leaf, at most LaneCount at a time.
+/// Returns whether any call did.
+template <class Hit>
+TETRALUX_INLINE bool ForEachLeafBatch(
+  const TraceTree& tree, const MinMaxTree::Node& node, TraceCounts& counts, const Hit& hit)
+{
+  std::int64_t ids[LaneCount];
+  bool any = false;
+  if (tree.Polygons)
+  {
+    PrefetchPolygons(tree, node);
+    for (std::int32_t begin = 0; begin < node.Count; begin += LaneCount)
+    {
+      const std::int32_t first = node.First + begin;
+      for (int lane = 0; lane < LaneCount; ++lane)
+      {
+        ids[lane] = first + lane;
+      }
+      any |= hit(tree.Polygons + first, ids,
+        node.Count - begin < LaneCount ? node.Count - begin : LaneCount);
+    }
+    return any;
+  }
+  Isopolygon polygons[LaneCount];
+  int count = 0;
+  for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
+  {
+    const std::int32_t cell = tree.LeafCells[i];
+    ForEachIsopolygon(tree.Source, cell,
+      [&](const Isopolygon& polygon)
+      {
+        ++counts.Extractions;
+        polygons[count] = polygon;
+        ids[count] = PackHit(cell, polygon.Surface);
+        ++count;
+        if (count == LaneCount)
+        {
+          any |= hit(polygons, ids, count);
+          count = 0;
+        }
+      });
+  }
+  return (count > 0 && hit(polygons, ids, count)) || any;
+}
+
 /// The way of a packet through a tree.
 class TreeWalk
 {
@@ -134,10 +179,35 @@ public:
   {
   }
 
+  /// Calls hit(polygons, ids, count) with the polygons that the packet may hit, at most LaneCount
+  /// at a time, leaf by leaf, nearer ones before those farther. After a leaf of which any call
+  /// returned true it calls setFarthest(), which may move Frustum's farthest depth.
+  template <class Hit, class SetFarthest>
+  TETRALUX_INLINE void ForEachBatch(const Hit& hit, const SetFarthest& setFarthest)
+  {
+    this->ForEachLeaf(
+      [&](const MinMaxTree::Node& node)
+      {
+        if (ForEachLeafBatch(this->Tree, node, this->Counts, hit))
+        {
+          setFarthest();
+        }
+      });
+  }
+
+  PacketFrustum Frustum;
+
+private:
+  struct StackEntry
+  {
+    std::int32_t Node;
+    float Nearness;
+  };
+
   /// Calls visit(node) with each leaf that the packet may hit anything in, nearer ones before those
   /// farther. visit may move Frustum's farthest depth.
   template <class Visit>
-  TETRALUX_INLINE void Walk(const Visit& visit)
+  TETRALUX_INLINE void ForEachLeaf(const Visit& visit)
   {
     ++this->Counts.Packets;
     StackEntry stack[MinMaxTree::MaximumDepth + 1];
@@ -210,15 +280,6 @@ public:
     }
   }
 
-  PacketFrustum Frustum;
-
-private:
-  struct StackEntry
-  {
-    std::int32_t Node;
-    float Nearness;
-  };
-
   TETRALUX_INLINE bool Misses(const MinMaxTree::Node& node, float& nearness)
   {
     ++this->Counts.NodeTests;
@@ -266,51 +327,6 @@ TETRALUX_INLINE double GetLargest(const RayBounds& packet)
   return largest;
 }
 
-/// Calls hit(polygons, ids, count) with the polygons of a leaf, at most LaneCount at a time.
-/// Returns whether any call did.
-template <class Hit>
-TETRALUX_INLINE bool ForEachLeafBatch(
-  const TraceTree& tree, const MinMaxTree::Node& node, TraceCounts& counts, const Hit& hit)
-{
-  std::int64_t ids[LaneCount];
-  bool any = false;
-  if (tree.Polygons)
-  {
-    PrefetchPolygons(tree, node);
-    for (std::int32_t begin = 0; begin < node.Count; begin += LaneCount)
-    {
-      const std::int32_t first = node.First + begin;
-      for (int lane = 0; lane < LaneCount; ++lane)
-      {
-        ids[lane] = first + lane;
-      }
-      any |= hit(tree.Polygons + first, ids,
-        node.Count - begin < LaneCount ? node.Count - begin : LaneCount);
-    }
-    return any;
-  }
-  Isopolygon polygons[LaneCount];
-  int count = 0;
-  for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
-  {
-    const std::int32_t cell = tree.LeafCells[i];
-    ForEachIsopolygon(tree.Source, cell,
-      [&](const Isopolygon& polygon)
-      {
-        ++counts.Extractions;
-        polygons[count] = polygon;
-        ids[count] = PackHit(cell, polygon.Surface);
-        ++count;
-        if (count == LaneCount)
-        {
-          any |= hit(polygons, ids, count);
-          count = 0;
-        }
-      });
-  }
-  return (count > 0 && hit(polygons, ids, count)) || any;
-}
-
 /// A packet that is traced through a tree.
 template <bool AnyHit>
 class PacketTraversal
@@ -318,8 +334,7 @@ class PacketTraversal
 public:
   PacketTraversal(const TraceTree& tree, const RayFrame& frame, const TraceLimits& limits,
     RayPacket& packet, TraceCounts& counts)
-    : Tree(tree)
-    , Frame(frame)
+    : Frame(frame)
     , Limits(limits)
     , Packet(packet)
     , Counts(counts)
@@ -332,17 +347,9 @@ public:
 
   void Trace()
   {
-    this->Walk.Walk(
-      [this](const MinMaxTree::Node& node)
-      {
-        const bool changed = ForEachLeafBatch(this->Tree, node, this->Counts,
-          [this](const Isopolygon* polygons, const std::int64_t* ids, int count)
-          { return this->HitLanes(polygons, ids, count); });
-        if (changed)
-        {
-          this->SetFarthest();
-        }
-      });
+    this->Walk.ForEachBatch([this](const Isopolygon* polygons, const std::int64_t* ids, int count)
+      { return this->HitLanes(polygons, ids, count); },
+      [this] { this->SetFarthest(); });
   }
 
 private:
@@ -386,7 +393,6 @@ private:
     return changed;
   }
 
-  const TraceTree& Tree;
   const RayFrame& Frame;
   const TraceLimits& Limits;
   RayPacket& Packet;

@@ -50,7 +50,11 @@ const char* GetName(InstructionSet set)
     case InstructionSet::Avx2:
       return "AVX2";
     default:
+#ifdef __aarch64__
+      return "NEON";
+#else
       return "generic";
+#endif
   }
 }
 

@@ -10,7 +10,7 @@ namespace tetralux
 /// What kernels are compiled for, each once.
 enum class InstructionSet
 {
-  Generic, ///< any processor
+  Generic, ///< any processor; each 64-bit ARM processor has NEON
   Avx2,    ///< x86-64 with AVX2 and FMA
   Avx512   ///< x86-64 with AVX-512 F, DQ, BW and VL beside them
 };
@@ -27,7 +27,7 @@ TETRALUXCORE_EXPORT InstructionSet GetWidestInstructionSet();
 /// Intel's processors.
 TETRALUXCORE_EXPORT bool HasFastGathers();
 
-/// For statistics: "generic", "AVX2" or "AVX-512".
+/// For statistics: "generic", "NEON", "AVX2" or "AVX-512".
 TETRALUXCORE_EXPORT const char* GetName(InstructionSet set);
 
 } // namespace tetralux

@@ -3,11 +3,12 @@
 #define tetralux_Lanes_h
 
 // Vectors of LaneCount floats, doubles or 32-bit integers: what the packet kernels compute with.
-// This header chooses an implementation by the options of the compiler: LanesAvx2.h for AVX2 with
-// FMA, LanesGeneric.h for every other processor. Each lives in a namespace of its own
-// (TETRALUX_ISA), so that one library can hold the kernels of several instruction sets. What is
-// compiled for AVX-512 uses those of LanesAvx512.h, or with a TETRALUX_LANE_COUNT of 16 those of
-// LanesAvx512Wide.h, by the same names. InstructionSet.h tells which of them to call.
+// This header chooses an implementation by what the compiler compiles for: LanesAvx2.h for AVX2
+// with FMA, LanesNeon.h for 64-bit ARM, LanesGeneric.h for every other processor. Each lives in a
+// namespace of its own (TETRALUX_ISA), so that one library can hold the kernels of several
+// instruction sets. What is compiled for AVX-512 uses those of LanesAvx512.h, or with a
+// TETRALUX_LANE_COUNT of 16 those of LanesAvx512Wide.h, by the same names. InstructionSet.h tells
+// which of them to call.
 //
 // Types
 //
@@ -16,7 +17,7 @@
 //   LanesOf<Real>::Type     Float8 or Double8
 //
 // Operations. No operation mixes lanes, so a ray's result does not depend on the rays beside it.
-// Both implementations return the same bits, unless it is said here that they don't. A result that
+// All implementations return the same bits, unless it is said here that they don't. A result that
 // is not a number has unspecified sign and payload.
 //
 //   m & n, m | n       of masks
@@ -28,8 +29,8 @@
 //   a * b              of the same
 //   a / b, Sqrt(a)     of Float8 and Double8, rounded as IEEE 754 says
 //   Abs(a)             of Float8 and Double8: clears the sign, that of a zero too
-//   Fma(a, b, c)       a * b + c. LanesAvx2.h rounds once. LanesGeneric.h rounds the product too,
-//                      since a fused one without hardware for it is a slow call.
+//   Fma(a, b, c)       a * b + c, rounded once. LanesGeneric.h rounds the product too, since a
+//                      fused one without hardware for it is a slow call.
 //   Min(a, b)          a < b ? a : b. So b if either is not a number, and b of two zeros.
 //   Max(a, b)          a > b ? a : b, with the same consequences
 //   a < b, a <= b      of Float8 and Double8; false if either is not a number
@@ -48,7 +49,7 @@
 //   FromBits, ToBits   an integer as the float with the same bits, and back
 //   DifferenceOfProducts(a, b, c, d)
 //                      a b - c d with an error below 1.5 units in the last place. Its sign is exact
-//                      where no product underflows. The two implementations may round differently.
+//                      where no product underflows. Implementations may round differently.
 //                      Unspecified: the sign of a zero, and the result where a product overflows or
 //                      a factor is not finite.
 //   LoadFloat8, LoadDouble8, LoadInt8, Store
@@ -79,13 +80,16 @@
 #else
 #define TETRALUX_ISA isa_avx2
 #endif
-#define TETRALUX_AVX2 1
+#define TETRALUX_FUSED 1 // whether Fma rounds once
+#elif defined(__aarch64__)
+#define TETRALUX_ISA isa_neon
+#define TETRALUX_FUSED 1
 #else
 #define TETRALUX_ISA isa_generic
-#define TETRALUX_AVX2 0
+#define TETRALUX_FUSED 0
 #endif
 // Else loops over lanes, and what sanitizers add, take minutes to compile in one function.
-#if defined(__GNUC__) && TETRALUX_AVX2 && !defined(__SANITIZE_ADDRESS__)
+#if defined(__GNUC__) && TETRALUX_FUSED && !defined(__SANITIZE_ADDRESS__)
 #define TETRALUX_INLINE inline __attribute__((always_inline))
 #else
 #define TETRALUX_INLINE inline
@@ -97,9 +101,11 @@
 #endif
 #if TETRALUX_LANE_COUNT == 16
 #include "Simd/LanesAvx512Wide.h"
-#elif TETRALUX_AVX2 && defined(__AVX512F__)
+#elif TETRALUX_FUSED && defined(__AVX512F__)
 #include "Simd/LanesAvx512.h"
-#elif TETRALUX_AVX2
+#elif defined(__aarch64__)
+#include "Simd/LanesNeon.h"
+#elif TETRALUX_FUSED
 #include "Simd/LanesAvx2.h"
 #else
 #include "Simd/LanesGeneric.h"

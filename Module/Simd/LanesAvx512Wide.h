@@ -221,7 +221,7 @@ TETRALUX_INLINE Double8 ToDouble(Float8 a)
     _mm512_cvtps_pd(_mm512_extractf32x8_ps(a.v, 1)) };
 }
 
-// Kahan's algorithm, as in LanesAvx2.h.
+// Kahan's algorithm, as in Lanes256.h.
 TETRALUX_INLINE Float8 DifferenceOfProducts(Float8 a, Float8 b, Float8 c, Float8 d)
 {
   const __m512 cd = _mm512_mul_ps(c.v, d.v);

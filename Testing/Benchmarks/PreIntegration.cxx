@@ -654,7 +654,7 @@ void CompareLookups()
 
 int main()
 {
-#if TETRALUX_AVX2
+#ifdef __AVX2__
   if (tetralux::GetInstructionSet() != tetralux::InstructionSet::Avx2)
   {
     std::fprintf(

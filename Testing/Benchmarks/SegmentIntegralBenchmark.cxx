@@ -30,7 +30,7 @@ enum class Form
 
 void IntegrateSegments(benchmark::State& state, Form form)
 {
-#if TETRALUX_AVX2
+#ifdef __AVX2__
   if (GetInstructionSet() != InstructionSet::Avx2)
   {
     state.SkipWithError("this processor has no AVX2");
@@ -63,7 +63,11 @@ void IntegrateSegments(benchmark::State& state, Form form)
   }
   state.counters["Packet"] = benchmark::Counter(
     Packets, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-  state.SetLabel(GetName(TETRALUX_AVX2 ? InstructionSet::Avx2 : InstructionSet::Generic));
+#ifdef __AVX2__
+  state.SetLabel(GetName(InstructionSet::Avx2));
+#else
+  state.SetLabel(GetName(InstructionSet::Generic));
+#endif
 }
 
 BENCHMARK_CAPTURE(IntegrateSegments, thin, Form::Thin)->Name("Integral/thin");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Isosurface/IsosurfaceTracer.h"
+#include "Simd/InstructionSet.h"
 
 #include "Generate/GeneratedMeshes.h"
 #include "IsosurfacePictures.h"
@@ -316,7 +317,7 @@ TEST(IsosurfaceTracer, GenericKernelDiffersByRounding)
     const TracedPicture expected = TracePicture(scene, options);
     options.Kernels = InstructionSet::Generic;
     const TracedPicture picture = TracePicture(scene, options);
-    EXPECT_EQ(picture.Statistics.InstructionSet, "generic");
+    EXPECT_EQ(picture.Statistics.InstructionSet, GetName(InstructionSet::Generic));
     float channel = 0;
     float depth = 0;
     for (std::size_t i = 0; i < picture.Colors.size(); ++i)

@@ -40,7 +40,7 @@ LaneOperations MakeLaneOperations()
   LaneOperations set;
   set.Operations = Operations;
   set.Count = static_cast<int>(sizeof(Operations) / sizeof(Operations[0]));
-  set.FusesMultiplyAdd = TETRALUX_AVX2 != 0;
+  set.FusesMultiplyAdd = TETRALUX_FUSED != 0;
   set.Any = [](unsigned mask) { return Any(MaskFromBits(mask)); };
   set.GetFloatLane = [](const float* a, int lane) { return Lane(LoadFloat8(a), lane); };
   set.GetDoubleLane = [](const double* a, int lane) { return Lane(LoadDouble8(a), lane); };

@@ -560,7 +560,7 @@ TEST(ImageCaster, PortableKernelsDifferByRounding)
     scene.Options.PortableKernels = true;
     picture = Cast(scene);
     EXPECT_LE(ExpectReference(scene, picture).Off, 0.05 * scene.GetNumberOfPixels());
-    EXPECT_EQ(picture.Statistics.InstructionSet, "generic");
+    EXPECT_EQ(picture.Statistics.InstructionSet, GetName(InstructionSet::Generic));
   }
 }
 
