@@ -10,4 +10,4 @@ cmake -S Testing/Neon -B build-neon -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_TOOLCHAIN_FILE=toolchain.cmake
 cmake --build build-neon
 OMP_WAIT_POLICY=passive qemu-aarch64 -L /usr/aarch64-linux-gnu build-neon/NeonTests \
-  --gtest_filter='-*Lit*:*DrawsRandomScenes:*AllMeshes'
+  --gtest_filter='-*Lit*:*DrawsRandomScenes:*LightsAllMeshes:*ForPolygons*:*BothTrees:*GenericKernel*'
