@@ -38,8 +38,26 @@ public:
 
   TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample)
   {
-    typename Gradients::template Field<Value> field;
+    Field field;
     const Float8 scalar = field.LoadScalar(in, sample);
+    this->AddScalar(in, sample, field, scalar);
+  }
+
+  /// The same where the scalar is known, without gradients.
+  TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample, Float8 scalar)
+  {
+    static_assert(!UsesGradients, "gradients need the sample's place");
+    Field field;
+    this->AddScalar(in, sample, field, scalar);
+  }
+
+private:
+  using Field = typename Gradients::template Field<Value>;
+  static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
+
+  TETRALUX_INLINE void AddScalar(
+    const ImageKernelInput& in, const ImageSample& sample, Field& field, Float8 scalar)
+  {
     const Intervals intervals(in.Transfer, scalar);
     const Float8 zero = 0.f;
     Float8 scalarOpacity = intervals.GetOpacity();
@@ -96,7 +114,6 @@ public:
     this->AddSample(sample, opacity, color);
   }
 
-private:
   /// Depth cueing (section 2.2).
   static TETRALUX_INLINE void Cue(
     const ImageKernelInput& in, const ImageSample& sample, Float8 (&color)[3])
@@ -107,8 +124,6 @@ private:
       color[c] = color[c] * Fma(Float8(in.CueStep[c]), depth, Float8(in.Cue[c]));
     }
   }
-
-  static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
 
   Gradients Gradient;
 };
