@@ -3,7 +3,7 @@
 #define tetralux_VoxelBoxesAvx512_h
 
 // Values of samples ahead of their compositing, 16 lanes by AVX-512 with VBMI. The rays of a vector
-// are close together: where all their cells of a slab are within a box of 128 bytes, it is loaded
+// are close together: where all their cells of a slab are within a box of 256 bytes, it is loaded
 // row by row, and each lane takes its voxels by permutes of bytes in place of gathers.
 
 #include "TriangleCaster/ImageRays.h"
@@ -24,236 +24,287 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Voxels of a box: rows of 8 bytes, 4 of them in a slice, 4 slices.
+/// Voxels of a box: rows of 8 or 16 bytes, an even number of them in a slice.
+template <int BytesOfRow, int NumberOfRows, int NumberOfSlices>
 struct VoxelBox
 {
-  static constexpr int RowBytes = 8;
-  static constexpr int Rows = 4;
-  static constexpr int Slices = 4;
+  static constexpr int RowBytes = BytesOfRow;
+  static constexpr int Rows = NumberOfRows;
+  static constexpr int Slices = NumberOfSlices;
   static constexpr int SliceBytes = RowBytes * Rows;
+  static constexpr int Bytes = SliceBytes * Slices;
+  static_assert(RowBytes == 8 || RowBytes == 16, "rows are loaded by two, or one by one");
+  static_assert(RowBytes * Rows % 16 == 0, "a load has rows of one slice");
+  static_assert(Bytes <= 256, "an index is a byte");
+  static constexpr int Registers = Bytes <= 128 ? 2 : 4;
 
-  __m512i Front, Back; ///< two slices each
+  __m512i Voxels[Registers];
 
   /// at: the first voxel. row, slice: bytes from one to the next.
   TETRALUX_INLINE void Load(const char* at, std::int64_t row, std::int64_t slice)
   {
-    this->Front = LoadSlices(at, row, slice);
-    this->Back = LoadSlices(at + 2 * slice, row, slice);
+    for (int r = 0; r < Registers; ++r)
+    {
+      const auto quarter = [&](int q) { return LoadRows(at, row, slice, 4 * r + q); };
+      this->Voxels[r] = _mm512_inserti32x8(
+        _mm512_castsi256_si512(_mm256_set_m128i(quarter(1), quarter(0))),
+        _mm256_set_m128i(quarter(3), quarter(2)), 1);
+    }
   }
 
-  /// The bytes with these indices, of two slices.
+  /// The bytes with these indices.
   TETRALUX_INLINE Int8 LookUp(__m512i index) const
   {
-    return Int8(_mm512_permutex2var_epi8(this->Front, index, this->Back));
+    const __m512i low = _mm512_permutex2var_epi8(this->Voxels[0], index, this->Voxels[1]);
+    if constexpr (Registers == 2)
+    {
+      return Int8(low);
+    }
+    else
+    {
+      const __m512i high = _mm512_permutex2var_epi8(this->Voxels[2], index, this->Voxels[3]);
+      return Int8(_mm512_mask_blend_epi8(_mm512_movepi8_mask(index), low, high));
+    }
   }
 
 private:
-  static TETRALUX_INLINE __m128i LoadTwoRows(const char* at, std::int64_t row)
+  /// The 16 bytes that come so many times 16 bytes behind the first.
+  static TETRALUX_INLINE __m128i LoadRows(
+    const char* at, std::int64_t row, std::int64_t slice, int sixteenth)
   {
-    double first, second;
-    std::memcpy(&first, at, RowBytes);
-    std::memcpy(&second, at + row, RowBytes);
-    return _mm_castpd_si128(_mm_set_pd(second, first));
-  }
-  static TETRALUX_INLINE __m256i LoadSlice(const char* at, std::int64_t row)
-  {
-    return _mm256_set_m128i(LoadTwoRows(at + 2 * row, row), LoadTwoRows(at, row));
-  }
-  static TETRALUX_INLINE __m512i LoadSlices(const char* at, std::int64_t row, std::int64_t slice)
-  {
-    return _mm512_inserti32x8(
-      _mm512_castsi256_si512(LoadSlice(at, row)), LoadSlice(at + slice, row), 1);
+    constexpr int PerSlice = SliceBytes / 16;
+    constexpr int PerLoad = 16 / RowBytes;
+    const int z = sixteenth / PerSlice;
+    if (z >= Slices)
+    {
+      return _mm_setzero_si128();
+    }
+    const char* first = at + z * slice + sixteenth % PerSlice * PerLoad * row;
+    if constexpr (PerLoad == 1)
+    {
+      return _mm_loadu_si128(reinterpret_cast<const __m128i*>(first));
+    }
+    else
+    {
+      double low, high;
+      std::memcpy(&low, first, RowBytes);
+      std::memcpy(&high, first + row, RowBytes);
+      return _mm_castpd_si128(_mm_set_pd(high, low));
+    }
   }
 };
 
-/// The four bytes from each lane's on.
-TETRALUX_INLINE __m512i SpreadBytes(Int8 index, std::int32_t bytes)
+/// Which boxes hold the cells of a vector: small ones where pixels are about as close as voxels,
+/// and twice as large ones.
+///@{
+template <class Value>
+using SmallBox = VoxelBox<8, 4, 4>;
+template <class Value>
+using LargeBox = std::conditional_t<sizeof(Value) == 1, VoxelBox<8, 6, 5>, VoxelBox<16, 4, 4>>;
+///@}
+
+/// Four bytes for each lane: those that come so many bytes behind its index.
+TETRALUX_INLINE __m512i SpreadBytes(Int8 index, int first, int second, int third, int fourth)
 {
   const __m512i lowest = _mm512_set4_epi32(0x0c0c0c0c, 0x08080808, 0x04040404, 0);
+  const std::int32_t bytes = first | second << 8 | third << 16 | fourth << 24;
   return _mm512_add_epi8(_mm512_shuffle_epi8(index.v, lowest), _mm512_set1_epi32(bytes));
+}
+
+/// The highest bits of a lane as a number of type Value.
+template <class Value>
+TETRALUX_INLINE Float8 TakeHighest(Int8 a)
+{
+  constexpr int Rest = 32 - 8 * static_cast<int>(sizeof(Value));
+  return ToFloat(std::is_signed_v<Value> ? ShiftRightSigned(a, Rest) : ShiftRight(a, Rest));
 }
 
 /// Interpolation along x in two neighbouring rows of a box. index: where in the box each lane's
 /// first value is, in bytes. w: 0..1.
-///@{
-template <class Value>
-struct BoxRows;
-
-template <class Value>
-struct ByteRows
+template <class Value, int Slice, class Box>
+TETRALUX_INLINE void MixRows(
+  const Box& box, Int8 index, Float8 w, Float8& first, Float8& second)
 {
-  /// first: of the four bytes, 0 or 2.
-  template <int First>
-  static TETRALUX_INLINE Float8 MixRow(Int8 bytes, Float8 w)
+  constexpr int A = Slice * Box::SliceBytes;
+  constexpr int B = A + Box::RowBytes;
+  if constexpr (sizeof(Value) == 1)
   {
-    const auto get = [&](int bits)
+    const Int8 both = box.LookUp(SpreadBytes(index, A, A + 1, B, B + 1));
+    first = Mix(TakeHighest<Value>(ShiftLeft(both, 24)), TakeHighest<Value>(ShiftLeft(both, 16)), w);
+    second = Mix(TakeHighest<Value>(ShiftLeft(both, 8)), TakeHighest<Value>(both), w);
+  }
+  else
+  {
+    const auto mix = [&](int at)
     {
-      const Int8 high = ShiftLeft(bytes, bits);
-      return ToFloat(
-        std::is_signed<Value>::value ? ShiftRightSigned(high, 24) : ShiftRight(high, 24));
+      const Int8 pair = box.LookUp(SpreadBytes(index, at, at + 1, at + 2, at + 3));
+      return Mix(TakeHighest<Value>(ShiftLeft(pair, 16)), TakeHighest<Value>(pair), w);
     };
-    const Float8 a = get(24 - 8 * First);
-    const Float8 b = get(16 - 8 * First);
-    return Mix(a, b, w);
+    first = mix(A);
+    second = mix(B);
   }
-  template <int Slice>
-  static TETRALUX_INLINE void Mix2(
-    const VoxelBox& box, Int8 index, Float8 w, Float8& first, Float8& second)
-  {
-    constexpr std::int32_t Offset = 0x01010101 * Slice * VoxelBox::SliceBytes;
-    constexpr std::int32_t Bytes = 0x00000100 + 0x01010000 * VoxelBox::RowBytes + 0x01000000;
-    const Int8 bytes = box.LookUp(SpreadBytes(index, Bytes + Offset));
-    first = MixRow<0>(bytes, w);
-    second = MixRow<2>(bytes, w);
-  }
-};
-template <>
-struct BoxRows<std::int8_t> : ByteRows<std::int8_t>
-{
-};
-template <>
-struct BoxRows<std::uint8_t> : ByteRows<std::uint8_t>
-{
-};
+}
 
-template <class Value>
-struct WordRows
+/// The cells that the rays of a vector may meet in the slabs of a block: a lane for each slab.
+struct CellBounds
 {
-  static TETRALUX_INLINE Float8 MixRow(Int8 words, Float8 w)
+  static_assert(LaneCount == SlabsOfBlock, "a lane for each slab");
+
+  /// Seen from a cell that one of the rays is near.
+  ///@{
+  Float8 Low[3], High[3];
+  Float8 Corner[3]; ///< of the cells that the rays are near, a lane for each ray
+  ///@}
+  float Reference[3]; ///< that cell
+  Mask8 Valid;
+
+  /// hasPart: the rays that count.
+  TETRALUX_INLINE CellBounds(
+    const ImageKernelInput& in, const BlockPositions& positions, Mask8 hasPart)
   {
-    const auto get = [](Int8 high)
+    // Far above the rounding of positions, which are within MostStep slabs of their cells.
+    constexpr float Margin = 1e-3f;   // points
+    constexpr float MostStep = 16.f; // points a slab
+    const Float8 middle(_mm512_setr_ps(0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f, 8.5f, 9.5f,
+      10.5f, 11.5f, 12.5f, 13.5f, 14.5f, 15.5f));
+    const auto least = [&](Float8 x) { return _mm512_mask_reduce_min_ps(hasPart.v, x.v); };
+    const auto most = [&](Float8 x) { return _mm512_mask_reduce_max_ps(hasPart.v, x.v); };
+    const int lane = Any(hasPart) ? __builtin_ctz(Bits(hasPart)) : 0;
+    bool valid = true;
+    for (int a = 0; a < 3; ++a)
     {
-      return ToFloat(
-        std::is_signed<Value>::value ? ShiftRightSigned(high, 16) : ShiftRight(high, 16));
-    };
-    return Mix(get(ShiftLeft(words, 16)), get(words), w);
+      const float reference = -Lane(positions.Low[a], lane);
+      this->Reference[a] = reference;
+      this->Corner[a] = (Float8(0.f) - positions.Low[a]) - Float8(reference);
+      const Float8 base = this->Corner[a] + positions.Base[a];
+      const float leastStep = least(positions.Step[a]);
+      const float mostStep = most(positions.Step[a]);
+      valid = valid && leastStep >= -MostStep && mostStep <= MostStep;
+      // As PlaceSample finds them.
+      const auto getCell = [&](Float8 x)
+      {
+        const Float8 cell(_mm512_roundscale_ps(x.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+        const float last = static_cast<float>(in.LastCell[a]);
+        return Min(Max(cell, Float8(-reference)), Float8(last - reference));
+      };
+      this->Low[a] = getCell(Fma(middle, Float8(leastStep), Float8(least(base) - Margin)));
+      this->High[a] = getCell(Fma(middle, Float8(mostStep), Float8(most(base) + Margin)));
+    }
+    this->Valid = MaskFromBits(valid ? AllLanes : 0);
   }
-  template <int Slice>
-  static TETRALUX_INLINE void Mix2(
-    const VoxelBox& box, Int8 index, Float8 w, Float8& first, Float8& second)
-  {
-    constexpr std::int32_t Offset = 0x01010101 * Slice * VoxelBox::SliceBytes;
-    constexpr std::int32_t Bytes = 0x03020100;
-    constexpr std::int32_t Next = 0x01010101 * VoxelBox::RowBytes;
-    first = MixRow(box.LookUp(SpreadBytes(index, Bytes + Offset)), w);
-    second = MixRow(box.LookUp(SpreadBytes(index, Bytes + Offset + Next)), w);
-  }
 };
-template <>
-struct BoxRows<std::int16_t> : WordRows<std::int16_t>
-{
-};
-template <>
-struct BoxRows<std::uint16_t> : WordRows<std::uint16_t>
-{
-};
-///@}
 
-/// The boxes of a vector in the slabs of a block: a lane for each slab.
-template <class Value>
+/// The boxes of a vector in the slabs of a block.
+template <class Value, class Box>
 class VoxelBoxes
 {
 public:
-  static constexpr int Width = VoxelBox::RowBytes / static_cast<int>(sizeof(Value));
-  static_assert(LaneCount == SlabsOfBlock, "a lane for each slab");
-
-  /// hasPart: the rays that go through the block.
-  TETRALUX_NOINLINE VoxelBoxes(
-    const ImageKernelInput& in, const BlockPositions& positions, Mask8 hasPart)
+  TETRALUX_INLINE void Place(const ImageKernelInput& in, const CellBounds& cells)
   {
-    constexpr int Size[3] = { Width, VoxelBox::Rows, VoxelBox::Slices };
-    constexpr int Bytes[3] = { static_cast<int>(sizeof(Value)), VoxelBox::RowBytes,
-      VoxelBox::SliceBytes };
-    // Far above the rounding of positions, which are within MostStep slabs of their cells.
-    constexpr float Margin = 1e-3f;
-    constexpr float MostStep = 16.f; // points
+    constexpr int Size[3] = { Box::RowBytes / ValueBytes, Box::Rows, Box::Slices };
     const std::int32_t strides[3] = { 1, in.Row, in.Slice };
-    const Float8 middle(_mm512_setr_ps(0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f, 8.5f, 9.5f,
-      10.5f, 11.5f, 12.5f, 13.5f, 14.5f, 15.5f));
-    const int lane = hasPart.v == 0 ? 0 : __builtin_ctz(hasPart.v);
-    Mask8 fits = MaskFromBits(AllLanes);
+    Mask8 fits = cells.Valid;
     Int8 first = 0;
     Int8 local = 0;
     this->Corner = 0;
     for (int a = 0; a < 3; ++a)
     {
-      // Seen from the cell that one ray is near.
-      const float last = static_cast<float>(in.LastCell[a]);
-      const float reference = -Lane(positions.Low[a], lane);
-      const Float8 corner = (Float8(0.f) - positions.Low[a]) - Float8(reference);
-      const Float8 base = corner + positions.Base[a];
-      const auto least = [&](Float8 x) { return _mm512_mask_reduce_min_ps(hasPart.v, x.v); };
-      const auto most = [&](Float8 x) { return _mm512_mask_reduce_max_ps(hasPart.v, x.v); };
-      const float leastStep = least(positions.Step[a]);
-      const float mostStep = most(positions.Step[a]);
-      // Cells of the volume, as PlaceSample has them.
-      const auto getCell = [&](Float8 x)
-      {
-        const Float8 cell(_mm512_roundscale_ps(x.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
-        return Min(Max(cell, Float8(-reference)), Float8(last - reference));
-      };
-      const Float8 low = getCell(Fma(middle, Float8(leastStep), Float8(least(base) - Margin)));
-      const Float8 high = getCell(Fma(middle, Float8(mostStep), Float8(most(base) + Margin)));
-      const float start = last + 2.f - static_cast<float>(Size[a]) - reference;
-      const Float8 begin = Min(low, Float8(start));
-      fits = fits & (Float8(-reference) <= begin) &
-        (high <= begin + Float8(static_cast<float>(Size[a] - 2)));
-      if (!(leastStep >= -MostStep && mostStep <= MostStep))
-      {
-        fits = MaskFromBits(0);
-      }
+      const auto lastBegin = static_cast<float>(in.LastCell[a] + 2 - Size[a]);
+      const Float8 begin = Min(cells.Low[a], Float8(lastBegin - cells.Reference[a]));
+      fits = fits & (Float8(-cells.Reference[a]) <= begin) &
+        (cells.High[a] <= begin + Float8(static_cast<float>(Size[a] - 2)));
       const Int8 cell = RoundToInt(begin);
-      first = first + (cell + Int8(static_cast<std::int32_t>(reference))) * Int8(strides[a]);
-      local = local + cell * Int8(Bytes[a]);
-      this->Corner = this->Corner + RoundToInt(corner) * Int8(Bytes[a]);
+      const Int8 reference = static_cast<std::int32_t>(cells.Reference[a]);
+      first = first + (cell + reference) * Int8(strides[a]);
+      local = local + cell * Int8(Steps[a]);
+      this->Corner = this->Corner + RoundToInt(cells.Corner[a]) * Int8(Steps[a]);
     }
     this->Fits = Bits(fits);
     Store(this->First, first);
     Store(this->Local, local);
   }
 
-  /// Whether a slab of the block has one.
-  TETRALUX_INLINE bool Has(std::int32_t slab) const { return (this->Fits >> slab & 1u) != 0; }
+  /// Slabs that have one, a bit each.
+  unsigned GetSlabs() const { return this->Fits; }
 
   /// The values in the middle of a slab that has one.
   TETRALUX_INLINE Float8 Interpolate(
     const ImageKernelInput& in, const BlockPositions& positions, std::int32_t slab) const
   {
-    constexpr int Bytes[3] = { static_cast<int>(sizeof(Value)), VoxelBox::RowBytes,
-      VoxelBox::SliceBytes };
     const Float8 way = static_cast<float>(slab) + 0.5f;
     Float8 w[3];
     Int8 index = this->Corner - Int8(this->Local[slab]);
     for (int a = 0; a < 3; ++a)
     {
-      index = index + PlaceAlong(positions, a, way, w[a]) * Int8(Bytes[a]);
+      index = index + PlaceAlong(positions, a, way, w[a]) * Int8(Steps[a]);
     }
-    const std::int64_t size = sizeof(Value);
-    VoxelBox box;
-    box.Load(static_cast<const char*>(in.Values) +
-        static_cast<std::int64_t>(static_cast<std::uint32_t>(this->First[slab])) * size,
-      in.Row * size, in.Slice * size);
+    constexpr std::int64_t Bytes = ValueBytes;
+    const std::int64_t first = static_cast<std::uint32_t>(this->First[slab]);
+    Box box;
+    box.Load(static_cast<const char*>(in.Values) + first * Bytes, in.Row * Bytes, in.Slice * Bytes);
     Float8 a, b, c, d;
-    BoxRows<Value>::template Mix2<0>(box, index, w[0], a, b);
-    BoxRows<Value>::template Mix2<1>(box, index, w[0], c, d);
+    MixRows<Value, 0>(box, index, w[0], a, b);
+    MixRows<Value, 1>(box, index, w[0], c, d);
     return Mix(Mix(a, b, w[1]), Mix(c, d, w[1]), w[2]);
   }
 
 private:
+  static constexpr int ValueBytes = sizeof(Value);
+  static constexpr int Steps[3] = { ValueBytes, Box::RowBytes, Box::SliceBytes };
+
   std::int32_t First[LaneCount]; ///< value of the box in each slab
   std::int32_t Local[LaneCount]; ///< where that is, in bytes of boxes
   Int8 Corner;                   ///< the same of the cell that each ray is near
-  unsigned Fits;
+  unsigned Fits = 0;
 };
 
-/// Voxels of four bytes have none.
-struct NoVoxelBoxes
+/// Values in the middle of slabs, from the smallest boxes that have them.
+template <class Value>
+class BoxedValues
 {
-  NoVoxelBoxes(const ImageKernelInput&, const BlockPositions&, Mask8) {}
-  static constexpr bool Has(std::int32_t) { return false; }
-  static Float8 Interpolate(const ImageKernelInput&, const BlockPositions&, std::int32_t)
+public:
+  TETRALUX_NOINLINE BoxedValues(
+    const ImageKernelInput& in, const BlockPositions& positions, Mask8 hasPart)
   {
-    return 0.f;
+    const CellBounds cells(in, positions, hasPart);
+    this->Small.Place(in, cells);
+    if (this->Small.GetSlabs() != AllLanes)
+    {
+      this->Large.Place(in, cells);
+    }
+  }
+
+  /// Returns whether the cells are in a box, and the values if so.
+  TETRALUX_INLINE bool Find(const ImageKernelInput& in, const BlockPositions& positions,
+    std::int32_t slab, Float8& values) const
+  {
+    if ((this->Small.GetSlabs() >> slab & 1u) != 0)
+    {
+      values = this->Small.Interpolate(in, positions, slab);
+      return true;
+    }
+    if ((this->Large.GetSlabs() >> slab & 1u) != 0)
+    {
+      values = this->Large.Interpolate(in, positions, slab);
+      return true;
+    }
+    return false;
+  }
+
+private:
+  VoxelBoxes<Value, SmallBox<Value>> Small;
+  VoxelBoxes<Value, LargeBox<Value>> Large;
+};
+
+/// Voxels of four bytes have no boxes.
+template <>
+class BoxedValues<float>
+{
+public:
+  BoxedValues(const ImageKernelInput&, const BlockPositions&, Mask8) {}
+  static bool Find(const ImageKernelInput&, const BlockPositions&, std::int32_t, Float8&)
+  {
+    return false;
   }
 };
 
@@ -286,18 +337,14 @@ public:
 
 private:
   /// Few, since rays may end before.
-  static constexpr int SlabsAhead = 4;
+  static constexpr int SlabsAhead = 8;
 
   TETRALUX_NOINLINE void Find(const ImageKernelInput& in)
   {
     for (std::int32_t slab = this->Begin; slab < this->End; ++slab)
     {
       Float8 value;
-      if (this->Boxes.Has(slab))
-      {
-        value = this->Boxes.Interpolate(in, this->Positions, slab);
-      }
-      else
+      if (!this->Boxes.Find(in, this->Positions, slab, value))
       {
         ImageSample sample;
         PlaceSample(in, this->Positions, Float8(static_cast<float>(slab) + 0.5f), sample);
@@ -308,7 +355,7 @@ private:
   }
 
   const BlockPositions& Positions;
-  std::conditional_t<std::is_same_v<Value, float>, NoVoxelBoxes, VoxelBoxes<Value>> Boxes;
+  BoxedValues<Value> Boxes;
   std::int32_t Begin = 0;
   std::int32_t End = 0;
   float Scalars[SlabsAhead][LaneCount];
