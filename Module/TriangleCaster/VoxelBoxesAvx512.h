@@ -24,17 +24,16 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Voxels of a box: rows of 8 or 16 bytes, an even number of them in a slice.
-template <int BytesOfRow, int NumberOfRows, int NumberOfSlices>
+/// Voxels of a box: rows of 8 bytes, an even number of them in a slice.
+template <int NumberOfRows, int NumberOfSlices>
 struct VoxelBox
 {
-  static constexpr int RowBytes = BytesOfRow;
+  static constexpr int RowBytes = 8;
   static constexpr int Rows = NumberOfRows;
   static constexpr int Slices = NumberOfSlices;
   static constexpr int SliceBytes = RowBytes * Rows;
   static constexpr int Bytes = SliceBytes * Slices;
-  static_assert(RowBytes == 8 || RowBytes == 16, "rows are loaded by two, or one by one");
-  static_assert(RowBytes * Rows % 16 == 0, "a load has rows of one slice");
+  static_assert(Rows % 2 == 0, "rows are loaded by two");
   static_assert(Bytes <= 256, "an index is a byte");
   static constexpr int Registers = Bytes <= 128 ? 2 : 4;
 
@@ -68,39 +67,28 @@ struct VoxelBox
   }
 
 private:
-  /// The 16 bytes that come so many times 16 bytes behind the first.
+  /// Two rows of those that are counted through all slices; 0 behind them.
   static TETRALUX_INLINE __m128i LoadRows(
-    const char* at, std::int64_t row, std::int64_t slice, int sixteenth)
+    const char* at, std::int64_t row, std::int64_t slice, int pair)
   {
-    constexpr int PerSlice = SliceBytes / 16;
-    constexpr int PerLoad = 16 / RowBytes;
-    const int z = sixteenth / PerSlice;
+    const int z = 2 * pair / Rows;
     if (z >= Slices)
     {
       return _mm_setzero_si128();
     }
-    const char* first = at + z * slice + sixteenth % PerSlice * PerLoad * row;
-    if constexpr (PerLoad == 1)
-    {
-      return _mm_loadu_si128(reinterpret_cast<const __m128i*>(first));
-    }
-    else
-    {
-      double low, high;
-      std::memcpy(&low, first, RowBytes);
-      std::memcpy(&high, first + row, RowBytes);
-      return _mm_castpd_si128(_mm_set_pd(high, low));
-    }
+    const char* first = at + z * slice + 2 * pair % Rows * row;
+    double low, high;
+    std::memcpy(&low, first, RowBytes);
+    std::memcpy(&high, first + row, RowBytes);
+    return _mm_castpd_si128(_mm_set_pd(high, low));
   }
 };
 
-/// Which boxes hold the cells of a vector: small ones where pixels are about as close as voxels,
-/// and twice as large ones.
+/// What holds the cells of a vector where pixels are closer than voxels, and where they are as far
+/// apart.
 ///@{
-template <class Value>
-using SmallBox = VoxelBox<8, 4, 4>;
-template <class Value>
-using LargeBox = std::conditional_t<sizeof(Value) == 1, VoxelBox<8, 6, 5>, VoxelBox<16, 4, 4>>;
+using SmallBox = VoxelBox<4, 4>;
+using LargeBox = VoxelBox<6, 5>;
 ///@}
 
 /// Four bytes for each lane: those that come so many bytes behind its index.
@@ -292,8 +280,8 @@ public:
   }
 
 private:
-  VoxelBoxes<Value, SmallBox<Value>> Small;
-  VoxelBoxes<Value, LargeBox<Value>> Large;
+  VoxelBoxes<Value, SmallBox> Small;
+  VoxelBoxes<Value, LargeBox> Large;
 };
 
 /// Voxels of four bytes have no boxes.
