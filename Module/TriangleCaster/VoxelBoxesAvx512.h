@@ -246,6 +246,111 @@ private:
   unsigned Fits = 0;
 };
 
+/// Values of cells that no box holds, by single loads. Gathers take as long, and more places of the
+/// processor's window of instructions.
+template <class Value>
+class SingleLoads
+{
+public:
+  /// index: of each cell's first value.
+  TETRALUX_INLINE SingleLoads(const ImageKernelInput& in, Int8 index)
+    : Values(static_cast<const char*>(in.Values))
+  {
+    Store(reinterpret_cast<std::int32_t*>(this->Index), index);
+  }
+
+  /// Trilinear interpolation. w: 0..1 along each axis.
+  TETRALUX_INLINE Float8 Interpolate(const ImageKernelInput& in, const Float8 (&w)[3]) const
+  {
+    const std::int64_t row = in.Row;
+    const std::int64_t back = in.Slice;
+    const Float8 a = this->MixRow(0, w[0]);
+    const Float8 b = this->MixRow(row, w[0]);
+    const Float8 c = this->MixRow(back, w[0]);
+    const Float8 d = this->MixRow(back + row, w[0]);
+    return Mix(Mix(a, b, w[1]), Mix(c, d, w[1]), w[2]);
+  }
+
+private:
+  static constexpr std::int64_t Bytes = sizeof(Value);
+
+  /// Between the values so far behind the cells' first ones, and the next.
+  TETRALUX_INLINE Float8 MixRow(std::int64_t offset, Float8 w) const
+  {
+    const char* row = this->Values + offset * Bytes;
+    if constexpr (Bytes == 1)
+    {
+      const Int8 pairs(
+        _mm512_cvtepu16_epi32(_mm256_set_m128i(this->LoadEight(row, 8), this->LoadEight(row, 0))));
+      return Mix(
+        TakeHighest<Value>(ShiftLeft(pairs, 24)), TakeHighest<Value>(ShiftLeft(pairs, 16)), w);
+    }
+    else if constexpr (Bytes == 2)
+    {
+      const Int8 pairs(Join(this->LoadFour(row, 0), this->LoadFour(row, 4),
+        this->LoadFour(row, 8), this->LoadFour(row, 12)));
+      return Mix(TakeHighest<Value>(ShiftLeft(pairs, 16)), TakeHighest<Value>(pairs), w);
+    }
+    else
+    {
+      const auto eight = [&](int lane)
+      {
+        return _mm512_castsi512_ps(Join(this->LoadTwo(row, lane), this->LoadTwo(row, lane + 2),
+          this->LoadTwo(row, lane + 4), this->LoadTwo(row, lane + 6)));
+      };
+      Float8 a, b;
+      SplitPairs(eight(0), eight(8), a.v, b.v);
+      return Mix(a, b, w);
+    }
+  }
+
+  static TETRALUX_INLINE __m512i Join(__m128i a, __m128i b, __m128i c, __m128i d)
+  {
+    return _mm512_inserti32x8(
+      _mm512_castsi256_si512(_mm256_set_m128i(b, a)), _mm256_set_m128i(d, c), 1);
+  }
+
+  /// Two values of a lane.
+  template <class Pair>
+  TETRALUX_INLINE Pair LoadPair(const char* row, int lane) const
+  {
+    Pair pair;
+    std::memcpy(&pair, row + this->Index[lane] * Bytes, sizeof(pair));
+    return pair;
+  }
+  /// Those of lanes from one on.
+  ///@{
+  TETRALUX_INLINE __m128i LoadEight(const char* row, int lane) const
+  {
+    const auto load = [&](int l) { return int{ this->LoadPair<std::uint16_t>(row, lane + l) }; };
+    __m128i eight = _mm_cvtsi32_si128(load(0));
+    eight = _mm_insert_epi16(eight, load(1), 1);
+    eight = _mm_insert_epi16(eight, load(2), 2);
+    eight = _mm_insert_epi16(eight, load(3), 3);
+    eight = _mm_insert_epi16(eight, load(4), 4);
+    eight = _mm_insert_epi16(eight, load(5), 5);
+    eight = _mm_insert_epi16(eight, load(6), 6);
+    return _mm_insert_epi16(eight, load(7), 7);
+  }
+  TETRALUX_INLINE __m128i LoadFour(const char* row, int lane) const
+  {
+    const auto load = [&](int l) { return this->LoadPair<std::int32_t>(row, lane + l); };
+    __m128i four = _mm_cvtsi32_si128(load(0));
+    four = _mm_insert_epi32(four, load(1), 1);
+    four = _mm_insert_epi32(four, load(2), 2);
+    return _mm_insert_epi32(four, load(3), 3);
+  }
+  TETRALUX_INLINE __m128i LoadTwo(const char* row, int lane) const
+  {
+    return _mm_castpd_si128(
+      _mm_set_pd(this->LoadPair<double>(row, lane + 1), this->LoadPair<double>(row, lane)));
+  }
+  ///@}
+
+  const char* Values;
+  alignas(64) std::uint32_t Index[LaneCount];
+};
+
 /// Values in the middle of slabs, from the smallest boxes that have them.
 template <class Value>
 class BoxedValues
@@ -336,7 +441,7 @@ private:
       {
         ImageSample sample;
         PlaceSample(in, this->Positions, Float8(static_cast<float>(slab) + 0.5f), sample);
-        value = sample.GetValue<Value>(in);
+        value = SingleLoads<Value>(in, sample.Index).Interpolate(in, sample.Place);
       }
       Store(this->Scalars[slab - this->Begin], FindScalar(in, value));
     }
