@@ -32,6 +32,7 @@ public:
 
   CompositeModel(const ImageKernelInput& in, const ImageRays& rays)
     : CompositingBuffer(in, rays)
+    , Short(!Any(Float8(MostOfShortStep) < LoadFloat8(rays.StepLength)))
     , Gradient(in, rays)
   {
   }
@@ -88,8 +89,7 @@ private:
         return;
       }
     }
-    const Float8 depth = (in.Power ? MinusLogOfRest(scalarOpacity) : scalarOpacity) * sample.Length;
-    const Float8 opacity = Keep(visible, OneMinusExp(depth));
+    const Float8 opacity = Keep(visible, this->GetOpacity(in, sample, visible, scalarOpacity));
     Float8 color[3];
     intervals.GetColor(color);
     if constexpr (UsesGradients)
@@ -114,6 +114,19 @@ private:
     this->AddSample(sample, opacity, color);
   }
 
+  /// Of a stretch.
+  TETRALUX_INLINE Float8 GetOpacity(
+    const ImageKernelInput& in, const ImageSample& sample, Mask8 visible, Float8 scalarOpacity)
+  {
+    if (this->Short && !Any(visible & (Float8(MostOfShortLog) < scalarOpacity)))
+    {
+      const Float8 log = in.Power ? ShortMinusLogOfRest(scalarOpacity) : scalarOpacity;
+      return ShortOneMinusExp(log * sample.Length);
+    }
+    const Float8 log = in.Power ? MinusLogOfRest(scalarOpacity) : scalarOpacity;
+    return OneMinusExp(log * sample.Length);
+  }
+
   /// Depth cueing (section 2.2).
   static TETRALUX_INLINE void Cue(
     const ImageKernelInput& in, const ImageSample& sample, Float8 (&color)[3])
@@ -125,6 +138,12 @@ private:
     }
   }
 
+  /// Unit distances up to which short functions do for scalar opacities of MostOfShortLog, whose
+  /// logarithm is 0.2877.
+  static constexpr float MostOfShortStep = 1.2f;
+  static_assert(0.2877f * MostOfShortStep < MostOfShortExp, "steps are too long");
+
+  bool Short; ///< all steps are
   Gradients Gradient;
 };
 

@@ -90,7 +90,7 @@ struct ImageCasterOptions
   /// differ by rounding. For tests of those kernels.
   bool PortableKernels = false;
 
-  /// Use the kernels of 16 lanes where the processor has AVX-512 and fast gathers, and samples are
+  /// Use the kernels of 16 lanes where HasFastWideLanes() (InstructionSet.h), and samples are
   /// composited by a function of their scalar alone. The pictures are the same bits. For tests of
   /// the others.
   bool WideKernels = true;
