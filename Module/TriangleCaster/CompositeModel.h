@@ -103,10 +103,7 @@ private:
         this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
       }
     }
-    if (in.Cued)
-    {
-      Cue(in, sample, color);
-    }
+    Cue(in, sample, color);
     for (Float8& channel : color)
     {
       channel = Keep(visible, channel);
@@ -125,17 +122,6 @@ private:
     }
     const Float8 log = in.Power ? MinusLogOfRest(scalarOpacity) : scalarOpacity;
     return OneMinusExp(log * sample.Length);
-  }
-
-  /// Depth cueing (section 2.2).
-  static TETRALUX_INLINE void Cue(
-    const ImageKernelInput& in, const ImageSample& sample, Float8 (&color)[3])
-  {
-    const Float8 depth = Fma(Float8(0.5f), sample.Share, sample.Front);
-    for (int c = 0; c < 3; ++c)
-    {
-      color[c] = color[c] * Fma(Float8(in.CueStep[c]), depth, Float8(in.Cue[c]));
-    }
   }
 
   /// Unit distances up to which short functions do for scalar opacities of MostOfShortLog, whose

@@ -33,10 +33,6 @@ void CheckComponentOptions(const ImageCasterOptions& options)
     throw std::invalid_argument(
       "stored gradients and maps of light need one component, without labels");
   }
-  if (HasCue(options))
-  {
-    throw std::invalid_argument("depth cueing needs one component, without labels");
-  }
 }
 
 void CheckSlabOptions(const ImageOptics& optics, const ImageCasterOptions& options, bool several)
