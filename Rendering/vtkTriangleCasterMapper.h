@@ -302,7 +302,7 @@ public:
    * off.
    *
    * @warning A frame of COMPOSITE_BLEND fails with an error if it is on with Shade, gradient
-   * opacity, TF_2D or depth cueing.
+   * opacity or TF_2D.
    */
   vtkSetMacro(PreIntegration, vtkTypeBool);
   vtkGetMacro(PreIntegration, vtkTypeBool);

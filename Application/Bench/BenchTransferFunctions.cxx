@@ -58,7 +58,7 @@ vtkSmartPointer<vtkVolumeProperty> MakeSmooth(const double range[2], double unit
 /// With the map that ParaView has by default, cool to warm. Between its nodes it is curved.
 vtkSmartPointer<vtkVolumeProperty> MakeDiverging(const double range[2], double unitDistance)
 {
-  const vtkSmartPointer<vtkVolumeProperty> property = MakeSmooth(range, unitDistance);
+  vtkSmartPointer<vtkVolumeProperty> property = MakeSmooth(range, unitDistance);
   vtkNew<vtkColorTransferFunction> color;
   color->SetColorSpaceToDiverging();
   color->AddRGBPoint(range[0], 0.231373, 0.298039, 0.752941);

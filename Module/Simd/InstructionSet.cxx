@@ -33,8 +33,7 @@ InstructionSet GetWidestInstructionSet()
 bool HasFastWideLanes()
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  static const bool fast =
-    GetWidestInstructionSet() == InstructionSet::Avx512 &&
+  static const bool fast = GetWidestInstructionSet() == InstructionSet::Avx512 &&
     __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_is("amd");
   return fast;
 #else

@@ -44,7 +44,7 @@ struct ImageCasterOptions
 
   /// Whether what is between two slices comes from a table over the scalars at both (SlabTable.h),
   /// so that thin features of the transfer function are not missed. ImageBlend::Composite only. Not
-  /// with Shaded or depth cueing, nor where opacity depends on gradients.
+  /// with Shaded, nor where opacity depends on gradients.
   bool PreIntegrated = false;
 
   /// Whether lights shine on samples, or on isosurfaces, from the side of the viewer, by gradients

@@ -47,10 +47,6 @@ void CheckSlabOptions(const ImageOptics& optics, const ImageCasterOptions& optio
     throw std::invalid_argument(
       "pre-integrated slabs are of one function: they need one component, without labels");
   }
-  if (HasCue(options))
-  {
-    throw std::invalid_argument("pre-integrated slabs have no depth cueing");
-  }
 }
 
 } // namespace

@@ -16,8 +16,8 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// The cells of a vector's samples along one axis, seen from those of positions. way: slabs from the
-/// start of the block. place: where in the cell, 0..1.
+/// The cells of a vector's samples along one axis, seen from those of positions. way: slabs from
+/// the start of the block. place: where in the cell, 0..1.
 TETRALUX_INLINE Int8 PlaceAlong(
   const BlockPositions& positions, int axis, Float8 way, Float8& place)
 {

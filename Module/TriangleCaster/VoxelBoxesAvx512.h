@@ -45,9 +45,9 @@ struct VoxelBox
     for (int r = 0; r < Registers; ++r)
     {
       const auto quarter = [&](int q) { return LoadRows(at, row, slice, 4 * r + q); };
-      this->Voxels[r] = _mm512_inserti32x8(
-        _mm512_castsi256_si512(_mm256_set_m128i(quarter(1), quarter(0))),
-        _mm256_set_m128i(quarter(3), quarter(2)), 1);
+      this->Voxels[r] =
+        _mm512_inserti32x8(_mm512_castsi256_si512(_mm256_set_m128i(quarter(1), quarter(0))),
+          _mm256_set_m128i(quarter(3), quarter(2)), 1);
     }
   }
 
@@ -110,15 +110,15 @@ TETRALUX_INLINE Float8 TakeHighest(Int8 a)
 /// Interpolation along x in two neighbouring rows of a box. index: where in the box each lane's
 /// first value is, in bytes. w: 0..1.
 template <class Value, int Slice, class Box>
-TETRALUX_INLINE void MixRows(
-  const Box& box, Int8 index, Float8 w, Float8& first, Float8& second)
+TETRALUX_INLINE void MixRows(const Box& box, Int8 index, Float8 w, Float8& first, Float8& second)
 {
   constexpr int A = Slice * Box::SliceBytes;
   constexpr int B = A + Box::RowBytes;
   if constexpr (sizeof(Value) == 1)
   {
     const Int8 both = box.LookUp(SpreadBytes(index, A, A + 1, B, B + 1));
-    first = Mix(TakeHighest<Value>(ShiftLeft(both, 24)), TakeHighest<Value>(ShiftLeft(both, 16)), w);
+    first =
+      Mix(TakeHighest<Value>(ShiftLeft(both, 24)), TakeHighest<Value>(ShiftLeft(both, 16)), w);
     second = Mix(TakeHighest<Value>(ShiftLeft(both, 8)), TakeHighest<Value>(both), w);
   }
   else
@@ -151,7 +151,7 @@ struct CellBounds
     const ImageKernelInput& in, const BlockPositions& positions, Mask8 hasPart)
   {
     // Far above the rounding of positions, which are within MostStep slabs of their cells.
-    constexpr float Margin = 1e-3f;   // points
+    constexpr float Margin = 1e-3f;  // points
     constexpr float MostStep = 16.f; // points a slab
     const Float8 middle(_mm512_setr_ps(0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f, 8.5f, 9.5f,
       10.5f, 11.5f, 12.5f, 13.5f, 14.5f, 15.5f));
@@ -289,8 +289,8 @@ private:
     }
     else if constexpr (Bytes == 2)
     {
-      const Int8 pairs(Join(this->LoadFour(row, 0), this->LoadFour(row, 4),
-        this->LoadFour(row, 8), this->LoadFour(row, 12)));
+      const Int8 pairs(Join(this->LoadFour(row, 0), this->LoadFour(row, 4), this->LoadFour(row, 8),
+        this->LoadFour(row, 12)));
       return Mix(TakeHighest<Value>(ShiftLeft(pairs, 16)), TakeHighest<Value>(pairs), w);
     }
     else

@@ -6,8 +6,8 @@
 #   TETRALUX_DATA=FOLDER Testing/Benchmarks/bench_page.sh [build/bin/tetralux [OPTIONS OF bench...]]
 #
 # PAGE=FOLDER writes another folder; with the option --quick, that shows whether all works. Without
-# options of bench, the page has the scenes listed here; all that there are take three times as long,
-# and more than may be committed.
+# options of bench, the page has the scenes listed here; all that there are take three times as
+# long, and more than may be committed.
 #
 # The page is complete in itself. Beside it go the numbers, the table of how stable the integrals
 # are, and the page's first chart, which the README shows. Chromium draws the chart by running the

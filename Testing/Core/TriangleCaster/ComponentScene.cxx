@@ -56,8 +56,7 @@ public:
     {
       const Gathered gathered = this->Gather(ray, slab);
       const double depth = slab.GetMiddle() * ray.DepthOfDirection;
-      const double cue =
-        (depth - this->Planes.Origin) / (this->Planes.Back - this->Planes.Origin);
+      const double cue = (depth - this->Planes.Origin) / (this->Planes.Back - this->Planes.Origin);
       const ImageCasterOptions& options = this->Scene.Options;
       for (int c = 0; c < 3; ++c)
       {

@@ -575,7 +575,6 @@ TEST(ImageComponents, WhatOneFunctionHasIsRefused)
       [](ImageOptics&, ImageCasterOptions& options) { options.Gradients = GradientSource::Bytes; });
     refuses([](ImageOptics&, ImageCasterOptions& options)
       { options.SumOfLights = LightSum::NearestEntry; });
-    refuses([](ImageOptics&, ImageCasterOptions& options) { options.FarColor[1] = 0.5f; });
   }
 }
 
