@@ -42,8 +42,8 @@
  *
  * @warning There are errors for: rectilinear grids, scalars at cells, more than 2^31 - 1 values, 3
  * dependent components; and with several components or labels for any BlendMode but
- * COMPOSITE_BLEND, TF_2D, PreIntegration, BYTE_GRADIENTS, maps of light and depth cueing. TF_2D is
- * of COMPOSITE_BLEND only. Warnings say what of the property is not used.
+ * COMPOSITE_BLEND, TF_2D, PreIntegration, BYTE_GRADIENTS and maps of light. TF_2D is of
+ * COMPOSITE_BLEND only. Warnings say what of the property is not used.
  *
  * In a window with MultiSamples, pixels at edges are cast once for each sample, as
  * vtkTetrahedraCPUMapper says.
@@ -302,7 +302,7 @@ public:
    * off.
    *
    * @warning A frame of COMPOSITE_BLEND fails with an error if it is on with Shade, gradient
-   * opacity, TF_2D or depth cueing.
+   * opacity or TF_2D.
    */
   vtkSetMacro(PreIntegration, vtkTypeBool);
   vtkGetMacro(PreIntegration, vtkTypeBool);

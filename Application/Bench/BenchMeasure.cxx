@@ -58,7 +58,7 @@ void TimeFrames(const BenchRun& run, BenchView& view, BenchRow& row)
   std::vector<double> seconds;
   double total = 0;
   while (static_cast<int>(seconds.size()) < run.Frames &&
-    (seconds.empty() || total < LongestMeasurement))
+    (static_cast<int>(seconds.size()) < FewestFrames || total < LongestMeasurement))
   {
     seconds.push_back(view.Render());
     total += seconds.back();

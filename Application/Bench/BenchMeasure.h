@@ -26,8 +26,11 @@ struct BenchMeasurement
   BenchPicture Picture;
 };
 
-/// A measurement ends with the frame that brings it to this many seconds.
-constexpr double LongestMeasurement = 15;
+/// A measurement of at least FewestFrames ends with the frame that brings it to this many seconds.
+///@{
+constexpr double LongestMeasurement = 1.5;
+constexpr int FewestFrames = 3;
+///@}
 
 /// Renders and times one setting.
 BenchMeasurement Measure(const BenchRun& run, const BenchSetting& setting);

@@ -55,6 +55,19 @@ vtkSmartPointer<vtkVolumeProperty> MakeSmooth(const double range[2], double unit
     range, unitDistance);
 }
 
+/// With the map that ParaView has by default, cool to warm. Between its nodes it is curved.
+vtkSmartPointer<vtkVolumeProperty> MakeDiverging(const double range[2], double unitDistance)
+{
+  vtkSmartPointer<vtkVolumeProperty> property = MakeSmooth(range, unitDistance);
+  vtkNew<vtkColorTransferFunction> color;
+  color->SetColorSpaceToDiverging();
+  color->AddRGBPoint(range[0], 0.231373, 0.298039, 0.752941);
+  color->AddRGBPoint(0.5 * (range[0] + range[1]), 0.865, 0.865, 0.865);
+  color->AddRGBPoint(range[1], 0.705882, 0.0156863, 0.14902);
+  property->SetColor(color);
+  return property;
+}
+
 vtkSmartPointer<vtkVolumeProperty> MakeNeedle(const double range[2], double unitDistance)
 {
   constexpr double place = 0.3;
@@ -94,6 +107,8 @@ const std::vector<BenchTransferFunction>& GetBenchTransferFunctions()
 {
   static const std::vector<BenchTransferFunction> functions = {
     { "smooth", "colour and opacity of six nodes", MakeSmooth },
+    { "diverging", "the same opacity, and ParaView's diverging colours, cool to warm",
+      MakeDiverging },
     { "needle", "a peak of 1/512 of the scalar range, narrower than a texel of 256 scalars",
       MakeNeedle },
     { "steps", "six constant pieces with steps of 1e-6 of the range between them", MakeSteps },

@@ -22,6 +22,8 @@ struct SegmentLanes
   Function MinusLog;
   Function MinusLogOfRest;
   Function OneMinusExp;
+  Function ShortMinusLogOfRest;
+  Function ShortOneMinusExp;
   void (*Power)(const float* x, const float* power, float* result);
   void (*FindBulgeShare)(const float* d0, const float* d1, float* share);
   void (*IntegrateConstant)(const float* depth, float* opacity, float* transmittance);

@@ -24,6 +24,10 @@ SegmentLanes MakeSegmentLanes(InstructionSet set)
   { Store(result, MinusLogOfRest(LoadFloat8(x))); };
   lanes.OneMinusExp = [](const float* x, float* result)
   { Store(result, OneMinusExp(LoadFloat8(x))); };
+  lanes.ShortMinusLogOfRest = [](const float* x, float* result)
+  { Store(result, ShortMinusLogOfRest(LoadFloat8(x))); };
+  lanes.ShortOneMinusExp = [](const float* x, float* result)
+  { Store(result, ShortOneMinusExp(LoadFloat8(x))); };
   lanes.Power = [](const float* x, const float* power, float* result)
   { Store(result, Power(LoadFloat8(x), LoadFloat8(power))); };
   lanes.FindBulgeShare = [](const float* d0, const float* d1, float* share)

@@ -30,11 +30,11 @@ InstructionSet GetWidestInstructionSet()
   return GetInstructionSet();
 }
 
-bool HasFastGathers()
+bool HasFastWideLanes()
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  static const bool fast =
-    GetWidestInstructionSet() == InstructionSet::Avx512 && __builtin_cpu_is("amd");
+  static const bool fast = GetWidestInstructionSet() == InstructionSet::Avx512 &&
+    __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_is("amd");
   return fast;
 #else
   return false;

@@ -22,10 +22,10 @@ TETRALUXCORE_EXPORT InstructionSet GetInstructionSet();
 /// The same for kernels that are compiled for AVX-512, too.
 TETRALUXCORE_EXPORT InstructionSet GetWidestInstructionSet();
 
-/// Whether AVX-512 gathers 16 words faster than single loads do: measured on AMD's Zen 4. Not taken
-/// for granted elsewhere, since microcode against data sampling makes gathers slow on some of
-/// Intel's processors.
-TETRALUXCORE_EXPORT bool HasFastGathers();
+/// Whether kernels of 16 lanes are faster than those of 8: AVX-512 with VBMI, which permutes bytes,
+/// and fast gathers. Measured on AMD's Zen 4 and Zen 5. Not taken for granted elsewhere, since
+/// microcode against data sampling makes gathers slow on some of Intel's processors.
+TETRALUXCORE_EXPORT bool HasFastWideLanes();
 
 /// For statistics: "generic", "NEON", "AVX2" or "AVX-512".
 TETRALUXCORE_EXPORT const char* GetName(InstructionSet set);

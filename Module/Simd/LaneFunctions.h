@@ -76,6 +76,26 @@ TETRALUX_INLINE Float8 OneMinusExp(Float8 x)
   return Fma(power * r, Polynomial(r, q), Float8(1.f) - power);
 }
 
+/// The same bits as those of MinusLogOfRest up to MostOfShortLog, and of OneMinusExp up to
+/// MostOfShortExp, where neither has to split off a power of 2. x is at least 0.
+///@{
+constexpr float MostOfShortLog = 0.25f;
+TETRALUX_INLINE Float8 ShortMinusLogOfRest(Float8 x)
+{
+  static constexpr float c[] = { 2.f, 2.f / 3, 2.f / 5, 2.f / 7, 2.f / 9 };
+  const Float8 one = 1.f;
+  const Float8 s = x / ((one - x) + one);
+  return s * Polynomial(s * s, c);
+}
+constexpr float MostOfShortExp = 0.346f; // ln(2) / 2
+TETRALUX_INLINE Float8 ShortOneMinusExp(Float8 x)
+{
+  static constexpr float q[] = { 1.f, -1.f / 2, 1.f / 6, -1.f / 24, 1.f / 120, -1.f / 720,
+    1.f / 5040 };
+  return x * Polynomial(x, q);
+}
+///@}
+
 /// x^power for x in 0..1 and a power of 0 or more; below 1e-30 as at 1e-30. Relative error 2e-7 for
 /// each e-fold that the result is below 1.
 TETRALUX_INLINE Float8 Power(Float8 x, Float8 power)

@@ -53,6 +53,7 @@ public:
     {
       return;
     }
+    Cue(in, sample, sum.Color);
     const Float8 opacity = Min(Keep(visible, sum.Squares / sum.Opacity), Float8(1.f));
     this->AddPremultiplied(sample, opacity, sum.Color);
   }

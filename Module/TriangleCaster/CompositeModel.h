@@ -32,14 +32,33 @@ public:
 
   CompositeModel(const ImageKernelInput& in, const ImageRays& rays)
     : CompositingBuffer(in, rays)
+    , Short(!Any(Float8(MostOfShortStep) < LoadFloat8(rays.StepLength)))
     , Gradient(in, rays)
   {
   }
 
   TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample)
   {
-    typename Gradients::template Field<Value> field;
+    Field field;
     const Float8 scalar = field.LoadScalar(in, sample);
+    this->AddScalar(in, sample, field, scalar);
+  }
+
+  /// The same where the scalar is known, without gradients.
+  TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample, Float8 scalar)
+  {
+    static_assert(!UsesGradients, "gradients need the sample's place");
+    Field field;
+    this->AddScalar(in, sample, field, scalar);
+  }
+
+private:
+  using Field = typename Gradients::template Field<Value>;
+  static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
+
+  TETRALUX_INLINE void AddScalar(
+    const ImageKernelInput& in, const ImageSample& sample, Field& field, Float8 scalar)
+  {
     const Intervals intervals(in.Transfer, scalar);
     const Float8 zero = 0.f;
     Float8 scalarOpacity = intervals.GetOpacity();
@@ -70,8 +89,7 @@ public:
         return;
       }
     }
-    const Float8 depth = (in.Power ? MinusLogOfRest(scalarOpacity) : scalarOpacity) * sample.Length;
-    const Float8 opacity = Keep(visible, OneMinusExp(depth));
+    const Float8 opacity = Keep(visible, this->GetOpacity(in, sample, visible, scalarOpacity));
     Float8 color[3];
     intervals.GetColor(color);
     if constexpr (UsesGradients)
@@ -85,10 +103,7 @@ public:
         this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
       }
     }
-    if (in.Cued)
-    {
-      Cue(in, sample, color);
-    }
+    Cue(in, sample, color);
     for (Float8& channel : color)
     {
       channel = Keep(visible, channel);
@@ -96,20 +111,25 @@ public:
     this->AddSample(sample, opacity, color);
   }
 
-private:
-  /// Depth cueing (section 2.2).
-  static TETRALUX_INLINE void Cue(
-    const ImageKernelInput& in, const ImageSample& sample, Float8 (&color)[3])
+  /// Of a stretch.
+  TETRALUX_INLINE Float8 GetOpacity(
+    const ImageKernelInput& in, const ImageSample& sample, Mask8 visible, Float8 scalarOpacity)
   {
-    const Float8 depth = Fma(Float8(0.5f), sample.Share, sample.Front);
-    for (int c = 0; c < 3; ++c)
+    if (this->Short && !Any(visible & (Float8(MostOfShortLog) < scalarOpacity)))
     {
-      color[c] = color[c] * Fma(Float8(in.CueStep[c]), depth, Float8(in.Cue[c]));
+      const Float8 log = in.Power ? ShortMinusLogOfRest(scalarOpacity) : scalarOpacity;
+      return ShortOneMinusExp(log * sample.Length);
     }
+    const Float8 log = in.Power ? MinusLogOfRest(scalarOpacity) : scalarOpacity;
+    return OneMinusExp(log * sample.Length);
   }
 
-  static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
+  /// Unit distances up to which short functions do for scalar opacities of MostOfShortLog, whose
+  /// logarithm is 0.2877.
+  static constexpr float MostOfShortStep = 1.2f;
+  static_assert(0.2877f * MostOfShortStep < MostOfShortExp, "steps are too long");
 
+  bool Short; ///< all steps are
   Gradients Gradient;
 };
 

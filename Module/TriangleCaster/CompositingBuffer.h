@@ -64,6 +64,21 @@ public:
   }
 
 protected:
+  /// Depth cueing (section 2.2), if there is any.
+  static TETRALUX_INLINE void Cue(
+    const ImageKernelInput& in, const ImageSample& sample, Float8 (&color)[3])
+  {
+    if (!in.Cued)
+    {
+      return;
+    }
+    const Float8 depth = Fma(Float8(0.5f), sample.Share, sample.Front);
+    for (int c = 0; c < 3; ++c)
+    {
+      color[c] = color[c] * Fma(Float8(in.CueStep[c]), depth, Float8(in.Cue[c]));
+    }
+  }
+
   /// Equation 5. Where the opacity is 0, colours have to be numbers.
   TETRALUX_INLINE void AddSample(
     const ImageSample& sample, Float8 opacity, const Float8 (&color)[3])

@@ -53,7 +53,7 @@ ChosenKernel ChooseKernel(const ImageCasterOptions& options, const ImageKernelIn
 {
   const bool components = in.Components > 1 || in.Labels;
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
-  if (!options.PortableKernels && options.WideKernels && !components && HasFastGathers())
+  if (!options.PortableKernels && options.WideKernels && !components && HasFastWideLanes())
   {
     const ImageKernel kernel = GetImageKernelAvx512(in);
     if (kernel)

@@ -44,7 +44,7 @@ struct ImageCasterOptions
 
   /// Whether what is between two slices comes from a table over the scalars at both (SlabTable.h),
   /// so that thin features of the transfer function are not missed. ImageBlend::Composite only. Not
-  /// with Shaded or depth cueing, nor where opacity depends on gradients.
+  /// with Shaded, nor where opacity depends on gradients.
   bool PreIntegrated = false;
 
   /// Whether lights shine on samples, or on isosurfaces, from the side of the viewer, by gradients
@@ -90,7 +90,7 @@ struct ImageCasterOptions
   /// differ by rounding. For tests of those kernels.
   bool PortableKernels = false;
 
-  /// Use the kernels of 16 lanes where the processor has AVX-512 and fast gathers, and samples are
+  /// Use the kernels of 16 lanes where HasFastWideLanes() (InstructionSet.h), and samples are
   /// composited by a function of their scalar alone. The pictures are the same bits. For tests of
   /// the others.
   bool WideKernels = true;

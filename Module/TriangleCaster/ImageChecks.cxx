@@ -33,10 +33,6 @@ void CheckComponentOptions(const ImageCasterOptions& options)
     throw std::invalid_argument(
       "stored gradients and maps of light need one component, without labels");
   }
-  if (HasCue(options))
-  {
-    throw std::invalid_argument("depth cueing needs one component, without labels");
-  }
 }
 
 void CheckSlabOptions(const ImageOptics& optics, const ImageCasterOptions& options, bool several)
@@ -50,10 +46,6 @@ void CheckSlabOptions(const ImageOptics& optics, const ImageCasterOptions& optio
   {
     throw std::invalid_argument(
       "pre-integrated slabs are of one function: they need one component, without labels");
-  }
-  if (HasCue(options))
-  {
-    throw std::invalid_argument("pre-integrated slabs have no depth cueing");
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "TriangleCaster/CompositeModel.h"
 #include "TriangleCaster/TileCasting.h"
+#include "TriangleCaster/VoxelBoxesAvx512.h"
 
 namespace tetralux
 {
@@ -25,8 +26,9 @@ ImageKernel GetImageKernelAvx512(const ImageKernelInput& in)
       using namespace TETRALUX_ISA;
       using Value = decltype(value);
       return in.Transfer.Count <= TransferLookup::MostFew
-        ? &CastTile<Value, PlainComposite<Value, FewIntervals<TransferLookup::MostFew>>>
-        : &CastTile<Value, PlainComposite<Value, ManyIntervals>>;
+        ? &CastTile<Value, PlainComposite<Value, FewIntervals<TransferLookup::MostFew>>,
+            ScalarsAhead<Value>>
+        : &CastTile<Value, PlainComposite<Value, ManyIntervals>, ScalarsAhead<Value>>;
     });
 }
 

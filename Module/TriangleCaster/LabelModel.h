@@ -85,6 +85,7 @@ public:
         this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
       }
     }
+    Cue(in, sample, color);
     for (Float8& channel : color)
     {
       channel = Keep(visible, channel);

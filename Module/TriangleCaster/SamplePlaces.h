@@ -16,7 +16,20 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Finds the cells of a vector's samples. way: slabs from the start of the block.
+/// The cells of a vector's samples along one axis, seen from those of positions. way: slabs from
+/// the start of the block. place: where in the cell, 0..1.
+TETRALUX_INLINE Int8 PlaceAlong(
+  const BlockPositions& positions, int axis, Float8 way, Float8& place)
+{
+  const Float8 x = Fma(positions.Step[axis], way, positions.Base[axis]);
+  // The cell, and at its border either of two.
+  const Int8 cell =
+    RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[axis]), positions.High[axis]));
+  place = x - ToFloat(cell);
+  return cell;
+}
+
+/// Finds the cells of a vector's samples.
 TETRALUX_INLINE void PlaceSample(
   const ImageKernelInput& in, const BlockPositions& positions, Float8 way, ImageSample& sample)
 {
@@ -24,10 +37,7 @@ TETRALUX_INLINE void PlaceSample(
   sample.Index = positions.Index;
   for (int a = 0; a < 3; ++a)
   {
-    const Float8 x = Fma(positions.Step[a], way, positions.Base[a]);
-    // The cell, and at its border either of two.
-    const Int8 cell = RoundToInt(Min(Max(x - Float8(0.5f), positions.Low[a]), positions.High[a]));
-    sample.Place[a] = x - ToFloat(cell);
+    const Int8 cell = PlaceAlong(positions, a, way, sample.Place[a]);
     sample.Cell[a] = ToFloat(cell) - positions.Low[a];
     sample.Index = sample.Index + cell * Int8(strides[a]);
   }

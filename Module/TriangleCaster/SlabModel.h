@@ -92,6 +92,7 @@ public:
     {
       color[c] = share * Keep(visible, texel[c]);
     }
+    Cue(in, sample, color); // by the factor in the middle of the slab
     this->AddPremultiplied(sample, opacity, color);
   }
 

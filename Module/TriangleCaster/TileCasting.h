@@ -52,8 +52,16 @@ TETRALUX_NOINLINE void FindShownSamples(const ImageKernelInput& in, const ImageR
   }
 }
 
-/// Casts the rays of a vector through the slabs of one block.
-template <class Value, class Model>
+/// Samples are found one by one.
+struct NoScalarsAhead
+{
+  static constexpr bool Exist = false;
+  NoScalarsAhead(const ImageKernelInput&, const BlockPositions&, Mask8) {}
+};
+
+/// Casts the rays of a vector through the slabs of one block. Ahead: NoScalarsAhead, or
+/// ScalarsAhead for a model that needs no more of a sample than its scalar.
+template <class Value, class Model, class Ahead>
 TETRALUX_NOINLINE void CastBlock(
   const ImageKernelInput& in, ImageRays& rays, std::int32_t block, ImageKernelCounts& counts)
 {
@@ -69,6 +77,7 @@ TETRALUX_NOINLINE void CastBlock(
     FindShownSamples(in, rays, positions, start, begin, end, shownSamples);
   }
   Model model(in, rays);
+  Ahead ahead(in, positions, hasPart);
   for (std::int32_t slab = begin; slab < end; ++slab)
   {
     const bool inner = rays.InnerFirst <= slab && slab <= rays.InnerLast;
@@ -120,6 +129,15 @@ TETRALUX_NOINLINE void CastBlock(
         }
       }
       counts.Samples += __builtin_popcount(Bits(sample.Active));
+      if constexpr (Ahead::Exist)
+      {
+        if (inner)
+        {
+          const std::int32_t innerEnd = std::min(end, rays.InnerLast + 1);
+          model.Add(in, sample, ahead.Get(in, slab - start, innerEnd - start));
+          continue;
+        }
+      }
       if constexpr (Model::AtEnds)
       {
         PlaceSample(in, positions, position + to, sample);
@@ -158,7 +176,7 @@ inline std::int32_t CountSlabs(const ImageRays* rays, int count, std::int32_t bl
 }
 
 /// Casts one S-triangle, or one tile: rays are set up.
-template <class Value, class Model>
+template <class Value, class Model, class Ahead>
 void CastTriangle(const ImageKernelInput& in, const std::vector<std::int32_t>& blocks,
   ImageRays* rays, int count, ImageKernelCounts& counts)
 {
@@ -175,7 +193,7 @@ void CastTriangle(const ImageKernelInput& in, const std::vector<std::int32_t>& b
     {
       if (!(rays[v].Ended && in.SkipPixels))
       {
-        CastBlock<Value, Model>(in, rays[v], block, counts);
+        CastBlock<Value, Model, Ahead>(in, rays[v], block, counts);
       }
       ended = ended && rays[v].Ended;
     }
@@ -203,7 +221,7 @@ struct BoundedBlock
 
 /// As CastTriangle, for models that do not depend on the order of slabs: blocks that may have the
 /// best samples come first, so that others need not be cast.
-template <class Value, class Model>
+template <class Value, class Model, class Ahead>
 void CastBestFirst(const ImageKernelInput& in, const TileBeam& beam,
   const std::vector<std::int32_t>& blocks, ImageRays* rays, int count, ImageKernelCounts& counts)
 {
@@ -229,7 +247,7 @@ void CastBestFirst(const ImageKernelInput& in, const TileBeam& beam,
       if (!Model::IsSettled(rays[v], next.Bound))
       {
         settled = false;
-        CastBlock<Value, Model>(in, rays[v], next.Block, counts);
+        CastBlock<Value, Model, Ahead>(in, rays[v], next.Block, counts);
       }
     }
     if (settled)
@@ -302,7 +320,7 @@ inline int TakePixels(const Tile& box, int triangle, ImageRays* rays)
   return count;
 }
 
-template <class Value, class Model>
+template <class Value, class Model, class Ahead = NoScalarsAhead>
 void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& counts)
 {
   const int edge = std::min(in.TileSize, std::max(tile.X1 - tile.X0, tile.Y1 - tile.Y0));
@@ -335,11 +353,11 @@ void CastTile(const ImageKernelInput& in, const Tile& tile, ImageKernelCounts& c
         }
         if constexpr (Model::InAnyOrder)
         {
-          CastBestFirst<Value, Model>(in, beam, blocks, rays.data(), count, counts);
+          CastBestFirst<Value, Model, Ahead>(in, beam, blocks, rays.data(), count, counts);
         }
         else
         {
-          CastTriangle<Value, Model>(in, blocks, rays.data(), count, counts);
+          CastTriangle<Value, Model, Ahead>(in, blocks, rays.data(), count, counts);
         }
         for (int v = 0; v < count; ++v)
         {

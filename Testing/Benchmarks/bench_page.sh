@@ -1,11 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Measures again what Documentation/bench shows, with one command on a quiet machine (about
-# half an hour on two cores):
+# ten minutes on two cores):
 #
 #   TETRALUX_DATA=FOLDER Testing/Benchmarks/bench_page.sh [build/bin/tetralux [OPTIONS OF bench...]]
 #
-# PAGE=FOLDER writes another folder; with the option --quick, that shows whether all works.
+# PAGE=FOLDER writes another folder; with the option --quick, that shows whether all works. Without
+# options of bench, the page has the scenes listed here; all that there are take three times as
+# long, and more than may be committed.
 #
 # The page is complete in itself. Beside it go the numbers, the table of how stable the integrals
 # are, and the page's first chart, which the README shows. Chromium draws the chart by running the
@@ -19,6 +21,13 @@ tool=${1:-$root/build/bin/tetralux}
 : "${TETRALUX_DATA:?must name the folder of bluntfinxyz.bin, bluntfinq.bin, can.vtu, engine.vti}"
 page=${PAGE:-$root/Documentation/bench}
 largest=2000 # kilobytes, for all that is committed
+
+if [ $# -eq 0 ]; then
+  for scene in blunt-fin-smooth blunt-fin-diverging blunt-fin-needle engine-smooth engine-opaque \
+    signal-smooth; do
+    set -- "$@" --scene "$scene"
+  done
+fi
 
 scratch=$(mktemp -d)
 result=$scratch/bench

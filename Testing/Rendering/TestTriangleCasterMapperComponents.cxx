@@ -337,8 +337,6 @@ TEST(TriangleCasterMapperComponents, RefuseWhatTheyLack)
     { "one component", with(setTwo, [](ImageScene& scene) { scene.Mapper->PreIntegrationOn(); }) },
     { "stored gradients and maps of light need",
       with(setTwo, [](ImageScene& scene) { scene.Mapper->SetGradientSourceToBytes(); }) },
-    { "depth cueing needs",
-      with(setTwo, [](ImageScene& scene) { scene.Mapper->SetFarColor(0, 0, 0); }) },
     { "labels are shown of one component", with(setTwo, SetLabels) },
     { "those of the image data are 14 x 11 x 9",
       [](ImageScene& scene)

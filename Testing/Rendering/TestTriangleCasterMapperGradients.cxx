@@ -163,7 +163,7 @@ TEST(TriangleCasterMapperGradients, DepthCuesAreFactorsOfColours)
   scene.Mapper->SetFarColor(0, 0.5, 0.75);
   expect({ 0.5, 0.5, 0.5, 1 });
   scene.Mapper->PreIntegrationOn();
-  EXPECT_NE(RenderMessages(scene).find("no depth cueing"), std::string::npos);
+  expect({ 0.5, 0.5, 0.5, 1 });
 }
 
 } // namespace

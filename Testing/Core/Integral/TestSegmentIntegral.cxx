@@ -178,6 +178,31 @@ TEST(SegmentIntegral, OpacitiesKeepTheirRelativeAccuracyNearZero)
   }
 }
 
+TEST(SegmentIntegral, ShortFunctionsAreTheSameBits)
+{
+  constexpr float MostOfShortLog = 0.25f; // as in LaneFunctions.h
+  constexpr float MostOfShortExp = 0.346f;
+  const auto expectSame = [](const auto& one, const auto& other, float most)
+  {
+    std::vector<float> arguments = MakeArguments(-30, std::log10(most), 20000);
+    arguments.resize(arguments.size() / NumberOfLanes * NumberOfLanes);
+    arguments.back() = most;
+    for (std::size_t i = 0; i < arguments.size(); i += NumberOfLanes)
+    {
+      Lanes a, b;
+      one(arguments.data() + i, a.data());
+      other(arguments.data() + i, b.data());
+      ASSERT_EQ(a, b) << "from argument " << arguments[i];
+    }
+  };
+  for (const SegmentLanes& lanes : GetSegmentLanes())
+  {
+    SCOPED_TRACE(lanes.Name);
+    expectSame(lanes.MinusLogOfRest, lanes.ShortMinusLogOfRest, MostOfShortLog);
+    expectSame(lanes.OneMinusExp, lanes.ShortOneMinusExp, MostOfShortExp);
+  }
+}
+
 TEST(SegmentIntegral, LogarithmsKeepTheirRelativeAccuracyNearOne)
 {
   for (const SegmentLanes& lanes : GetSegmentLanes())

@@ -55,9 +55,14 @@ public:
     for (const PlainSlab& slab : FindPlainSlabs(this->Scene.Dimensions, this->Planes, ray))
     {
       const Gathered gathered = this->Gather(ray, slab);
+      const double depth = slab.GetMiddle() * ray.DepthOfDirection;
+      const double cue = (depth - this->Planes.Origin) / (this->Planes.Back - this->Planes.Origin);
+      const ImageCasterOptions& options = this->Scene.Options;
       for (int c = 0; c < 3; ++c)
       {
-        pixel[c] += translucency * gathered.Emitted[c];
+        const double factor =
+          options.NearColor[c] + cue * (options.FarColor[c] - options.NearColor[c]);
+        pixel[c] += translucency * factor * gathered.Emitted[c];
       }
       translucency *= 1 - gathered.Absorbed;
     }

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -39,6 +40,8 @@ constexpr double ConstantError = 1e-6;
 constexpr double ColorError = 1e-5;
 /// Relative: of an opacity of the function in single precision.
 constexpr double OpacityRounding = 1. / (1 << 24);
+
+constexpr const char* NoWideLanes = "this processor has no fast lanes of 16";
 
 /// Scenes that show much, for what may not change a picture: not empty, of any kind.
 std::vector<ImageScene> MakeScenes(int count)
@@ -566,9 +569,9 @@ TEST(ImageCaster, PortableKernelsDifferByRounding)
 
 TEST(ImageCaster, WideKernelsAreTheSameBits)
 {
-  if (!HasFastGathers())
+  if (!HasFastWideLanes())
   {
-    GTEST_SKIP() << "this processor has no AVX-512, or slow gathers";
+    GTEST_SKIP() << NoWideLanes;
   }
   std::set<ImageScalar> types;
   std::set<bool> few;
@@ -589,6 +592,47 @@ TEST(ImageCaster, WideKernelsAreTheSameBits)
   }
   EXPECT_EQ(types.size(), 5u);
   EXPECT_EQ(few.size(), 2u);
+}
+
+// Voxels come from small boxes, large ones, or by single loads, as the rays' distance has it.
+TEST(ImageCaster, WideKernelsAreTheSameBitsAtAnyDistanceOfRays)
+{
+  if (!HasFastWideLanes())
+  {
+    GTEST_SKIP() << NoWideLanes;
+  }
+  const std::array<int, 3> sizes[] = { { 70, 50, 40 }, { 8, 4, 4 }, { 9, 7, 6 }, { 5, 40, 3 } };
+  std::mt19937_64 generator(78);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const ImageScalar type : Types)
+  {
+    for (const std::array<int, 3>& size : sizes)
+    {
+      ImageScene scene = MakeSmoothImageScene();
+      scene.Dimensions = size;
+      std::vector<double> shares(static_cast<std::size_t>(size[0]) * size[1] * size[2]);
+      std::generate(shares.begin(), shares.end(), [&] { return unit(generator); });
+      const double ends[5][2] = { { -128, 127 }, { 0, 255 }, { -32768, 32767 }, { 0, 65535 },
+        { 0, 1 } };
+      const double* end = ends[static_cast<int>(type)];
+      scene.Scale = 1 / (end[1] - end[0]);
+      scene.Offset = -end[0] * scene.Scale;
+      scene.SetValues(type, shares);
+      scene.Optics.UnitDistance = 20;
+      scene.Options.SampleDistance = 0.6;
+      for (const int pixels : { 7, 20, 40, 80, 160 })
+      {
+        ImagePlacement().Apply(scene,
+          static_cast<ImagePlacement::Camera>(generator() % ImagePlacement::NumberOfCameras),
+          pixels, pixels);
+        scene.Options.WideKernels = true;
+        const CastPicture wide = Cast(scene);
+        EXPECT_EQ(wide.Statistics.InstructionSet, "AVX-512");
+        scene.Options.WideKernels = false;
+        EXPECT_TRUE(IsSame(wide, Cast(scene)));
+      }
+    }
+  }
 }
 
 TEST(ImageCaster, ForgetsWhatChanged)
