@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tetralux_ProcessRegions_h
+#define tetralux_ProcessRegions_h
+
+#include "Geometry/SeparatingPlanes.h"
+
+#include <array>
+#include <memory>
+
+class vtkUnstructuredGrid;
+
+namespace tetralux
+{
+
+/// Where the data of all processes are.
+struct ProcessRegions
+{
+  /// Between the data of all processes; nullptr if no planes part them.
+  std::shared_ptr<const SeparatingPlanes> Planes;
+
+  /// Whether each process has cells.
+  bool AllHaveCells = false;
+
+  /// What this process has of the box around all data: what the planes leave it, so that these boxes
+  /// fill the box. Without planes the bounds of its own data. In coordinates of the data.
+  std::array<double, 6> Bounds;
+};
+
+/// Looks for planes between the data of processes; to be called by all of them at once. Ghost cells
+/// and blanked cells do not count, since they are not drawn. Cells with curved faces are not looked
+/// at: there are no planes if any process has some.
+ProcessRegions FindProcessRegions(vtkUnstructuredGrid* mine);
+
+} // namespace tetralux
+
+#endif
