@@ -23,6 +23,7 @@ MAPS = {
     "RGB": {"ColorSpace": "RGB"},
     "HSV": {"ColorSpace": "HSV"},
     "Lab": {"ColorSpace": "Lab"},
+    "CIEDE2000": {"ColorSpace": "Lab/CIEDE2000"},
     "diverging": {"ColorSpace": "Diverging"},
     "step": {"ColorSpace": "Step"},
     "logarithmic": {"UseLogScale": 1},

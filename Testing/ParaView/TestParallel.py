@@ -4,7 +4,7 @@
 For mpirun pvbatch. With "reference", saves the pictures; with "compare", compares with those. Eight
 cameras around the reactor's hexahedra, among them one inside and one along a border; one that has
 a part of the data outside of its view, where IceT moves what processes draw; a surface that hides a
-part of the volume; and image data.
+part of the volume; cells that are parted by planes already, also turned; and image data.
 """
 
 import sys
@@ -126,20 +126,21 @@ boxes = simple.Wavelet(WholeExtent=(-12, 12, -10, 10, -8, 8))
 linear = simple.Calculator(Input=boxes, ResultArrayName="Temp", Function=LINEAR)
 cells = simple.AppendDatasets(Input=linear)
 display = pictures.show("disk", cells, view)
-for name, (representation, settings) in REPRESENTATIONS.items():
+for name, cameras in (("volume", BOX_CAMERAS), ("isosurface", {"side": BOX_CAMERAS["side"]})):
+    representation, settings = REPRESENTATIONS[name]
     pictures.set_up(display, representation, 8, settings)
-    good = check(f"boxes, {name}", BOX_CAMERAS, view, display, stay=True) and good
+    good = check(f"boxes, {name}", cameras, view, display, stay=True) and good
 pictures.set_up(display, *TURNED)
-good = check("boxes, turned", BOX_CAMERAS, view, display, stay=True) and good
+turned = {name: BOX_CAMERAS[name] for name in ("oblique", "inside")}
+good = check("boxes, turned", turned, view, display, stay=True) and good
 display.TetraluxDistribution = "Always"
-good = check("boxes, turned", BOX_CAMERAS, view, display) and good
-view.CameraParallelProjection = 1
+good = check("boxes, turned and moved", turned, view, display, of="boxes, turned") and good
 display.TetraluxDistribution = "Automatic"
-good = check("boxes, parallel", {"above": BOX_CAMERAS["oblique"]}, view, display, stay=True) and good
+view.CameraParallelProjection = 1
+side = {"side": BOX_CAMERAS["side"]}
+good = check("boxes, parallel rays", side, view, display, stay=True) and good
 simple.ResetSession()
 
 view, display = pictures.make_scene("neghip-triangle-caster")
-# A slab of slices that a border cuts has a sample in both of its parts.
-display.TetraluxSampleDistance = 0.25
 good = check("triangle caster", IMAGE_CAMERAS, view, display, stay=True) and good
 pictures.finish(good)
