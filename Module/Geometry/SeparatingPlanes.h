@@ -34,7 +34,7 @@ struct SetExtents
 constexpr double SeparationOverlap = 1e-6;
 
 /// Planes that cut space in two, then each side, until each set of points has a cell of its own. So
-/// there is an order of the sets for each eye: whatever is on the eye's side of a plane comes before
+/// there is an order of the sets for each eye: what is on the eye's side of a plane comes before
 /// what is on the other.
 class SeparatingPlanes
 {

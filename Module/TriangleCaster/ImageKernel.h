@@ -206,8 +206,8 @@ struct ImageKernelInput
   PixelLinear WorldDirection[3];
   SlicePlanes Slices;
   IndexBox Sliced; ///< the box that rays go through: the volume, or one that it is a part of
-  /// The sides of the volume inside of that box, and those of the box moved to infinity. A slab that
-  /// a side cuts belongs to the part of the box that has the slab's sample.
+  /// The sides of the volume inside of that box, and those of the box moved to infinity. A slab
+  /// that a side cuts belongs to the part of the box that has the slab's sample.
   ///@{
   bool Partial; ///< there are any
   IndexBox Own;

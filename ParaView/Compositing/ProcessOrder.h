@@ -19,8 +19,8 @@ void LetAllProcessesDraw(vtkRenderer* renderer);
 /// it does not composite any in order, or for a wall of several displays.
 std::vector<int> FindProcessOrder(vtkRenderer* renderer);
 
-/// The same, by where the boxes of the processes are in coordinates of data that a matrix leads from
-/// to the world. ParaView takes them for coordinates of the world.
+/// The same, the boxes of the processes being in coordinates of data, which a matrix leads to the
+/// world. ParaView takes them for coordinates of the world.
 std::vector<int> FindProcessOrder(vtkRenderer* renderer, vtkMatrix4x4* toWorld);
 
 /// Where the eye is in coordinates of data: a point, or for parallel rays the direction towards the

@@ -9,8 +9,8 @@ class vtkOrderedVolume;
 namespace tetralux
 {
 
-/// The statistics of a mapper, as JSON, and if several processes drew what compositing took, and how
-/// much of the data had been distributed anew.
+/// The statistics of a mapper, as JSON. If several processes drew, also what compositing took and
+/// how much of the data had been distributed anew.
 std::string MakeFrameStatistics(const std::string& ofMapper, vtkOrderedVolume* shown);
 
 } // namespace tetralux

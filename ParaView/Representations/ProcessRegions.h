@@ -21,8 +21,8 @@ struct ProcessRegions
   /// Whether each process has cells.
   bool AllHaveCells = false;
 
-  /// What this process has of the box around all data: what the planes leave it, so that these boxes
-  /// fill the box. Without planes the bounds of its own data. In coordinates of the data.
+  /// What the planes leave this process of the box around all data; these parts fill the box.
+  /// Without planes the bounds of its own data. In coordinates of the data.
   std::array<double, 6> Bounds;
 };
 

@@ -5,8 +5,9 @@
  *
  * Stands in a renderer in place of a volume. In a parallel run each process draws its part into a
  * picture of floats, and the nearest process of ParaView's partition shows them all, composited in
- * the order of that partition, or of planes between the data of processes. Opaque geometry of any process hides what is behind it. ParaView composites what is
- * shown in 8 bits, as it does all else; where one process shows it all, that changes nothing.
+ * the order of that partition or of planes between the data. Opaque geometry of any process hides
+ * what is behind it. ParaView composites what is shown in 8 bits, as it does all else; where one
+ * process shows it all, that changes nothing.
  *
  * In a run of one process, and where ParaView composites without an order or for several displays,
  * it draws the volume as it is.
@@ -41,8 +42,8 @@ public:
   void SetVolume(vtkVolume* volume);
 
   /**
-   * Set the planes that order the processes, in coordinates of the data. Default nullptr: ParaView's
-   * partition orders them.
+   * Set the planes that order the processes, in coordinates of the data. Default nullptr: the
+   * partition of ParaView does.
    */
   void SetPlanes(std::shared_ptr<const tetralux::SeparatingPlanes> planes);
 
@@ -62,8 +63,8 @@ public:
   ///@}
 
   /**
-   * Return the bytes of data that ParaView distributed anew before they were drawn, of all processes
-   * together.
+   * Return the bytes of data that ParaView distributed anew before they were drawn, of all
+   * processes together.
    */
   vtkTypeInt64 GetNumberOfDistributedBytes() const;
 

@@ -12,9 +12,9 @@
  * A frame of an interaction is that of the mapper, too; mappers for the processor cast fewer rays
  * for it. There is no other level of detail.
  *
- * @warning Of a composite, only arrays that all chosen blocks have can be shown. Ghost cells are not
- * rendered, nor do they take part in gradients: smooth shading takes its normals from the cells that
- * one process draws, which shows along a border between two.
+ * @warning Of a composite, only arrays that all chosen blocks have can be shown. Ghost cells are
+ * not rendered, nor do they take part in gradients: smooth shading takes its normals from the cells
+ * that one process draws, which shows along a border between two.
  *
  * @sa vtkTetrahedraVolumeMapper
  */
@@ -98,8 +98,9 @@ public:
    * - AUTOMATIC_DISTRIBUTION: if no planes perpendicular to axes part the data of processes, or if
    *   some processes have no cells. Otherwise data stay where they are.
    * - ALWAYS_DISTRIBUTED: always.
-   * - NEVER_DISTRIBUTED: never. If no planes part the data, the pictures of processes are composited
-   *   in the order of the boxes around their data, which may be wrong; one warning says so.
+   * - NEVER_DISTRIBUTED: never. If no planes part the data, the pictures of processes are
+   *   composited in the order of the boxes around their data, which may be wrong; one warning says
+   *   so.
    */
   void SetDistribution(int distribution);
 

@@ -119,8 +119,8 @@ simple.Hide(plane, view)
 
 simple.ResetSession()
 
-# Each process makes a box of cells of its own: nothing is moved. Scalars are linear, since how a cell
-# is split into tetrahedra depends on the numbers of its points.
+# Each process makes a box of cells of its own: nothing is moved. Scalars are linear, since how a
+# cell is split into tetrahedra depends on the numbers of its points.
 view = pictures.make_view()
 boxes = simple.Wavelet(WholeExtent=(-12, 12, -10, 10, -8, 8))
 linear = simple.Calculator(Input=boxes, ResultArrayName="Temp", Function=LINEAR)
