@@ -2,6 +2,7 @@
 #include "ProcessRegions.h"
 
 #include "AllProcesses.h"
+#include "Geometry/SeparatingNormal.h"
 
 #include "vtkCellTypes.h"
 #include "vtkDataSetAttributes.h"
@@ -12,6 +13,9 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace tetralux
@@ -43,10 +47,17 @@ std::vector<bool> MarkDrawnPoints(vtkUnstructuredGrid* grid)
   return drawn;
 }
 
-std::vector<std::array<double, 3>> CollectDrawnPoints(vtkUnstructuredGrid* grid)
+using Points = std::vector<std::array<double, 3>>;
+
+double Dot(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Points CollectDrawnPoints(vtkUnstructuredGrid* grid)
 {
   const std::vector<bool> drawn = MarkDrawnPoints(grid);
-  std::vector<std::array<double, 3>> points;
+  Points points;
   for (std::size_t i = 0; i < drawn.size(); ++i)
   {
     if (drawn[i])
@@ -72,8 +83,7 @@ bool HasCurvedCells(vtkUnstructuredGrid* grid)
 }
 
 /// Along some directions, of all processes.
-std::vector<SetExtents> FindExtents(const std::vector<std::array<double, 3>>& points,
-  const std::vector<std::array<double, 3>>& directions)
+std::vector<SetExtents> FindExtents(const Points& points, const Points& directions)
 {
   std::vector<double> mine;
   for (const std::array<double, 3>& direction : directions)
@@ -81,8 +91,7 @@ std::vector<SetExtents> FindExtents(const std::vector<std::array<double, 3>>& po
     SetExtent extent;
     for (const std::array<double, 3>& point : points)
     {
-      const double along =
-        direction[0] * point[0] + direction[1] * point[1] + direction[2] * point[2];
+      const double along = Dot(direction, point);
       extent.Least = std::min(extent.Least, along);
       extent.Greatest = std::max(extent.Greatest, along);
     }
@@ -103,13 +112,106 @@ std::vector<SetExtents> FindExtents(const std::vector<std::array<double, 3>>& po
   return extents;
 }
 
+/// How often planes between two processes are tried at most. Each that fails adds corners of their
+/// hulls; where they touch, three common corners are enough.
+constexpr int MostTrials = 20;
+
+/// Appends the points that are farthest along each direction, of each process to its corners.
+void AddCorners(const Points& points, const Points& directions, std::vector<Points>& corners)
+{
+  std::vector<double> mine;
+  for (const std::array<double, 3>& direction : directions)
+  {
+    const auto isLess = [&](const auto& a, const auto& b)
+    { return Dot(direction, a) < Dot(direction, b); };
+    const auto ends = std::minmax_element(points.begin(), points.end(), isLess);
+    constexpr std::array<double, 3> None = { NAN, NAN, NAN };
+    for (const auto& end : { ends.first, ends.second })
+    {
+      const std::array<double, 3>& corner = points.empty() ? None : *end;
+      mine.insert(mine.end(), corner.begin(), corner.end());
+    }
+  }
+  const std::vector<double> all = Gather(mine);
+  corners.resize(all.size() / mine.size());
+  for (std::size_t i = 0; i < all.size(); i += 3)
+  {
+    if (!std::isnan(all[i]))
+    {
+      corners[i / mine.size()].push_back({ all[i], all[i + 1], all[i + 2] });
+    }
+  }
+}
+
+/// Whether a known direction parts two processes, of which both have points.
+bool ArePartedBy(const std::vector<SetExtents>& extents, std::size_t a, std::size_t b)
+{
+  return std::any_of(extents.begin(), extents.end(),
+    [&](const SetExtents& along)
+    {
+      const SetExtent& first = along.Sets[a];
+      const SetExtent& second = along.Sets[b];
+      const double size =
+        std::max(first.Greatest, second.Greatest) - std::min(first.Least, second.Least);
+      return std::max(first.Least, second.Least) >=
+        std::min(first.Greatest, second.Greatest) - SeparationOverlap * size;
+    });
+}
+
+/// Normals of planes between processes that no known direction parts, by what is known of their
+/// corners. Nothing if there is none between some of them.
+std::optional<Points> FindNormals(
+  const std::vector<SetExtents>& extents, const std::vector<Points>& corners)
+{
+  Points normals;
+  for (std::size_t a = 0; a < corners.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < corners.size(); ++b)
+    {
+      if (corners[a].empty() || corners[b].empty() || ArePartedBy(extents, a, b))
+      {
+        continue;
+      }
+      std::array<double, 3> normal;
+      if (!FindSeparatingNormal(corners[a], corners[b], normal))
+      {
+        return std::nullopt;
+      }
+      normals.push_back(normal);
+    }
+  }
+  return normals;
+}
+
+/// Adds the extents along normals of planes that part processes. Stops where there are none.
+void AddObliqueExtents(const Points& points, std::vector<SetExtents>& extents)
+{
+  std::vector<Points> corners;
+  Points directions;
+  for (int i = 0; i < 13; ++i) // to half of a cube's faces, edges and corners, for both ends
+  {
+    directions.push_back({ i % 3 - 1., i / 3 % 3 - 1., i / 9 - 1. });
+  }
+  for (int trial = 0; trial < MostTrials; ++trial)
+  {
+    AddCorners(points, directions, corners);
+    const std::optional<Points> normals = FindNormals(extents, corners);
+    if (!normals || normals->empty())
+    {
+      return;
+    }
+    directions = *normals;
+    const std::vector<SetExtents> more = FindExtents(points, directions);
+    extents.insert(extents.end(), more.begin(), more.end());
+  }
+}
+
 } // namespace
 
-ProcessRegions FindProcessRegions(vtkUnstructuredGrid* mine)
+ProcessRegions FindProcessRegions(vtkUnstructuredGrid* mine, bool oblique)
 {
-  const std::vector<std::array<double, 3>> points = CollectDrawnPoints(mine);
-  const std::vector<SetExtents> extents =
-    FindExtents(points, { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } });
+  const Points points = CollectDrawnPoints(mine);
+  std::vector<SetExtents> extents = FindExtents(points, { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } });
   ProcessRegions regions;
   std::array<double, 6> whole;
   const int process = GetProcess();
@@ -137,10 +239,22 @@ ProcessRegions FindProcessRegions(vtkUnstructuredGrid* mine)
   }
   const bool curved = Add(HasCurvedCells(mine) ? 1 : 0) > 0;
   auto planes = std::make_shared<SeparatingPlanes>();
-  if (!curved && planes->Find(extents))
+  if (curved)
+  {
+    return regions;
+  }
+  if (planes->Find(extents))
   {
     regions.Bounds = planes->CutBox(process, whole);
     regions.Planes = planes;
+  }
+  else if (oblique)
+  {
+    AddObliqueExtents(points, extents);
+    if (planes->Find(extents))
+    {
+      regions.Planes = planes;
+    }
   }
   return regions;
 }

@@ -21,15 +21,16 @@ struct ProcessRegions
   /// Whether each process has cells.
   bool AllHaveCells = false;
 
-  /// What the planes leave this process of the box around all data; these parts fill the box.
-  /// Without planes the bounds of its own data. In coordinates of the data.
+  /// What the planes leave this process of the box around all data; these parts fill the box. With
+  /// oblique planes, or none, the bounds of its own data. In coordinates of the data.
   std::array<double, 6> Bounds;
 };
 
 /// Looks for planes between the data of processes; to be called by all of them at once. Ghost cells
 /// and blanked cells do not count, since they are not drawn. Cells with curved faces are not looked
-/// at: there are no planes if any process has some.
-ProcessRegions FindProcessRegions(vtkUnstructuredGrid* mine);
+/// at: there are no planes if any process has some. oblique: planes may have any normal, else only
+/// those of axes.
+ProcessRegions FindProcessRegions(vtkUnstructuredGrid* mine, bool oblique);
 
 } // namespace tetralux
 

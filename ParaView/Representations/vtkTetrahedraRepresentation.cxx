@@ -342,9 +342,11 @@ void vtkTetrahedraRepresentation::PlaceData()
   self.Distributed = self.Distribution == ALWAYS_DISTRIBUTED;
   if (tetralux::IsParallel() && !self.Distributed)
   {
-    const tetralux::ProcessRegions regions = tetralux::FindProcessRegions(self.Grid);
-    self.Distributed = self.Distribution == AUTOMATIC_DISTRIBUTION &&
-      (!regions.Planes || !regions.AllHaveCells);
+    // Oblique planes order volumes, but not what else is in the view.
+    const bool oblique = self.Distribution == NEVER_DISTRIBUTED;
+    const tetralux::ProcessRegions regions = tetralux::FindProcessRegions(self.Grid, oblique);
+    self.Distributed =
+      self.Distribution == AUTOMATIC_DISTRIBUTION && (!regions.Planes || !regions.AllHaveCells);
     if (!regions.Planes && !self.Distributed && !self.OverlapWarned)
     {
       vtkWarningMacro(

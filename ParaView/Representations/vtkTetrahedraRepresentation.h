@@ -98,9 +98,10 @@ public:
    * - AUTOMATIC_DISTRIBUTION: if no planes perpendicular to axes part the data of processes, or if
    *   some processes have no cells. Otherwise data stay where they are.
    * - ALWAYS_DISTRIBUTED: always.
-   * - NEVER_DISTRIBUTED: never. If no planes part the data, the pictures of processes are
-   *   composited in the order of the boxes around their data, which may be wrong; one warning says
-   *   so.
+   * - NEVER_DISTRIBUTED: never. Oblique planes order the processes, too, but opaque geometry of
+   *   other representations may be hidden or shown in the wrong places then. If no planes part the
+   *   data, the pictures of processes are composited in the order of the boxes around their data,
+   *   which may be wrong; one warning says so.
    */
   void SetDistribution(int distribution);
 

@@ -4,7 +4,7 @@
 For mpirun pvbatch. With "reference", saves the pictures; with "compare", compares with those. Eight
 cameras around the reactor's hexahedra, among them one inside and one along a border; one that has
 a part of the data outside of its view, where IceT moves what processes draw; a surface that hides a
-part of the volume; cells that are parted by planes already, also turned; and image data.
+part of the volume; cells that planes part already, also turned, and sheared; and image data.
 """
 
 import sys
@@ -40,6 +40,11 @@ BOX_CAMERAS = {
     "inside": ((1, 2, -3), (0, 0, 8)),
     "along a border": ((30, 20, 0.01), (0, 0, 0.01)),
 }
+# Turns and shears boxes so that those along the axes overlap.
+SHEARED = (
+    "(coordsX + 0.8 * coordsY) * iHat + (coordsY - 0.6 * coordsX) * jHat"
+    " + (coordsZ + 0.5 * coordsX + 0.4 * coordsY) * kHat"
+)
 TURNED = (
     "Tetralux Volume",
     8,
@@ -139,6 +144,19 @@ display.TetraluxDistribution = "Automatic"
 view.CameraParallelProjection = 1
 side = {"side": BOX_CAMERAS["side"]}
 good = check("boxes, parallel rays", side, view, display, stay=True) and good
+simple.ResetSession()
+
+# Oblique planes part these.
+view = pictures.make_view()
+boxes = simple.Wavelet(WholeExtent=(-12, 12, -10, 10, -8, 8))
+linear = simple.Calculator(Input=boxes, ResultArrayName="Temp", Function=LINEAR)
+cells = simple.AppendDatasets(Input=linear)
+sheared = simple.Calculator(Input=cells, CoordinateResults=1, Function=SHEARED)
+display = pictures.show("disk", sheared, view)
+settings = {"TetraluxMethod": "Ray casting", "TetraluxDistribution": "Never"}
+pictures.set_up(display, "Tetralux Volume", 8, settings)
+sheared_cameras = {name: BOX_CAMERAS[name] for name in ("oblique", "opposite", "inside")}
+good = check("sheared boxes", sheared_cameras, view, display, stay=True) and good
 simple.ResetSession()
 
 view, display = pictures.make_scene("neghip-triangle-caster")
