@@ -187,10 +187,19 @@ std::optional<Points> FindNormals(
 void AddObliqueExtents(const Points& points, std::vector<SetExtents>& extents)
 {
   std::vector<Points> corners;
-  Points directions;
-  for (int i = 0; i < 13; ++i) // to half of a cube's faces, edges and corners, for both ends
+  Points directions; // of a cube's faces, edges and corners, one of each two opposite ones
+  for (const double x : { -1., 0., 1. })
   {
-    directions.push_back({ i % 3 - 1., i / 3 % 3 - 1., i / 9 - 1. });
+    for (const double y : { -1., 0., 1. })
+    {
+      for (const double z : { -1., 0., 1. })
+      {
+        if (std::array<double, 3>{ x, y, z } > std::array<double, 3>{})
+        {
+          directions.push_back({ x, y, z });
+        }
+      }
+    }
   }
   for (int trial = 0; trial < MostTrials; ++trial)
   {
