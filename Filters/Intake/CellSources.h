@@ -5,6 +5,7 @@
 #include "Intake/StructuredLayout.h"
 
 #include "vtkCell.h"
+#include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkDataArrayRange.h"
 #include "vtkDataSet.h"
@@ -13,6 +14,7 @@
 #include "vtkNew.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
 
 #include <cstdint>
 #include <vector>
@@ -68,6 +70,26 @@ public:
   template <class AddFaceT>
   void GetFaces(vtkIdType cellId, AddFaceT&& addFace) const
   {
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
+    vtkCellArray* faces = this->Grid->GetPolyhedronFaces();
+    vtkCellArray* locations = this->Grid->GetPolyhedronFaceLocations();
+    if (!faces || !locations || cellId >= locations->GetNumberOfCells())
+    {
+      return;
+    }
+    vtkNew<vtkIdList> ofCell, points;
+    locations->GetCellAtId(cellId, ofCell);
+    for (vtkIdType i = 0; i < ofCell->GetNumberOfIds(); ++i)
+    {
+      const vtkIdType face = ofCell->GetId(i);
+      if (face < 0 || face >= faces->GetNumberOfCells())
+      {
+        return;
+      }
+      faces->GetCellAtId(face, points);
+      addFace(points->GetPointer(0), points->GetNumberOfIds());
+    }
+#else
     // VTK's own functions take for granted that these arrays are whole.
     vtkIdTypeArray* locations = this->Grid->GetFaceLocations();
     vtkIdTypeArray* stream = this->Grid->GetFaces(); // number of faces, then size and ids of each
@@ -85,6 +107,7 @@ public:
       addFace(stream->GetPointer(next), size);
       next += size;
     }
+#endif
   }
 
 private:

@@ -98,6 +98,29 @@ struct KernelLights
   }
 };
 
+/// What rays go through, once the models' blending is filled. Models with samples in the middles of
+/// slabs take whole slabs from the parts of an image; others, which look at both ends, go to the
+/// sides of the part.
+void FillBoxes(const IndexBox& volume, const ImageCasterOptions& options, ImageKernelInput& in)
+{
+  const bool middles =
+    in.Blend != ImageBlend::Isosurfaces && in.Blend != ImageBlend::Slice && !in.Slab.Texels;
+  in.Sliced = volume;
+  in.Partial = false;
+  for (int a = 0; a < 3; ++a)
+  {
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    if (options.Whole && middles)
+    {
+      in.Sliced.Low[a] = std::min(volume.Low[a], options.Whole->Low[a]);
+      in.Sliced.High[a] = std::max(volume.High[a], options.Whole->High[a]);
+    }
+    in.Own.Low[a] = in.Sliced.Low[a] < volume.Low[a] ? volume.Low[a] : -Infinity;
+    in.Own.High[a] = in.Sliced.High[a] > volume.High[a] ? volume.High[a] : Infinity;
+    in.Partial = in.Partial || std::isfinite(in.Own.Low[a]) || std::isfinite(in.Own.High[a]);
+  }
+}
+
 /// The factors of depth cueing, once in.Slices is filled.
 void FillCue(const ImageCasterOptions& options, ImageKernelInput& in)
 {
@@ -493,6 +516,7 @@ ImageKernelInput ImageCaster::Internals::MakeInput(
   in.UnitDistance = this->Optics.UnitDistance;
   in.CorrectOpacity = options.CorrectOpacity;
   in.Threshold = static_cast<float>(std::max(options.Threshold, 0.));
+  FillBoxes(GetIndexBox(this->Volume), options, in);
   in.Slices = MakeSlicePlanes(options.Whole ? *options.Whole : GetIndexBox(this->Volume), grid,
     options.Shape, options.SampleDistance);
   this->FillRays(grid, limits, in);

@@ -205,6 +205,13 @@ struct ImageKernelInput
   PixelLinear Direction[3];
   PixelLinear WorldDirection[3];
   SlicePlanes Slices;
+  IndexBox Sliced; ///< the box that rays go through: the volume, or one that it is a part of
+  /// The sides of the volume inside of that box, and those of the box moved to infinity. A slab
+  /// that a side cuts belongs to the part of the box that has the slab's sample.
+  ///@{
+  bool Partial; ///< there are any
+  IndexBox Own;
+  ///@}
   std::vector<PlaneAlongRays> Planes;
   const RayGrid* Grid;
   const RayLimits* Limits;

@@ -80,6 +80,54 @@ struct PixelLanes
   Float8 Front; ///< slab position of the pixel's depth, or below 0 where it has none
 };
 
+/// Slab positions between which rays are in a box.
+TETRALUX_INLINE void MeetBox(
+  const IndexBox& box, const ImageRays& rays, double (&begin)[LaneCount], double (&end)[LaneCount])
+{
+#pragma omp simd
+  for (int l = 0; l < LaneCount; ++l)
+  {
+    double from = begin[l];
+    double to = end[l];
+    for (int a = 0; a < 3; ++a)
+    {
+      const double base = rays.Base[a][l];
+      const double step = rays.Step[a][l];
+      const double low = (box.Low[a] - base) / step;
+      const double high = (box.High[a] - base) / step;
+      const bool inside = (base >= box.Low[a]) & (base <= box.High[a]);
+      const double enter = step > 0 ? low : high;
+      const double leave = step > 0 ? high : low;
+      from = step != 0 && enter > from ? enter : from;
+      to = step != 0 ? (leave < to ? leave : to) : inside ? to : -1;
+    }
+    begin[l] = from;
+    end[l] = to;
+  }
+}
+
+/// How near, in slabs, a sample is to a side of the volume if they count as at one place: above the
+/// rounding of both, 1e-12 or so, so that the parts on both sides agree whose it is.
+constexpr double SampleOnSide = 1e-6;
+
+/// The beginning or the end of the way through the slab that has a place, begin and end being those
+/// of the ray's part: the beginning if the slab's sample lies behind the place.
+inline double FindSlabEdge(double place, double begin, double end)
+{
+  const double slab = std::floor(place);
+  const double from = std::max(slab, begin);
+  const double to = std::min(slab + 1, end);
+  return 0.5 * (from + to) >= place - SampleOnSide ? from : to;
+}
+
+/// Leaves a part of a ray the slabs whose samples are between from and to.
+inline void TakeOwnSlabs(double from, double to, double& begin, double& end)
+{
+  const double first = from > begin ? FindSlabEdge(from, begin, end) : begin;
+  end = to < end ? FindSlabEdge(to, begin, end) : end;
+  begin = first;
+}
+
 /// Where the rays go, and the slab positions between which they are in the volume and its limits.
 TETRALUX_NOINLINE void PlaceRays(
   const ImageKernelInput& in, ImageRays& rays, double (&begin)[LaneCount], double (&end)[LaneCount])
@@ -107,28 +155,17 @@ TETRALUX_NOINLINE void PlaceRays(
     const double counted = distance / in.UnitDistance * (in.CorrectOpacity ? length / depth : 1);
     constexpr double Largest = 1e37; // opacity is 1 long before
     rays.StepLength[l] = static_cast<float>(counted < Largest ? counted : Largest);
-    double from = 0;
-    double to = slices.Count;
     for (int a = 0; a < 3; ++a)
     {
       const double start = in.Start[a].At(i, j);
       const double direction = in.Direction[a].At(i, j);
-      const double base = start + origin / depth * direction;
-      const double step = distance / depth * direction;
-      rays.Base[a][l] = base;
-      rays.Step[a][l] = step;
-      const double most = in.LastCell[a] + 1.;
-      const double low = -base / step;
-      const double high = (most - base) / step;
-      const bool inside = (base >= 0) & (base <= most);
-      const double enter = step > 0 ? low : high;
-      const double leave = step > 0 ? high : low;
-      from = step != 0 && enter > from ? enter : from;
-      to = step != 0 ? (leave < to ? leave : to) : inside ? to : -1;
+      rays.Base[a][l] = start + origin / depth * direction;
+      rays.Step[a][l] = distance / depth * direction;
     }
-    begin[l] = from;
-    end[l] = to;
+    begin[l] = 0;
+    end[l] = slices.Count;
   }
+  MeetBox(in.Sliced, rays, begin, end);
   for (const PlaneAlongRays& plane : in.Planes)
   {
 #pragma omp simd
@@ -176,6 +213,27 @@ TETRALUX_NOINLINE void SetUpRays(const ImageKernelInput& in, ImageRays& rays)
         ends[p][l] = p < parts.Count ? parts.End[p] : -1;
       }
       rays.PartCount = std::max(rays.PartCount, parts.Count);
+    }
+  }
+  if (in.Partial)
+  {
+    double from[LaneCount], to[LaneCount];
+    std::fill_n(from, LaneCount, std::numeric_limits<double>::lowest());
+    std::fill_n(to, LaneCount, std::numeric_limits<double>::max());
+    MeetBox(in.Own, rays, from, to);
+    for (int p = 0; p < rays.PartCount; ++p)
+    {
+      for (int l = 0; l < LaneCount; ++l)
+      {
+        if (from[l] < to[l])
+        {
+          TakeOwnSlabs(from[l], to[l], begins[p][l], ends[p][l]);
+        }
+        else
+        {
+          ends[p][l] = begins[p][l];
+        }
+      }
     }
   }
   rays.FirstSlab = NoSlab;

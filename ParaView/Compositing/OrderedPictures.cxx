@@ -20,7 +20,7 @@ struct Notice
 };
 constexpr int NoticeSize = sizeof(Notice) / sizeof(double);
 
-/// The picture of a process, where it is in the frame buffer of the first one.
+/// The picture of a process, where it is in the frame buffer of the one that shows the whole.
 struct PlacedPicture
 {
   PixelRectangle Rectangle;
@@ -86,10 +86,10 @@ void CompositeRow(
 } // namespace
 
 OrderedPictures CompositePictures(vtkMultiProcessController* controller,
-  const std::vector<int>& order, const PartialPicture& mine, const std::array<double, 2>& origin)
+  const std::vector<int>& order, int shower, const PartialPicture& mine,
+  const std::array<double, 2>& origin)
 {
   const int processes = controller->GetNumberOfProcesses();
-  const int first = order.front();
   const PixelRectangle& rectangle = mine.Rectangle;
   const Notice notice = { static_cast<double>(rectangle.X), static_cast<double>(rectangle.Y),
     static_cast<double>(rectangle.Width), static_cast<double>(rectangle.Height), origin[0],
@@ -106,13 +106,13 @@ OrderedPictures CompositePictures(vtkMultiProcessController* controller,
     lengths.push_back(4 * static_cast<vtkIdType>(notices[process].Width * notices[process].Height));
     offsets.push_back(total);
     total += lengths.back();
-    result.Bytes += process == first ? 0 : sizeof(float) * lengths.back();
+    result.Bytes += process == shower ? 0 : sizeof(float) * lengths.back();
   }
-  const bool isFirst = controller->GetLocalProcessId() == first;
-  std::vector<float> colors(isFirst ? total : 0);
+  const bool shows = controller->GetLocalProcessId() == shower;
+  std::vector<float> colors(shows ? total : 0);
   controller->GatherV(mine.Colors.data(), colors.data(), static_cast<vtkIdType>(mine.Colors.size()),
-    lengths.data(), offsets.data(), first);
-  if (!isFirst)
+    lengths.data(), offsets.data(), shower);
+  if (!shows)
   {
     return result;
   }
@@ -121,8 +121,8 @@ OrderedPictures CompositePictures(vtkMultiProcessController* controller,
   for (const int process : order)
   {
     const Notice& of = notices[process];
-    const double x = of.X + std::round(of.OriginX - notices[first].OriginX);
-    const double y = of.Y + std::round(of.OriginY - notices[first].OriginY);
+    const double x = of.X + std::round(of.OriginX - notices[shower].OriginX);
+    const double y = of.Y + std::round(of.OriginY - notices[shower].OriginY);
     pictures.push_back({ { static_cast<int>(x), static_cast<int>(y), static_cast<int>(of.Width),
                            static_cast<int>(of.Height) },
       colors.data() + offsets[process] });

@@ -6,6 +6,7 @@
 #include "vtkIceTCompositePass.h"
 #include "vtkImageProcessingPass.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkOrderedCompositingHelper.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -42,6 +43,18 @@ vtkIceTCompositePass* FindCompositePass(vtkRenderer* renderer)
   return nullptr;
 }
 
+/// What orders processes, if ParaView composites them in order and for one display.
+vtkOrderedCompositingHelper* FindOrderingHelper(vtkRenderer* renderer)
+{
+  vtkIceTCompositePass* pass = FindCompositePass(renderer);
+  if (!pass || !pass->GetUseOrderedCompositing())
+  {
+    return nullptr;
+  }
+  const int* tiles = pass->GetTileDimensions();
+  return tiles[0] == 1 && tiles[1] == 1 ? pass->GetOrderedCompositingHelper() : nullptr;
+}
+
 } // namespace
 
 void LetAllProcessesDraw(vtkRenderer* renderer)
@@ -55,17 +68,44 @@ void LetAllProcessesDraw(vtkRenderer* renderer)
 
 std::vector<int> FindProcessOrder(vtkRenderer* renderer)
 {
-  vtkIceTCompositePass* pass = FindCompositePass(renderer);
-  if (!pass || !pass->GetUseOrderedCompositing() || !pass->GetOrderedCompositingHelper())
+  vtkOrderedCompositingHelper* helper = FindOrderingHelper(renderer);
+  return helper ? helper->ComputeSortOrder(renderer->GetActiveCamera()) : std::vector<int>();
+}
+
+std::vector<int> FindProcessOrder(vtkRenderer* renderer, vtkMatrix4x4* toWorld)
+{
+  vtkOrderedCompositingHelper* helper = FindOrderingHelper(renderer);
+  if (!helper)
   {
     return {};
   }
-  const int* tiles = pass->GetTileDimensions();
-  if (tiles[0] != 1 || tiles[1] != 1)
+  const std::array<double, 4> eye = FindEye(renderer, toWorld);
+  if (eye[3] == 0)
   {
-    return {};
+    const double away[3] = { -eye[0], -eye[1], -eye[2] };
+    return helper->ComputeSortOrderInViewDirection(away);
   }
-  return pass->GetOrderedCompositingHelper()->ComputeSortOrder(renderer->GetActiveCamera());
+  return helper->ComputeSortOrderFromPosition(eye.data());
+}
+
+std::array<double, 4> FindEye(vtkRenderer* renderer, vtkMatrix4x4* toWorld)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  std::array<double, 4> eye{};
+  if (camera->GetParallelProjection())
+  {
+    const double* away = camera->GetDirectionOfProjection();
+    eye = { -away[0], -away[1], -away[2], 0 };
+  }
+  else
+  {
+    camera->GetPosition(eye.data());
+    eye[3] = 1;
+  }
+  vtkNew<vtkMatrix4x4> toData;
+  vtkMatrix4x4::Invert(toWorld, toData);
+  toData->MultiplyPoint(eye.data(), eye.data());
+  return eye;
 }
 
 std::array<double, 2> FindPictureOrigin(vtkRenderer* renderer)

@@ -17,6 +17,11 @@ bool IsParallel()
   return controller && controller->GetNumberOfProcesses() > 1;
 }
 
+int GetProcess()
+{
+  return IsParallel() ? vtkMultiProcessController::GetGlobalController()->GetLocalProcessId() : 0;
+}
+
 double Add(double mine)
 {
   double sum = mine;
@@ -50,6 +55,18 @@ void UniteBounds(const double* mine, double united[6])
   {
     united[i] = i % 2 == 0 ? least[i] : -least[i];
   }
+}
+
+std::vector<double> Gather(const std::vector<double>& mine)
+{
+  if (!IsParallel())
+  {
+    return mine;
+  }
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  std::vector<double> all(mine.size() * controller->GetNumberOfProcesses());
+  controller->AllGather(mine.data(), all.data(), static_cast<vtkIdType>(mine.size()));
+  return all;
 }
 
 } // namespace tetralux

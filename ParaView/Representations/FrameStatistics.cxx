@@ -18,6 +18,7 @@ std::string MakeFrameStatistics(const std::string& ofMapper, vtkOrderedVolume* s
     { "bytes", shown->GetNumberOfBytes() },
     { "seconds", shown->GetSeconds() },
   };
+  statistics["distributed"] = { { "bytes", shown->GetNumberOfDistributedBytes() } };
   return statistics.dump();
 }
 

@@ -9,7 +9,8 @@ class vtkOrderedVolume;
 namespace tetralux
 {
 
-/// The statistics of a mapper, as JSON, and what compositing took if several processes drew.
+/// The statistics of a mapper, as JSON. If several processes drew, also what compositing took and
+/// how much of the data had been distributed anew.
 std::string MakeFrameStatistics(const std::string& ofMapper, vtkOrderedVolume* shown);
 
 } // namespace tetralux

@@ -8,8 +8,10 @@
 #include "Compositing/ProcessOrder.h"
 #include "Frame/ImageCompositor.h"
 #include "Frame/MemoryPicture.h"
+#include "Geometry/SeparatingPlanes.h"
 
 #include "vtkMath.h"
+#include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -19,6 +21,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 vtkStandardNewMacro(vtkOrderedVolume);
 
@@ -32,7 +35,20 @@ public:
   tetralux::ImageCompositor Compositor;
   std::size_t Bytes = 0;
   double Seconds = 0;
+  double DistributedBytes = 0;
+  std::shared_ptr<const tetralux::SeparatingPlanes> Planes;
+
+  /// All processes, the nearest one first.
+  std::vector<int> FindOrder(vtkRenderer* renderer) const;
 };
+
+//------------------------------------------------------------------------------------------------
+std::vector<int> vtkOrderedVolume::Internals::FindOrder(vtkRenderer* renderer) const
+{
+  vtkMatrix4x4* toWorld = this->Volume->GetMatrix();
+  return this->Planes ? this->Planes->FindOrder(tetralux::FindEye(renderer, toWorld))
+                      : tetralux::FindProcessOrder(renderer, toWorld);
+}
 
 //------------------------------------------------------------------------------------------------
 vtkOrderedVolume::vtkOrderedVolume()
@@ -47,8 +63,15 @@ vtkOrderedVolume::~vtkOrderedVolume() = default;
 void vtkOrderedVolume::SetVolume(vtkVolume* volume) { this->Private->Volume = volume; }
 
 //------------------------------------------------------------------------------------------------
-void vtkOrderedVolume::PrepareFrame(vtkRenderer* renderer)
+void vtkOrderedVolume::SetPlanes(std::shared_ptr<const tetralux::SeparatingPlanes> planes)
 {
+  this->Private->Planes = std::move(planes);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkOrderedVolume::PrepareFrame(vtkRenderer* renderer, double distributed)
+{
+  this->Private->DistributedBytes = tetralux::Add(distributed);
   vtkVolume* volume = this->Private->Volume;
   tetralux::UniteBounds(
     volume->GetVisibility() ? volume->GetBounds() : nullptr, this->Private->Bounds);
@@ -66,6 +89,12 @@ vtkTypeInt64 vtkOrderedVolume::GetNumberOfBytes() const
 
 //------------------------------------------------------------------------------------------------
 double vtkOrderedVolume::GetSeconds() const { return this->Private->Seconds; }
+
+//------------------------------------------------------------------------------------------------
+vtkTypeInt64 vtkOrderedVolume::GetNumberOfDistributedBytes() const
+{
+  return static_cast<vtkTypeInt64>(this->Private->DistributedBytes);
+}
 
 //------------------------------------------------------------------------------------------------
 double* vtkOrderedVolume::GetBounds()
@@ -107,10 +136,10 @@ int vtkOrderedVolume::RenderVolumetricGeometry(vtkViewport* viewport)
     }
   };
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
-  const std::vector<int> order = tetralux::FindProcessOrder(renderer);
+  const std::vector<int> ofParaView = tetralux::FindProcessOrder(renderer);
   this->Private->Bytes = 0;
   this->Private->Seconds = 0;
-  if (order.size() < 2 || renderer->GetSelector())
+  if (ofParaView.size() < 2 || renderer->GetSelector())
   {
     drawPart();
     return rendered;
@@ -127,9 +156,9 @@ int vtkOrderedVolume::RenderVolumetricGeometry(vtkViewport* viewport)
     vtkErrorMacro(<< error.what());
   }
   const tetralux::Stopwatch stopwatch;
-  const tetralux::OrderedPictures pictures =
-    tetralux::CompositePictures(vtkMultiProcessController::GetGlobalController(), order, mine,
-      tetralux::FindPictureOrigin(renderer));
+  const tetralux::OrderedPictures pictures = tetralux::CompositePictures(
+    vtkMultiProcessController::GetGlobalController(), this->Private->FindOrder(renderer),
+    ofParaView.front(), mine, tetralux::FindPictureOrigin(renderer));
   this->Private->Bytes = pictures.Bytes;
   const tetralux::PixelRectangle& shown = pictures.Whole.Rectangle;
   if (shown.Width > 0)
@@ -172,7 +201,11 @@ void vtkOrderedVolume::ReleaseGraphicsResources(vtkWindow* window)
 void vtkOrderedVolume::SetAllocatedRenderTime(double seconds, vtkViewport* viewport)
 {
   this->Superclass::SetAllocatedRenderTime(seconds, viewport);
-  this->Private->Volume->SetAllocatedRenderTime(seconds, viewport);
+  vtkVolume* volume = this->Private->Volume;
+  if (volume->GetVisibility()) // else it may have no mapper, which is an error
+  {
+    volume->SetAllocatedRenderTime(seconds, viewport);
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -188,4 +221,5 @@ void vtkOrderedVolume::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Volume: " << this->Private->Volume.Get() << "\n";
   os << indent << "NumberOfBytes: " << this->GetNumberOfBytes() << "\n";
   os << indent << "Seconds: " << this->GetSeconds() << "\n";
+  os << indent << "NumberOfDistributedBytes: " << this->GetNumberOfDistributedBytes() << "\n";
 }

@@ -4,9 +4,10 @@
  * @brief   a volume of which several processes have parts, composited in float
  *
  * Stands in a renderer in place of a volume. In a parallel run each process draws its part into a
- * picture of floats, and the nearest process shows them all, composited in the order of ParaView's
- * partition. Opaque geometry of any process hides what is behind it. ParaView composites what is
- * shown in 8 bits, as it does all else; where one process shows it all, that changes nothing.
+ * picture of floats, and the nearest process of ParaView's partition shows them all, composited in
+ * the order of that partition or of planes between the data. Opaque geometry of any process hides
+ * what is behind it. ParaView composites what is shown in 8 bits, as it does all else; where one
+ * process shows it all, that changes nothing.
  *
  * In a run of one process, and where ParaView composites without an order or for several displays,
  * it draws the volume as it is.
@@ -23,6 +24,11 @@
 class vtkRenderer;
 class vtkVolume;
 
+namespace tetralux
+{
+class SeparatingPlanes;
+}
+
 class TETRALUXREPRESENTATIONS_EXPORT vtkOrderedVolume : public vtkProp
 {
 public:
@@ -36,9 +42,16 @@ public:
   void SetVolume(vtkVolume* volume);
 
   /**
-   * Prepare the next frame; to be called by all processes of a parallel run at once.
+   * Set the planes that order the processes, in coordinates of the data. Default nullptr: the
+   * partition of ParaView does.
    */
-  void PrepareFrame(vtkRenderer* renderer);
+  void SetPlanes(std::shared_ptr<const tetralux::SeparatingPlanes> planes);
+
+  /**
+   * Prepare the next frame; to be called by all processes of a parallel run at once. distributed:
+   * bytes of data that this process draws and that ParaView distributed anew.
+   */
+  void PrepareFrame(vtkRenderer* renderer, double distributed);
 
   ///@{
   /**
@@ -48,6 +61,12 @@ public:
   vtkTypeInt64 GetNumberOfBytes() const;
   double GetSeconds() const;
   ///@}
+
+  /**
+   * Return the bytes of data that ParaView distributed anew before they were drawn, of all
+   * processes together.
+   */
+  vtkTypeInt64 GetNumberOfDistributedBytes() const;
 
   double* GetBounds() override;
   void GetVolumes(vtkPropCollection* volumes) override;

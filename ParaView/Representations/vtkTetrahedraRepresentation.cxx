@@ -6,6 +6,7 @@
 #include "Intake/DataSetBlocks.h"
 #include "MapperGroup.h"
 #include "Preparation/OpacityIntegral.h"
+#include "ProcessRegions.h"
 #include "ThreadShare.h"
 #include "TupleOpacity.h"
 #include "vtkOrderedVolume.h"
@@ -14,6 +15,7 @@
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkAppendFilter.h"
+#include "vtkCellArray.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
@@ -31,6 +33,7 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolumeProperty.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -44,6 +47,9 @@ public:
   /// The same, of tetrahedra.
   static vtkSmartPointer<vtkUnstructuredGrid> Split(vtkDataObject* data);
 
+  /// Bytes of a grid that came from other processes: all of it, where it is not what this one has.
+  double CountDistributed(vtkUnstructuredGrid* drawn) const;
+
   /// What is chosen of a composite; other data as they are.
   vtkSmartPointer<vtkDataObject> ChooseBlocks(vtkDataObject* data) const;
 
@@ -53,12 +59,14 @@ public:
   vtkSmartPointer<vtkUnstructuredGrid> Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   std::string Assembly;
   std::vector<std::string> BlockSelectors;
-  bool UseDataPartitions = false;
+  int Distribution = AUTOMATIC_DISTRIBUTION;
+  bool Distributed = true;                    ///< by ParaView, in a parallel run
   vtkTetrahedraVolumeMapper* Last = nullptr;  ///< the mapper of the last frame
   vtkSmartPointer<vtkUnstructuredGrid> Drawn; ///< what this process draws, maybe redistributed
   unsigned long FrameObserver = 0;
   double MeasuredUnitDistance = 0;
   std::string Warning; ///< why nothing was drawn in the last frame; empty if it was
+  bool OverlapWarned = false;
   std::string Statistics = "{}";
 };
 
@@ -96,6 +104,15 @@ vtkSmartPointer<vtkUnstructuredGrid> vtkTetrahedraRepresentation::Internals::Spl
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->ShallowCopy(split->GetOutput());
   return grid;
+}
+
+//------------------------------------------------------------------------------------------------
+double vtkTetrahedraRepresentation::Internals::CountDistributed(vtkUnstructuredGrid* drawn) const
+{
+  const bool own =
+    drawn->GetCells()->GetConnectivityArray() == this->Grid->GetCells()->GetConnectivityArray();
+  constexpr double Kibibyte = 1024;
+  return own ? 0 : Kibibyte * static_cast<double>(drawn->GetActualMemorySize());
 }
 
 //------------------------------------------------------------------------------------------------
@@ -234,11 +251,11 @@ void vtkTetrahedraRepresentation::RemoveAllBlockSelectors()
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraRepresentation::SetUseDataPartitions(bool use)
+void vtkTetrahedraRepresentation::SetDistribution(int distribution)
 {
-  if (this->Private->UseDataPartitions != use)
+  if (this->Private->Distribution != distribution)
   {
-    this->Private->UseDataPartitions = use;
+    this->Private->Distribution = distribution;
     this->MarkModified();
   }
 }
@@ -307,16 +324,47 @@ int vtkTetrahedraRepresentation::RequestData(
   {
     const vtkSmartPointer<vtkDataObject> data =
       this->Private->ChooseBlocks(vtkDataObject::GetData(inputVector[0], 0));
-    this->Private->Grid = tetralux::IsParallel() && !this->Private->UseDataPartitions
-      ? Internals::Split(data)
-      : Internals::Append(data);
-    this->Private->Grid->GetBounds(this->DataBounds);
+    this->Private->Grid = Internals::Append(data);
   }
   else
   {
     this->Private->Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   }
+  this->PlaceData();
   return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraRepresentation::PlaceData()
+{
+  Internals& self = *this->Private;
+  self.Shown->SetPlanes(nullptr);
+  self.Distributed = self.Distribution == ALWAYS_DISTRIBUTED;
+  if (tetralux::IsParallel() && !self.Distributed)
+  {
+    // Oblique planes order volumes, but not what else is in the view.
+    const bool oblique = self.Distribution == NEVER_DISTRIBUTED;
+    const tetralux::ProcessRegions regions = tetralux::FindProcessRegions(self.Grid, oblique);
+    self.Distributed =
+      self.Distribution == AUTOMATIC_DISTRIBUTION && (!regions.Planes || !regions.AllHaveCells);
+    if (!regions.Planes && !self.Distributed && !self.OverlapWarned)
+    {
+      vtkWarningMacro(
+        << "the data of processes overlap, and are not distributed anew: the order of "
+           "their pictures may be wrong");
+      self.OverlapWarned = true;
+    }
+    self.Shown->SetPlanes(self.Distributed ? nullptr : regions.Planes);
+    std::copy(regions.Bounds.begin(), regions.Bounds.end(), this->DataBounds);
+  }
+  if (!tetralux::IsParallel() || self.Distributed)
+  {
+    self.Grid->GetBounds(this->DataBounds);
+  }
+  if (tetralux::IsParallel() && self.Distributed)
+  {
+    self.Grid = Internals::Split(self.Grid);
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -332,9 +380,9 @@ int vtkTetrahedraRepresentation::ProcessViewRequest(
     outInfo->Set(vtkPVRenderView::NEED_ORDERED_COMPOSITING(), 1);
     vtkPVRenderView::SetPiece(inInfo, this, this->Private->Grid);
     vtkPVRenderView::SetOrderedCompositingConfiguration(inInfo, this,
-      this->Private->UseDataPartitions
-        ? vtkPVRenderView::USE_BOUNDS_FOR_REDISTRIBUTION
-        : vtkPVRenderView::DATA_IS_REDISTRIBUTABLE | vtkPVRenderView::USE_DATA_FOR_LOAD_BALANCING);
+      this->Private->Distributed
+        ? vtkPVRenderView::DATA_IS_REDISTRIBUTABLE | vtkPVRenderView::USE_DATA_FOR_LOAD_BALANCING
+        : vtkPVRenderView::USE_BOUNDS_FOR_REDISTRIBUTION);
     vtkPVRenderView::SetRedistributionModeToSplitBoundaryCells(inInfo, this);
     vtkPVRenderView::SetRequiresDistributedRendering(inInfo, this, true);
     vtkNew<vtkMatrix4x4> matrix;
@@ -351,8 +399,10 @@ int vtkTetrahedraRepresentation::ProcessViewRequest(
     auto* grid = vtkUnstructuredGrid::SafeDownCast(producer->GetProducer()->GetOutputDataObject(0));
     const bool drawn = grid && grid->GetNumberOfCells() > 0;
     this->Actor->SetVisibility(drawn);
+    double distributed = 0;
     if (drawn)
     {
+      distributed = this->Private->CountDistributed(grid);
       for (vtkTetrahedraVolumeMapper* mapper : this->Private->Mappers)
       {
         mapper->SetInputConnection(producer);
@@ -363,7 +413,7 @@ int vtkTetrahedraRepresentation::ProcessViewRequest(
       this->UseMapper(this->Private->Last ? this->Private->Last : this->Private->Mappers.front());
     }
     auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
-    this->Private->Shown->PrepareFrame(view->GetRenderer());
+    this->Private->Shown->PrepareFrame(view->GetRenderer(), distributed);
   }
   return 1;
 }
@@ -469,8 +519,7 @@ bool vtkTetrahedraRepresentation::RemoveFromView(vtkView* view)
 void vtkTetrahedraRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "UseDataPartitions: " << (this->Private->UseDataPartitions ? "On" : "Off")
-     << "\n";
+  os << indent << "Distribution: " << this->Private->Distribution << "\n";
   os << indent << "Assembly: " << this->Private->Assembly << "\n";
   for (const std::string& selector : this->Private->BlockSelectors)
   {

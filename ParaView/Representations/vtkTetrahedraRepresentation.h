@@ -4,15 +4,17 @@
  * @brief   what representations of unstructured grids by the mappers of Tetralux have in common
  *
  * Takes any vtkDataSet, or a composite of them, whose chosen blocks are appended. Cells are
- * rendered as they are. In a parallel run they are split into tetrahedra first, since those that
- * touch the border between two processes are cut at it: parts of a tetrahedron have the scalars of
- * the whole, parts of other cells do not.
+ * rendered as they are. In a parallel run data that planes part stay where they are. Otherwise
+ * ParaView distributes them anew, and cells are split into tetrahedra first, since those that touch
+ * the border between two processes are cut at it: parts of a tetrahedron have the scalars of the
+ * whole, parts of other cells do not.
  *
  * A frame of an interaction is that of the mapper, too; mappers for the processor cast fewer rays
  * for it. There is no other level of detail.
  *
- * @warning Of a composite, only arrays that all chosen blocks have can be shown. Smooth shading
- * takes its normals from the cells of one process, which shows along a border between two.
+ * @warning Of a composite, only arrays that all chosen blocks have can be shown. Ghost cells are
+ * not rendered, nor do they take part in gradients: smooth shading takes its normals from the cells
+ * that one process draws, which shows along a border between two.
  *
  * @sa vtkTetrahedraVolumeMapper
  */
@@ -82,11 +84,26 @@ public:
   void RemoveAllBlockSelectors();
   ///@}
 
+  enum DistributionType
+  {
+    AUTOMATIC_DISTRIBUTION,
+    ALWAYS_DISTRIBUTED,
+    NEVER_DISTRIBUTED
+  };
+
   /**
-   * Set whether the data of each process of a parallel run stay where they are. The boxes around
-   * them must not overlap. Default off: ParaView distributes the data anew, by boxes.
+   * Set whether ParaView distributes the data of a parallel run anew, by boxes. Default
+   * AUTOMATIC_DISTRIBUTION.
+   *
+   * - AUTOMATIC_DISTRIBUTION: if no planes perpendicular to axes part the data of processes, or if
+   *   some processes have no cells. Otherwise data stay where they are.
+   * - ALWAYS_DISTRIBUTED: always.
+   * - NEVER_DISTRIBUTED: never. Oblique planes order the processes, too, but opaque geometry of
+   *   other representations may be hidden or shown in the wrong places then. If no planes part the
+   *   data, the pictures of processes are composited in the order of the boxes around their data,
+   *   which may be wrong; one warning says so.
    */
-  void SetUseDataPartitions(bool use);
+  void SetDistribution(int distribution);
 
   ///@{
   /**
@@ -101,7 +118,8 @@ public:
   /**
    * Return the statistics of the last frame of this process, as JSON, see
    * vtkTetrahedraVolumeMapper::GetStatistics. "{}" before the first frame. In a parallel run with
-   * "composited": the bytes that all processes sent, and the seconds that this one took.
+   * "composited", the bytes that all processes sent and the seconds that this one took, and with
+   * "distributed", the bytes of data that ParaView distributed anew.
    */
   const char* GetStatistics();
 
@@ -150,6 +168,7 @@ private:
   vtkTetrahedraRepresentation(const vtkTetrahedraRepresentation&) = delete;
   void operator=(const vtkTetrahedraRepresentation&) = delete;
 
+  void PlaceData();
   void UseMapper(vtkTetrahedraVolumeMapper* mapper);
   void OnFrame(vtkObject* renderer, unsigned long event, void* data);
 

@@ -147,7 +147,8 @@ int vtkTriangleCasterRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_RENDER())
   {
     auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
-    this->Private->Shown->PrepareFrame(view->GetRenderer());
+    constexpr double NothingDistributed = 0; // images stay where they are
+    this->Private->Shown->PrepareFrame(view->GetRenderer(), NothingDistributed);
   }
   return 1;
 }

@@ -58,8 +58,9 @@ public:
 
   /**
    * Return the statistics of the last frame of this process, as JSON, see
-   * vtkTriangleCasterMapper::GetStatistics. In a parallel run with "composited": the bytes that all
-   * processes sent, and the seconds that this one took.
+   * vtkTriangleCasterMapper::GetStatistics. In a parallel run with "composited", the bytes that all
+   * processes sent and the seconds that this one took. Images stay where they are: "distributed"
+   * has no bytes.
    */
   const char* GetStatistics();
 

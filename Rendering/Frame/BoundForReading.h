@@ -2,8 +2,9 @@
 #ifndef tetralux_BoundForReading_h
 #define tetralux_BoundForReading_h
 
+#include "OpenGL/LoadedFunctions.h"
+
 #include "vtkOpenGLState.h"
-#include "vtk_glew.h"
 
 namespace tetralux
 {

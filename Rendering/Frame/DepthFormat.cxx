@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/DepthFormat.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <stdexcept>
 

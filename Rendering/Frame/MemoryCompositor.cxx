@@ -4,13 +4,13 @@
 #include "Frame/BoundForReading.h"
 #include "Frame/PixelBlending.h"
 #include "OpenGL/GraphicsCard.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkSMPTools.h"
 #include "vtkTextureObject.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 #include <stdexcept>

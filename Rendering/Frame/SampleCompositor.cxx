@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frame/SampleCompositor.h"
+#include "OpenGL/LoadedFunctions.h"
 
 #include "SamplePixelsFS.h"
 #include "SamplePixelsVS.h"
@@ -7,7 +8,6 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
-#include "vtk_glew.h"
 
 #include <string>
 

@@ -24,9 +24,11 @@
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace tetralux
 {
@@ -51,6 +53,22 @@ void AddPoints(CacheKey& key, vtkPoints* points)
   key.Add(points ? points->GetMTime() : 0);
 }
 
+/// What says which faces polyhedra have; some or all may be nullptr.
+std::vector<vtkDataArray*> GetFaceArrays(vtkUnstructuredGrid* grid)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
+  std::vector<vtkDataArray*> arrays;
+  for (vtkCellArray* cells : { grid->GetPolyhedronFaces(), grid->GetPolyhedronFaceLocations() })
+  {
+    arrays.push_back(cells ? cells->GetConnectivityArray() : nullptr);
+    arrays.push_back(cells ? cells->GetOffsetsArray() : nullptr);
+  }
+  return arrays;
+#else
+  return { grid->GetFaces(), grid->GetFaceLocations() };
+#endif
+}
+
 void AddCells(CacheKey& key, vtkDataSet* dataSet)
 {
   key.Add(dataSet->GetDataObjectType());
@@ -62,8 +80,10 @@ void AddCells(CacheKey& key, vtkDataSet* dataSet)
     Add(key, cells ? cells->GetOffsetsArray() : nullptr);
     key.Add(cells ? cells->GetMTime() : 0);
     Add(key, grid->GetCellTypesArray());
-    Add(key, grid->GetFaces());
-    Add(key, grid->GetFaceLocations());
+    for (vtkDataArray* array : GetFaceArrays(grid))
+    {
+      Add(key, array);
+    }
     // Without them, Bezier cells of order 1 are linear.
     key.Add(grid->GetPointData()->GetRationalWeights() != nullptr);
   }
@@ -205,8 +225,10 @@ Digest DigestCells(const std::vector<DataSetBlock>& blocks)
       Add(digester, cells ? cells->GetConnectivityArray() : nullptr);
       Add(digester, cells ? cells->GetOffsetsArray() : nullptr);
       Add(digester, grid->GetCellTypesArray());
-      Add(digester, grid->GetFaces());
-      Add(digester, grid->GetFaceLocations());
+      for (vtkDataArray* array : GetFaceArrays(grid))
+      {
+        Add(digester, array);
+      }
       const bool hasWeights = grid->GetPointData()->GetRationalWeights() != nullptr;
       digester.Add(static_cast<std::uint64_t>(hasWeights));
     }

@@ -261,7 +261,7 @@ std::vector<MapperProperty> MakeProperties()
     MakeColorFactors(
       "NearColor", "Factors of the colours at the front (Knittel 1999, section 2.2)."),
     MakeColorFactors("FarColor", "Factors of the colours at the back (Knittel 1999, section 2.2)."),
-    { "AverageIPScalarRange", PropertyType::Real, TriangleCasterKind, Model, false, {}, -Unbounded,
+    { "AverageIPScalarRange", PropertyType::Real, TriangleCasterKind, Model, true, {}, -Unbounded,
       Unbounded, { -LargestAveraged, LargestAveraged }, "LEAST,LARGEST", "units of the scalars",
       "The scalars that BlendMode average-intensity averages." },
     MakeBoolean("PreIntegration", TriangleCasterKind, Quality, true, false,

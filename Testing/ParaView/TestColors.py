@@ -19,10 +19,14 @@ LARGEST_DIFFERENCE = 3
 # pixels high.
 SHARE_AT_STEPS = 2 * 10 / (240 * 60)
 
+COLORS = [2, 0.1, 0.2, 0.9, 5, 0.2, 0.9, 0.4, 9, 1, 0.8, 0.2, 17, 0.8, 0.1, 0.1]
 MAPS = {
     "RGB": {"ColorSpace": "RGB"},
     "HSV": {"ColorSpace": "HSV"},
     "Lab": {"ColorSpace": "Lab"},
+    # VTK's paths end near the colours of the nodes. Outside of the range its function has those
+    # themselves, and ParaView's surfaces have the ends of the paths.
+    "CIEDE2000": {"ColorSpace": "Lab/CIEDE2000", "RGBPoints": [1, *COLORS[1:12], 21, *COLORS[13:]]},
     "diverging": {"ColorSpace": "Diverging"},
     "step": {"ColorSpace": "Step"},
     "logarithmic": {"UseLogScale": 1},
@@ -33,7 +37,6 @@ MAPS = {
         "AboveRangeColor": (0.9, 0.1, 0.9),
     },
 }
-COLORS = [2, 0.1, 0.2, 0.9, 5, 0.2, 0.9, 0.4, 9, 1, 0.8, 0.2, 17, 0.8, 0.1, 0.1]
 
 pictures.load_plugin()
 view = pictures.make_view()
@@ -57,7 +60,11 @@ colors = simple.GetColorTransferFunction("Across")
 colors.AutomaticRescaleRangeMode = "Never"
 colors.NumberOfTableValues = 1024
 defaults = {
-    "ColorSpace": "RGB", "UseLogScale": 0, "UseBelowRangeColor": 0, "UseAboveRangeColor": 0
+    "ColorSpace": "RGB",
+    "RGBPoints": COLORS,
+    "UseLogScale": 0,
+    "UseBelowRangeColor": 0,
+    "UseAboveRangeColor": 0,
 }
 view.CameraParallelProjection = 1
 view.CameraPosition, view.CameraFocalPoint = (100, 4, 100), (100, 4, 0)
@@ -65,7 +72,7 @@ view.CameraViewUp, view.CameraParallelScale = (0, 1, 0), 24
 
 good = True
 for name, settings in MAPS.items():
-    for key, value in {**defaults, **settings, "RGBPoints": COLORS}.items():
+    for key, value in {**defaults, **settings}.items():
         setattr(colors, key, value)
     paths = []
     for shown, hidden, of in ((grid, contour, "tetralux"), (contour, grid, "paraview")):

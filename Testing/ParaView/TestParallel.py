@@ -4,7 +4,7 @@
 For mpirun pvbatch. With "reference", saves the pictures; with "compare", compares with those. Eight
 cameras around the reactor's hexahedra, among them one inside and one along a border; one that has
 a part of the data outside of its view, where IceT moves what processes draw; a surface that hides a
-part of the volume; and image data.
+part of the volume; cells that planes part already, also turned, and sheared; and image data.
 """
 
 import sys
@@ -32,6 +32,24 @@ IMAGE_CAMERAS = {
     "image, opposite": ((-50, 0, -90), (32.5, 32.5, 32.5)),
     "image, inside": ((30, 32, 31), (40, 36, 60)),
 }
+LINEAR = "600 + 12 * coordsX - 10 * coordsY + 14 * coordsZ"
+BOX_CAMERAS = {
+    "oblique": ((45, 38, 57), (0, 0, 0)),
+    "opposite": ((-45, -38, -57), (0, 0, 0)),
+    "side": ((60, 2, 3), (0, 0, 0)),
+    "inside": ((1, 2, -3), (0, 0, 8)),
+    "along a border": ((30, 20, 0.01), (0, 0, 0.01)),
+}
+# Turns and shears boxes so that those along the axes overlap.
+SHEARED = (
+    "(coordsX + 0.8 * coordsY) * iHat + (coordsY - 0.6 * coordsX) * jHat"
+    " + (coordsZ + 0.5 * coordsX + 0.4 * coordsY) * kHat"
+)
+TURNED = (
+    "Tetralux Volume",
+    8,
+    {"TetraluxMethod": "Ray casting", "Orientation": (50, 70, 30), "Scale": (1, 0.8, 1.2)},
+)
 VIEW_UPS = {"above": (0, 1, 0), "below": (0, 1, 0), "inside": (0, 1, 0)}
 REPRESENTATIONS = {
     "volume": ("Tetralux Volume", {"TetraluxMethod": "Ray casting"}),
@@ -48,22 +66,33 @@ comparing = sys.argv[1] == "compare"
 good = True
 
 
-def check(name, cameras, view, display):
-    """Whether pictures are those of one process, from all cameras."""
+def get_path(processes, label):
+    return pictures.FOLDER / f"{processes}-{label.replace(', ', '-').replace(' ', '-')}.png"
+
+
+def check(name, cameras, view, display, of=None, stay=False):
+    """Whether pictures are those of one process, or those of another name, from all cameras.
+
+    stay: the data are to stay in the processes that have them.
+    """
     equal = True
     for camera, (position, focal_point) in cameras.items():
         pictures.place_camera(view, position, focal_point, VIEW_UPS.get(camera, (0, 0, 1)))
         label = f"{name}, {camera}"
-        file_name = label.replace(", ", "-").replace(" ", "-") + ".png"
-        reference = pictures.FOLDER / f"one-{file_name}"
+        reference = get_path("one", f"{of or name}, {camera}")
         if not comparing:
             pictures.save(view, reference)
             continue
-        path = pictures.FOLDER / f"several-{file_name}"
+        path = get_path("several", label)
         pictures.save(view, path)
         equal = pictures.compare(f"{label}, {processes} processes", path, reference) and equal
         # A frame that ParaView composites alone, in 8 bits, has none.
-        assert pictures.get_statistics(display)["composited"]["bytes"] > 0
+        frame = pictures.get_statistics(display)
+        assert frame["composited"]["bytes"] > 0
+        distributed = frame["distributed"]["bytes"]
+        if (distributed == 0) != stay:
+            print(f"{label}: {distributed} bytes of data were distributed: FAILED")
+            equal = False
     return equal
 
 
@@ -91,10 +120,45 @@ representation, settings = REPRESENTATIONS["volume"]
 pictures.set_up(display, representation, scene["unit_distance"], settings)
 for camera in ("oblique", "below"):
     good = check("surface in a volume", {camera: CAMERAS[camera]}, view, display) and good
+simple.Hide(plane, view)
+
+simple.ResetSession()
+
+# Each process makes a box of cells of its own: nothing is moved. Scalars are linear, since how a
+# cell is split into tetrahedra depends on the numbers of its points.
+view = pictures.make_view()
+boxes = simple.Wavelet(WholeExtent=(-12, 12, -10, 10, -8, 8))
+linear = simple.Calculator(Input=boxes, ResultArrayName="Temp", Function=LINEAR)
+cells = simple.AppendDatasets(Input=linear)
+display = pictures.show("disk", cells, view)
+for name, cameras in (("volume", BOX_CAMERAS), ("isosurface", {"side": BOX_CAMERAS["side"]})):
+    representation, settings = REPRESENTATIONS[name]
+    pictures.set_up(display, representation, 8, settings)
+    good = check(f"boxes, {name}", cameras, view, display, stay=True) and good
+pictures.set_up(display, *TURNED)
+turned = {name: BOX_CAMERAS[name] for name in ("oblique", "inside")}
+good = check("boxes, turned", turned, view, display, stay=True) and good
+display.TetraluxDistribution = "Always"
+good = check("boxes, turned and moved", turned, view, display, of="boxes, turned") and good
+display.TetraluxDistribution = "Automatic"
+view.CameraParallelProjection = 1
+side = {"side": BOX_CAMERAS["side"]}
+good = check("boxes, parallel rays", side, view, display, stay=True) and good
+simple.ResetSession()
+
+# Oblique planes part these.
+view = pictures.make_view()
+boxes = simple.Wavelet(WholeExtent=(-12, 12, -10, 10, -8, 8))
+linear = simple.Calculator(Input=boxes, ResultArrayName="Temp", Function=LINEAR)
+cells = simple.AppendDatasets(Input=linear)
+sheared = simple.Calculator(Input=cells, CoordinateResults=1, Function=SHEARED)
+display = pictures.show("disk", sheared, view)
+settings = {"TetraluxMethod": "Ray casting", "TetraluxDistribution": "Never"}
+pictures.set_up(display, "Tetralux Volume", 8, settings)
+sheared_cameras = {name: BOX_CAMERAS[name] for name in ("oblique", "opposite", "inside")}
+good = check("sheared boxes", sheared_cameras, view, display, stay=True) and good
 simple.ResetSession()
 
 view, display = pictures.make_scene("neghip-triangle-caster")
-# A slab of slices that a border cuts has a sample in both of its parts.
-display.TetraluxSampleDistance = 0.25
-good = check("triangle caster", IMAGE_CAMERAS, view, display) and good
+good = check("triangle caster", IMAGE_CAMERAS, view, display, stay=True) and good
 pictures.finish(good)
