@@ -12,6 +12,7 @@
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
 #include "PreIntegration/PreIntegrationTable.h"
+#include "RayCast/BoundaryTiles.h"
 #include "Simd/LaneCount.h"
 #include "View/RayAcross.h"
 #include "View/RayGrid.h"
@@ -23,14 +24,6 @@
 
 namespace tetralux
 {
-
-/// Pixels of a packet, whose rays are cast together, one in each lane. Nearly square, so that the
-/// rays stay in the same cells for long.
-///@{
-constexpr int PacketWidth = 4;
-constexpr int PacketHeight = LaneCount / PacketWidth;
-///@}
-static_assert(PacketWidth * PacketHeight == LaneCount, "a ray for each lane");
 
 /// A pre-integration table with texels in single precision.
 struct KernelTable
@@ -62,6 +55,12 @@ struct KernelInput
   const WalkEntry* Entries;
   const BoundaryBvh::Node* Nodes; ///< nullptr: no boundary, an empty mesh
   const std::int32_t* Triangles;
+  /// BoundaryTiles of Grid; nullptr: rays find the boundary by Nodes.
+  ///@{
+  const TileFace* TileFaces;
+  const std::int32_t* TileBegins;
+  int TileColumns;
+  ///@}
   std::int32_t NumberOfCells; ///< of the mesh; those behind are imaginary
   /// For checks: what ids are below.
   ///@{
@@ -127,7 +126,8 @@ struct KernelCounts
   std::int64_t Paths = 0;    ///< entries into the mesh
 };
 
-/// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1).
+/// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1): of one tile of
+/// RayTileSize, from the first pixel of a packet.
 using RayCastKernel = void (*)(
   const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
 

@@ -3,12 +3,14 @@
 
 #include "Base/ParallelTiles.h"
 #include "Integral/SegmentWeightError.h"
+#include "RayCast/BoundaryTiles.h"
 #include "RayCast/KernelInput.h"
 #include "RayCast/RayCastKernel.h"
 #include "Scene/IntegratorChoice.h"
 #include "Simd/InstructionSet.h"
 #include "View/MeshToWorld.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -21,9 +23,9 @@ namespace tetralux
 namespace
 {
 
-/// Pixels along a tile's edge: rays of a tile share cells in the first-level cache, and there are
-/// enough tiles to balance threads.
-constexpr int TileSize = 16;
+/// Sorting a face of the boundary into tiles costs as much as this share of finding the boundary by
+/// the hierarchy for a ray.
+constexpr double RaysPerFace = 0.5;
 
 constexpr int InitialCrossings = 32;
 
@@ -164,6 +166,35 @@ RayCastKernel ChooseKernel(InstructionSet set, const CastChoices& choices)
   return choices.DoublePrecision ? pair.Double : pair.Single;
 }
 
+/// The rays of a picture that do not end before they begin.
+std::int64_t CountRays(const RayGrid& grid, const RayLimits& limits)
+{
+  const std::int64_t pixels = static_cast<std::int64_t>(grid.Width) * grid.Height;
+  return limits.MaximumDistances ? pixels -
+      std::count(limits.MaximumDistances, limits.MaximumDistances + pixels,
+        -std::numeric_limits<float>::infinity())
+                                 : pixels;
+}
+
+/// Sorts the boundary into tiles, if that is asked for or pays, and possible.
+bool FillTiles(const WalkMesh& mesh, const WalkTables& tables, const RayGrid& grid,
+  const RayLimits& limits, const RayCastOptions& options, int threads, BoundaryTiles& tiles,
+  KernelInput& in)
+{
+  const bool pays = options.Boundary == BoundarySearch::Automatic
+    ? RaysPerFace * static_cast<double>(tables.Entries.size()) <
+      static_cast<double>(CountRays(grid, limits))
+    : options.Boundary == BoundarySearch::Tiles;
+  if (!pays || !MakeBoundaryTiles(mesh, tables, grid, threads, tiles))
+  {
+    return false;
+  }
+  in.TileFaces = tiles.Faces.data();
+  in.TileBegins = tiles.Begins.data();
+  in.TileColumns = tiles.Grid.GetColumns();
+  return !tiles.Faces.empty();
+}
+
 /// What a thread writes while it casts; on cache lines of its own.
 struct alignas(64) ThreadMemory
 {
@@ -222,7 +253,10 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
     const RayCastKernel kernel = ChooseKernel(set, choices);
     std::vector<ThreadMemory> threads(
       options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads());
-    const TileGrid tiles{ grid.Width, grid.Height, TileSize };
+    BoundaryTiles boundary;
+    statistics.BoundaryTiles = FillTiles(*scene.Mesh.GetMesh(), *choices.Tables, grid, limits,
+      options, static_cast<int>(threads.size()), boundary, in);
+    const TileGrid tiles{ grid.Width, grid.Height, RayTileSize };
     statistics.Aborted = !ForEachTile(tiles, static_cast<int>(threads.size()), options.Progress,
       [&](const Tile& tile, int thread)
       {

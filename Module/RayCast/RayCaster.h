@@ -27,6 +27,7 @@ struct RayCastStatistics
   std::int64_t Rays = 0;
   std::int64_t Segments = 0;         ///< cells walked through, over all rays
   std::int64_t Paths = 0;            ///< entries into the mesh, over all rays
+  bool BoundaryTiles = false;        ///< whether the boundary was found by BoundarySearch::Tiles
   bool ImaginaryCells = false;       ///< whether rays went through imaginary cells
   std::int64_t TransparentCells = 0; ///< left out of the walk; 0 where that would not pay
   double LaneUse = 0;                ///< share of vector lanes that carried a ray, 0..1
