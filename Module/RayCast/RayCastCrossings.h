@@ -56,6 +56,9 @@ TETRALUX_INLINE TriangleHit<Real> TestTriangle(
 template <class Real>
 constexpr double ProjectionRounding = 2. * std::numeric_limits<Real>::epsilon();
 
+/// How much farther than ShiftRounding rays are displaced.
+constexpr float DisplacementRatio = static_cast<float>(FarthestDisplacement / ShiftRounding);
+
 /// The number of each ray's crossings with the boundary, which CrossingBuffer holds in ascending
 /// distance; and which rays pass an edge of the boundary so closely that rounding may decide on
 /// which side.
@@ -63,6 +66,8 @@ struct PacketCrossings
 {
   int Count[LaneCount];
   unsigned NearEdges;
+  unsigned Displaced = 0;       ///< rays that were displaced
+  double ShiftError[LaneCount]; ///< of each ray, see KernelInput::ShiftFactor
 };
 
 /// Which rays pass the edge from a to b within a distance, by det(a, b), behind a begin.
@@ -133,6 +138,68 @@ inline bool IsBehind(const Crossing& crossing, double distance, std::int32_t ent
   return crossing.Distance > distance || (crossing.Distance == distance && crossing.Entry > entry);
 }
 
+/// The attenuation at a scalar, or of the cell behind a face.
+inline float FindAttenuation(const KernelInput& in, float scalar, std::int32_t cell)
+{
+  if (in.CellValues)
+  {
+    return in.CellValues[cell].Attenuation;
+  }
+  int first = 0;
+  int last = in.NumberOfIntervals - 1;
+  while (first < last)
+  {
+    const int middle = (first + last) / 2;
+    if (in.Intervals[middle].Hi < scalar)
+    {
+      first = middle + 1;
+    }
+    else
+    {
+      last = middle;
+    }
+  }
+  const IntervalTable::Interval& interval = in.Intervals[first];
+  return interval.Attenuation + interval.AttenuationSlope * (scalar - interval.Reference);
+}
+
+/// Adds what the colours of rays change by if rounding moves a face of the boundary across them:
+/// the face moves along a ray by its slope times that, and the attenuation begins or ends there.
+/// weightB, weightC: of corners, where rays cross the face.
+TETRALUX_INLINE void AddShiftErrors(const KernelInput& in, const Corner<float> (&corners)[3],
+  Mask8 hit, Float8 inverseArea, Float8 weightB, Float8 weightC, std::int32_t cell,
+  PacketCrossings& crossings)
+{
+  const Corner<float>& a = corners[0];
+  const Corner<float>& b = corners[1];
+  const Corner<float>& c = corners[2];
+  const Float8 bz = b.Z - a.Z;
+  const Float8 cz = c.Z - a.Z;
+  const Float8 slopeX = (bz * (c.Y - a.Y) - cz * (b.Y - a.Y)) * inverseArea;
+  const Float8 slopeY = ((b.X - a.X) * cz - (c.X - a.X) * bz) * inverseArea;
+  const Mask8 displaced = MaskFromBits(crossings.Displaced);
+  const Float8 factor =
+    Select(displaced, Float8(DisplacementRatio * in.ShiftFactor), Float8(in.ShiftFactor));
+  const Float8 most = (Abs(slopeX) + Abs(slopeY)) * factor;
+  // Only what is a good part of what is allowed is worth a closer look.
+  unsigned bits = Bits(AndNot(hit, most <= Float8(0.0625f * in.LargestShiftError)));
+  if (bits == 0)
+  {
+    return;
+  }
+  float errors[LaneCount], scalars[LaneCount];
+  Store(errors, most);
+  Store(scalars, Blend(weightB, weightC, a.S, b.S, c.S));
+  for (int lane = 0; bits != 0; ++lane, bits >>= 1)
+  {
+    const float attenuation = (bits & 1u) ? FindAttenuation(in, scalars[lane], cell) : 0.f;
+    if (attenuation > 0) // and it is a number
+    {
+      crossings.ShiftError[lane] += errors[lane] * (attenuation / in.LargestAttenuation);
+    }
+  }
+}
+
 /// Adds where rays cross a face of the boundary. False where the buffer was too small; it is larger
 /// then.
 template <class Real>
@@ -159,7 +226,16 @@ TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays,
   }
   Real z[LaneCount];
   const auto scale = typename LanesOf<Real>::Type(Real(1)) / (t.BC + t.CA + t.AB);
-  Store(z, Blend(t.CA * scale, t.AB * scale, corners[0].Z, corners[1].Z, corners[2].Z));
+  const auto wb = t.CA * scale;
+  const auto wc = t.AB * scale;
+  Store(z, Blend(wb, wc, corners[0].Z, corners[1].Z, corners[2].Z));
+  if constexpr (sizeof(Real) == sizeof(float))
+  {
+    if (in.ShiftFactor > 0)
+    {
+      AddShiftErrors(in, corners, hit, scale, wb, wc, entry.Cell, crossings);
+    }
+  }
   for (int lane = 0; bits != 0; ++lane, bits >>= 1)
   {
     if (!(bits & 1u))
@@ -250,9 +326,10 @@ template <class Real>
 inline bool FindCrossings(const KernelInput& in, const PacketFaces& faces, const Rays<Real>& rays,
   Mask8 active, CrossingBuffer& buffer, PacketCrossings& crossings)
 {
-  for (int& n : crossings.Count)
+  for (int lane = 0; lane < LaneCount; ++lane)
   {
-    n = 0;
+    crossings.Count[lane] = 0;
+    crossings.ShiftError[lane] = 0;
   }
   crossings.NearEdges = 0;
   if (!in.Nodes)
@@ -284,6 +361,7 @@ inline void FindClearCrossings(const KernelInput& in, const PacketFaces& faces, 
   using V = typename LanesOf<Real>::Type;
   const V u = rays.U[3];
   const V v = rays.V_[3];
+  crossings.Displaced = 0;
   for (int next = 0;; ++next)
   {
     while (!FindCrossings(in, faces, rays, active, buffer, crossings))
@@ -295,6 +373,7 @@ inline void FindClearCrossings(const KernelInput& in, const PacketFaces& faces, 
     }
     const double unit = ProjectionRounding<Real> * ProjectionScale;
     const Mask8 near = MaskFromBits(crossings.NearEdges);
+    crossings.Displaced |= crossings.NearEdges;
     rays.U[3] = Select(near, u - V(static_cast<Real>(unit * RayDisplacements[next][0])), rays.U[3]);
     rays.V_[3] =
       Select(near, v - V(static_cast<Real>(unit * RayDisplacements[next][1])), rays.V_[3]);

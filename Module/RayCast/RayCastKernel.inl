@@ -89,7 +89,10 @@ public:
       this->Walk();
       this->Integrate();
     }
-    this->WritePixels();
+    if (!this->Inexact)
+    {
+      this->WritePixels();
+    }
   }
 
 private:
@@ -343,6 +346,11 @@ private:
       // Walking strikes crossings off, so each part of the rays finds them anew.
       FindClearCrossings(
         this->In, this->Faces, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings);
+      this->Running = 0;
+      if (this->IsInexact(active))
+      {
+        return;
+      }
       unsigned hit = 0;
       for (int i = 0; i < LaneCount; ++i)
       {
@@ -363,7 +371,6 @@ private:
       // Lanes without a ray rest in any cell; lanes with one are put where they start.
       this->Cell = 0;
       this->Point = 0;
-      this->Running = 0;
       if (active & hit)
       {
         this->A = this->B = this->C = LoadCorner<Real>(this->Ray, this->In.Points, Int8(0));
@@ -376,6 +383,30 @@ private:
         return;
       }
     }
+  }
+
+  /// Whether rounding may change rays by more than is allowed; their packet is marked then.
+  bool IsInexact(unsigned rays)
+  {
+    double largest = 0;
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      const double error = this->Crossings.ShiftError[lane];
+      if (((rays >> lane) & 1u) && error > largest)
+      {
+        largest = error;
+      }
+    }
+    this->Inexact = this->In.InexactPackets && largest > this->In.LargestShiftError;
+    if (this->Inexact)
+    {
+      this->In.InexactPackets[GetPacketPlace(this->In.Grid->Width, this->PixelX, this->PixelY)] = 1;
+    }
+    else if (largest > this->Counts.ShiftError)
+    {
+      this->Counts.ShiftError = largest;
+    }
+    return this->Inexact;
   }
 
   /// Takes a ray's nearest crossing that no walk began or ended at; -1 if there is none.
@@ -533,7 +564,8 @@ private:
   WorldRays World;
   Rays<Real> Ray;
   Intervals Limits;
-  int Part = 0; ///< of the limits
+  int Part = 0;         ///< of the limits
+  bool Inexact = false; ///< the packet is left to double precision
   double FarOf[LaneCount];
   PacketCrossings Crossings;
   int Cursor[LaneCount]; ///< first crossing of each ray that may still be an entry
