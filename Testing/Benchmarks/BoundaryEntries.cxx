@@ -14,9 +14,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <exception>
 #include <memory>
 #include <utility>
@@ -28,8 +26,6 @@ namespace
 using namespace tetralux;
 
 constexpr int Runs = 7;
-
-double GetProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// A picture of a mesh, in one of the ways.
 struct Way
@@ -78,11 +74,11 @@ void CompareOn(ComparisonMesh source, int size)
       options.Boundary = way.Search;
       way.Colors.resize(4 * static_cast<std::size_t>(size) * size);
       way.Depths.resize(static_cast<std::size_t>(size) * size);
-      const double begin = GetProcessorSeconds();
+      const double begin = GetProcessorTime();
       CastRays(scene, view.Grid, inFront, options, way.Colors, way.Depths);
-      const double found = GetProcessorSeconds();
+      const double found = GetProcessorTime();
       statistics = CastRays(scene, view.Grid, {}, options, way.Colors, way.Depths);
-      const double whole = GetProcessorSeconds();
+      const double whole = GetProcessorTime();
       if (run > 0) // the first one makes the tables
       {
         way.Find = std::min(way.Find, found - begin);
