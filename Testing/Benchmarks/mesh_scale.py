@@ -7,8 +7,8 @@
             [--frames 5] [--output scale.csv]
 
 A cube with the same field, of so many tetrahedra, each in a process of its own. Columns:
-  intake ... neighbors  nanoseconds a tetrahedron of stages of the first frame, processor time of
-                   all threads; they end where progress is reported
+  intake, order, neighbors  nanoseconds a tetrahedron of stages of the first frame, processor time
+                   of all threads; they end where progress is reported. "intake" includes cleaning
   mesh of clock    nanoseconds a tetrahedron of all of the mesh, by the clock
   rays of clock    the same of drawing rays to estimate errors
   peak, kept       bytes a tetrahedron that the process held more at most and behind the first
@@ -40,8 +40,7 @@ from vtkmodules.util.vtkConstants import VTK_DOUBLE
 NODES = ((-2, 0, 0, 1, 0.1), (0, 0, 1, 0, 0.5), (2, 1, 0, 0, 0.2))
 
 # Shares of progress where stages end: ScenePreparation.cxx, WalkMesh.cxx.
-INTAKE = 0.2
-STAGES = {"intake": INTAKE, "cleaning": 0.28, "order": 0.6, "neighbors": 0.96}
+STAGES = {"intake": 0.28, "order": 0.6, "neighbors": 0.96}
 
 
 class ProgressTimes:
