@@ -10,7 +10,7 @@ A cube with the same field, of so many tetrahedra, each in a process of its own.
   intake, order, neighbors  nanoseconds a tetrahedron of stages of the first frame, processor time
                    of all threads; they end where progress is reported. "intake" includes cleaning
   mesh of clock    nanoseconds a tetrahedron of all of the mesh, by the clock
-  rays of clock    the same of drawing rays to estimate errors
+  processor of first  the same of the whole first frame, by all threads
   peak, kept       bytes a tetrahedron that the process held more at most and behind the first
                    frame, without the input
   silence          longest time without a report of progress, seconds
@@ -98,12 +98,13 @@ def measure(tetrahedra, size, frames):
     scene.window.Render()
     scene.window.WaitForCompletion()
     first = time.perf_counter() - progress.times[0][1]
+    processor_of_first = time.process_time() - progress.times[0][2]
     cells = grid.GetNumberOfCells()
     parts = get_statistics(scene)["seconds"]
     row = {"tetrahedra": cells}
     row |= {name: 1e9 * seconds / cells for name, seconds in progress.get_stages().items()}
     row["mesh of clock"] = 1e9 * (parts["intake"] + parts["mesh"]) / cells
-    row["rays of clock"] = 1e9 * parts["table"] / cells
+    row["processor of first"] = 1e9 * processor_of_first / cells
     row["peak"] = (read_status("VmHWM") - before) / cells
     row["kept"] = (read_status("VmRSS") - before) / cells
     row["silence"] = progress.get_longest_silence()
