@@ -303,8 +303,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::UpdateOrientation(const tetralux:
   this->Positive.Update(tetralux::CacheKey::Of(scene.Mesh.GetPointsVersion()),
     [&mesh]
     {
+      const auto& faces = mesh.GetTables().Faces;
       return tetralux::OrientCells(
-        mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces);
+        mesh.GetMesh().Points, mesh.GetMesh().Cells, { faces.data(), faces.size() });
     });
 }
 

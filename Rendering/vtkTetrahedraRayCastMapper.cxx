@@ -30,6 +30,8 @@ void Describe(
   section["reentry"] = rays.ImaginaryCells ? "imaginary cells" : "boundary hierarchy";
   section["transparent_tetrahedra_left_out"] = rays.TransparentCells;
   section["lane_use"] = rays.LaneUse;
+  section["boundary"] = rays.BoundaryTiles ? "tiles" : "hierarchy";
+  section["rays_in_double_precision"] = rays.DoubleRays;
   section["precision"] = rays.DoublePrecision ? "double" : "single";
   section["instruction_set"] = rays.InstructionSet;
   section["threads"] = rays.NumberOfThreads;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace tetralux
 {
@@ -63,69 +62,127 @@ void SetBox(BoundaryBvh::Node& node, const Box& box, float margin)
   }
 }
 
+/// A triangle on its way into the leaves.
+struct BoxedTriangle
+{
+  Box Bounds;
+  std::int32_t Id;
+};
+
+/// Of the triangles whose middles are in one bin.
+struct Bin
+{
+  Box Bounds;
+  std::int32_t Count = 0;
+};
+
+/// Subtrees of at least so many triangles are built by tasks of their own: some 0.1 ms.
+constexpr std::int32_t TriangleTask = 512;
+
 class Builder
 {
 public:
   Builder(Span<const float> points, Span<const std::int32_t> triangles, float margin)
     : Margin(margin)
+    , Triangles(triangles.size() / 3)
   {
-    const std::size_t n = triangles.size() / 3;
-    this->Boxes.resize(n);
-    for (std::size_t t = 0; t < n; ++t)
+    const auto n = static_cast<std::int64_t>(this->Triangles.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t t = 0; t < n; ++t)
     {
+      BoxedTriangle& triangle = this->Triangles[t];
+      triangle.Id = static_cast<std::int32_t>(t);
       for (int c = 0; c < 3; ++c)
       {
-        this->Boxes[t].Add(&points[4 * static_cast<std::size_t>(triangles[3 * t + c])]);
+        triangle.Bounds.Add(&points[4 * static_cast<std::size_t>(triangles[3 * t + c])]);
       }
     }
-    this->Result.Triangles.resize(n);
-    std::iota(this->Result.Triangles.begin(), this->Result.Triangles.end(), 0);
-    this->Result.Nodes.reserve(n);
   }
 
   BoundaryBvh Build()
   {
-    if (!this->Boxes.empty())
+    BoundaryBvh result;
+    if (this->Triangles.empty())
     {
-      this->BuildNode(0, static_cast<std::int32_t>(this->Boxes.size()), 0);
+      return result;
     }
-    return std::move(this->Result);
+#pragma omp parallel
+#pragma omp single
+    this->BuildNode(0, static_cast<std::int32_t>(this->Triangles.size()), 0, result.Nodes);
+    for (const BoxedTriangle& triangle : this->Triangles)
+    {
+      result.Triangles.push_back(triangle.Id);
+    }
+    return result;
   }
 
 private:
-  void BuildNode(std::int32_t begin, std::int32_t end, int depth)
+  using Nodes = std::vector<BoundaryBvh::Node>;
+
+  /// Appends the subtree of the triangles from begin to end.
+  void BuildNode(std::int32_t begin, std::int32_t end, int depth, Nodes& nodes)
   {
     Box box;
     Box middles;
     for (std::int32_t i = begin; i < end; ++i)
     {
-      const Box& b = this->Boxes[this->Result.Triangles[i]];
+      const Box& b = this->Triangles[i].Bounds;
       box.Add(b);
       const float middle[3] = { b.Middle(0), b.Middle(1), b.Middle(2) };
       middles.Add(middle);
     }
 
-    const std::size_t nodeId = this->Result.Nodes.size();
+    const std::size_t nodeId = nodes.size();
     BoundaryBvh::Node node{};
     SetBox(node, box, this->Margin);
     const bool leaf = end - begin <= LeafSize;
     node.First = leaf ? begin : 0;
     node.Count = leaf ? end - begin : 0;
-    this->Result.Nodes.push_back(node);
+    nodes.push_back(node);
     if (leaf)
     {
       return;
     }
     const std::int32_t split = this->Split(begin, end, middles, depth);
-    this->BuildNode(begin, split, depth + 1);
-    this->Result.Nodes[nodeId].First = static_cast<std::int32_t>(this->Result.Nodes.size());
-    this->BuildNode(split, end, depth + 1);
+    if (end - begin < TriangleTask)
+    {
+      this->BuildNode(begin, split, depth + 1, nodes);
+      nodes[nodeId].First = static_cast<std::int32_t>(nodes.size());
+      this->BuildNode(split, end, depth + 1, nodes);
+      return;
+    }
+    Nodes second;
+#pragma omp task shared(second)
+    this->BuildNode(split, end, depth + 1, second);
+    this->BuildNode(begin, split, depth + 1, nodes);
+#pragma omp taskwait
+    const auto offset = static_cast<std::int32_t>(nodes.size());
+    nodes[nodeId].First = offset;
+    for (BoundaryBvh::Node& moved : second)
+    {
+      moved.First += moved.Count == 0 ? offset : 0;
+    }
+    nodes.insert(nodes.end(), second.begin(), second.end());
   }
 
   /// Orders the triangles from begin to end and returns where the second child begins.
   std::int32_t Split(std::int32_t begin, std::int32_t end, const Box& middles, int depth)
   {
-    const auto first = this->Result.Triangles.begin();
+    const auto first = this->Triangles.begin();
+    std::array<std::array<Bin, NumberOfBins>, 3> bins;
+    if (depth < BoundaryBvh::MaximumSahDepth)
+    {
+      for (std::int32_t i = begin; i < end; ++i)
+      {
+        const Box& b = this->Triangles[i].Bounds;
+        for (int a = 0; a < 3; ++a)
+        {
+          Bin& bin = bins[a][FindBin(b, middles, a)];
+          bin.Bounds.Add(b);
+          ++bin.Count;
+        }
+      }
+    }
     int axis = -1;
     int bin = 0;
     float bestCost = std::numeric_limits<float>::max();
@@ -135,30 +192,21 @@ private:
       {
         continue;
       }
-      std::array<Box, NumberOfBins> boxes;
-      std::array<std::int32_t, NumberOfBins> counts{};
-      for (std::int32_t i = begin; i < end; ++i)
-      {
-        const Box& b = this->Boxes[first[i]];
-        const int k = this->Bin(b, middles, a);
-        boxes[k].Add(b);
-        ++counts[k];
-      }
       std::array<float, NumberOfBins> right{};
       Box sweep;
       std::int32_t count = 0;
       for (int k = NumberOfBins - 1; k > 0; --k)
       {
-        sweep.Add(boxes[k]);
-        count += counts[k];
+        sweep.Add(bins[a][k].Bounds);
+        count += bins[a][k].Count;
         right[k] = count ? sweep.Area() * static_cast<float>(count) : -1.f;
       }
       sweep = Box();
       count = 0;
       for (int k = 1; k < NumberOfBins; ++k)
       {
-        sweep.Add(boxes[k - 1]);
-        count += counts[k - 1];
+        sweep.Add(bins[a][k - 1].Bounds);
+        count += bins[a][k - 1].Count;
         if (count == 0 || right[k] < 0)
         {
           continue;
@@ -175,7 +223,7 @@ private:
     if (axis >= 0)
     {
       const auto middle = std::partition(first + begin, first + end,
-        [&](std::int32_t t) { return this->Bin(this->Boxes[t], middles, axis) < bin; });
+        [&](const BoxedTriangle& t) { return FindBin(t.Bounds, middles, axis) < bin; });
       return static_cast<std::int32_t>(middle - first);
     }
     // All middles coincide, or the tree is too deep: halve by number along the longest edge.
@@ -189,24 +237,25 @@ private:
     }
     const std::int32_t half = begin + (end - begin) / 2;
     std::nth_element(first + begin, first + half, first + end,
-      [&](std::int32_t s, std::int32_t t)
+      [&](const BoxedTriangle& s, const BoxedTriangle& t)
       {
-        const float a = this->Boxes[s].Middle(axis);
-        const float b = this->Boxes[t].Middle(axis);
-        return a != b ? a < b : s < t;
+        const float a = s.Bounds.Middle(axis);
+        const float b = t.Bounds.Middle(axis);
+        return a != b ? a < b : s.Id < t.Id;
       });
     return half;
   }
 
-  int Bin(const Box& b, const Box& middles, int a) const
+  /// 0 where all middles are at one place along the axis.
+  static int FindBin(const Box& b, const Box& middles, int a)
   {
-    const float x = (b.Middle(a) - middles.Lo[a]) / (middles.Hi[a] - middles.Lo[a]);
+    const float size = middles.Hi[a] - middles.Lo[a];
+    const float x = size > 0 ? (b.Middle(a) - middles.Lo[a]) / size : 0.f;
     return std::min(NumberOfBins - 1, static_cast<int>(x * NumberOfBins));
   }
 
   float Margin;
-  std::vector<Box> Boxes;
-  BoundaryBvh Result;
+  std::vector<BoxedTriangle> Triangles;
 };
 
 } // namespace

@@ -38,6 +38,7 @@ struct BoundaryBvh
 /// SAH-based Bounding Volume Hierarchies, 2007).
 /// points: four floats each, x y z and one that is not looked at. triangles: three point ids each.
 /// margin: what every box is grown by on each side, in the units of the points.
+/// Parallel; the same tree for any number of threads.
 TETRALUXCORE_EXPORT BoundaryBvh BuildBoundaryBvh(
   Span<const float> points, Span<const std::int32_t> triangles, float margin);
 

@@ -102,6 +102,19 @@ void FillLighting(const VolumeScene& scene, const RayGrid& grid, const RayCastOp
   in.Lighting = &lighting;
 }
 
+void FillShifts(const SceneOptics& optics, const CastChoices& choices, KernelInput& in)
+{
+  const double attenuation = optics.GetIntervalTable().MaximumAttenuation;
+  if (choices.DoublePrecision || !HasWeights(choices.Method) || attenuation == 0)
+  {
+    return;
+  }
+  in.LargestAttenuation = static_cast<float>(attenuation);
+  in.ShiftFactor = static_cast<float>(ShiftRounding * ProjectionScale * attenuation *
+    std::max(1., GetLargestColor(optics.GetTransferFunction())) * choices.Brightness);
+  in.LargestShiftError = static_cast<float>(choices.GeometryError);
+}
+
 void FillRays(const RayGrid& grid, const RayLimits& limits, KernelInput& in)
 {
   in.Grid = &grid;
@@ -154,6 +167,7 @@ void FillKernelInput(const VolumeScene& scene, const RayGrid& grid, const RayLim
   }
   in.DistanceRounding = choices.WorldRadius *
     (choices.DoublePrecision ? DoubleDistanceRounding : SingleDistanceRounding);
+  FillShifts(optics, choices, in);
   FillRays(grid, limits, in);
   FillEnds(choices, in);
 }

@@ -25,6 +25,7 @@ struct CastChoices
   double WorldRadius = 0;             ///< of the mesh, where the world stretches it most
   double Brightness = 1;              ///< FindLargestBrightness
   double LightError = 0;              ///< of light that varies in cells
+  double GeometryError = 0;           ///< what rounding geometry may change
   double TerminationError = 0;        ///< what may be lost behind a ray's early end; 0: rays go on
   const WalkTables* Tables = nullptr; ///< what rays are walked through
 };

@@ -16,10 +16,6 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Projections are scaled by this, so that products of two of them stay normal numbers down to the
-/// smallest that differ from zero (SmallestProjection squared, times 2^-24).
-constexpr double ProjectionScale = 1099511627776.; // 2^40
-
 /// Scaled projections below this are zero: 2^-50 radii in single, 2^-140 in double precision, far
 /// below the rounding of the coordinates that they come from.
 template <class Real>

@@ -12,6 +12,7 @@
 #include "Optics/IntervalTable.h"
 #include "Optics/OpticalModel.h"
 #include "PreIntegration/PreIntegrationTable.h"
+#include "RayCast/BoundaryTiles.h"
 #include "Simd/LaneCount.h"
 #include "View/RayAcross.h"
 #include "View/RayGrid.h"
@@ -23,14 +24,6 @@
 
 namespace tetralux
 {
-
-/// Pixels of a packet, whose rays are cast together, one in each lane. Nearly square, so that the
-/// rays stay in the same cells for long.
-///@{
-constexpr int PacketWidth = 4;
-constexpr int PacketHeight = LaneCount / PacketWidth;
-///@}
-static_assert(PacketWidth * PacketHeight == LaneCount, "a ray for each lane");
 
 /// A pre-integration table with texels in single precision.
 struct KernelTable
@@ -62,6 +55,12 @@ struct KernelInput
   const WalkEntry* Entries;
   const BoundaryBvh::Node* Nodes; ///< nullptr: no boundary, an empty mesh
   const std::int32_t* Triangles;
+  /// BoundaryTiles of Grid; nullptr: rays find the boundary by Nodes.
+  ///@{
+  const TileFace* TileFaces;
+  const std::int32_t* TileBegins;
+  int TileColumns;
+  ///@}
   std::int32_t NumberOfCells; ///< of the mesh; those behind are imaginary
   /// For checks: what ids are below.
   ///@{
@@ -88,6 +87,16 @@ struct KernelInput
   const KernelLighting* Lighting;     ///< of lit integrators; nullptr where isosurfaces are not lit
   double DistanceRounding;            ///< what distances along rays may be off by, in world units
 
+  // Of single precision: what a ray's colour changes by where rounding moves the boundary along it.
+  /// The change for a slope of 1 of a boundary face, world units along the ray for a unit of
+  /// projections, where the attenuation is largest; 0: none is found.
+  float ShiftFactor;
+  float LargestAttenuation;
+  float LargestShiftError; ///< of a ray whose packet is not marked
+  std::uint8_t*
+    InexactPackets; ///< packets row by row; those that are marked are not cast. nullptr:
+                    ///< all are cast
+
   // The scene.
   const RayGrid* Grid;
   RayAxes Axes;
@@ -104,6 +113,14 @@ struct KernelInput
   float* Colors; ///< four a pixel, premultiplied
   float* Depths; ///< one a pixel
 };
+
+/// How far single precision moves a face of the boundary across a ray, radii of the mesh:
+/// coordinates are rounded to 2^-25, and so is each of the four terms that project them.
+constexpr double ShiftRounding = 1. / (1 << 23);
+
+/// Projections are scaled by this, so that products of two of them stay normal numbers down to the
+/// smallest that differ from zero (SmallestProjection squared, times 2^-24).
+constexpr double ProjectionScale = 1099511627776.; // 2^40
 
 /// Where a ray crosses the boundary of the mesh.
 struct Crossing
@@ -125,9 +142,18 @@ struct KernelCounts
   std::int64_t Segments = 0; ///< cells walked through, over all rays
   std::int64_t Steps = 0;    ///< steps of packets, each of LaneCount lanes
   std::int64_t Paths = 0;    ///< entries into the mesh
+  double ShiftError = 0;     ///< largest of a ray, see KernelInput::ShiftFactor
 };
 
-/// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1).
+/// Place of the packet with a pixel in KernelInput::InexactPackets.
+constexpr std::int64_t GetPacketPlace(int width, int x, int y)
+{
+  return static_cast<std::int64_t>(y / PacketHeight) * ((width + PacketWidth - 1) / PacketWidth) +
+    x / PacketWidth;
+}
+
+/// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1): of one tile of
+/// RayTileSize, from the first pixel of a packet.
 using RayCastKernel = void (*)(
   const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
 

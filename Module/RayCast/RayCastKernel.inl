@@ -45,6 +45,12 @@ namespace TETRALUX_ISA
 {
 namespace
 {
+/// Bits of the packets of a tile.
+constexpr std::uint32_t AllPackets = ~0u;
+
+/// The depth of a pixel whose ray meets nothing.
+constexpr float NoDepth = -1;
+
 /// Rays of neighbouring pixels on their way through the mesh.
 ///
 /// The rays that are in the mesh take one cell each in every step.
@@ -55,9 +61,10 @@ public:
   using V = typename LanesOf<Real>::Type;
 
   /// The rays of the pixels from (x, y), those of them below (x1, y1).
-  Packet(const KernelInput& in, int x, int y, int x1, int y1, CrossingBuffer& buffer,
-    KernelCounts& counts)
+  Packet(const KernelInput& in, const PacketFaces& faces, int x, int y, int x1, int y1,
+    CrossingBuffer& buffer, KernelCounts& counts)
     : In(in)
+    , Faces(faces)
     , Buffer(buffer)
     , Counts(counts)
     , PixelX(x)
@@ -82,7 +89,10 @@ public:
       this->Walk();
       this->Integrate();
     }
-    this->WritePixels();
+    if (!this->Inexact)
+    {
+      this->WritePixels();
+    }
   }
 
 private:
@@ -334,7 +344,13 @@ private:
       const unsigned active =
         this->Inside & Bits(begin < end) & ~Bits(this->Gathered.IsDone(this->In));
       // Walking strikes crossings off, so each part of the rays finds them anew.
-      FindClearCrossings(this->In, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings);
+      FindClearCrossings(
+        this->In, this->Faces, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings);
+      this->Running = 0;
+      if (this->IsInexact(active))
+      {
+        return;
+      }
       unsigned hit = 0;
       for (int i = 0; i < LaneCount; ++i)
       {
@@ -355,7 +371,6 @@ private:
       // Lanes without a ray rest in any cell; lanes with one are put where they start.
       this->Cell = 0;
       this->Point = 0;
-      this->Running = 0;
       if (active & hit)
       {
         this->A = this->B = this->C = LoadCorner<Real>(this->Ray, this->In.Points, Int8(0));
@@ -368,6 +383,30 @@ private:
         return;
       }
     }
+  }
+
+  /// Whether rounding may change rays by more than is allowed; their packet is marked then.
+  bool IsInexact(unsigned rays)
+  {
+    double largest = 0;
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      const double error = this->Crossings.ShiftError[lane];
+      if (((rays >> lane) & 1u) && error > largest)
+      {
+        largest = error;
+      }
+    }
+    this->Inexact = this->In.InexactPackets && largest > this->In.LargestShiftError;
+    if (this->Inexact)
+    {
+      this->In.InexactPackets[GetPacketPlace(this->In.Grid->Width, this->PixelX, this->PixelY)] = 1;
+    }
+    else if (largest > this->Counts.ShiftError)
+    {
+      this->Counts.ShiftError = largest;
+    }
+    return this->Inexact;
   }
 
   /// Takes a ray's nearest crossing that no walk began or ended at; -1 if there is none.
@@ -509,11 +548,12 @@ private:
       }
       const bool contributed = first[i] < std::numeric_limits<Real>::infinity();
       this->In.Depths[pixel] =
-        contributed ? static_cast<float>(start[i] + static_cast<double>(first[i])) : -1.f;
+        contributed ? static_cast<float>(start[i] + static_cast<double>(first[i])) : NoDepth;
     }
   }
 
   const KernelInput& In;
+  PacketFaces Faces;
   CrossingBuffer& Buffer;
   KernelCounts& Counts;
 
@@ -524,7 +564,8 @@ private:
   WorldRays World;
   Rays<Real> Ray;
   Intervals Limits;
-  int Part = 0; ///< of the limits
+  int Part = 0;         ///< of the limits
+  bool Inexact = false; ///< the packet is left to double precision
   double FarOf[LaneCount];
   PacketCrossings Crossings;
   int Cursor[LaneCount]; ///< first crossing of each ray that may still be an entry
@@ -542,15 +583,53 @@ private:
   Model Gathered;
 };
 
+/// Writes what a packet without a crossing has: pixels from (x, y), those of them below (x1, y1).
+inline void ClearPixels(const KernelInput& in, int x, int y, int x1, int y1)
+{
+  for (int row = y; row < y + PacketHeight && row < y1; ++row)
+  {
+    for (int column = x; column < x + PacketWidth && column < x1; ++column)
+    {
+      const std::int64_t pixel = static_cast<std::int64_t>(row) * in.Grid->Width + column;
+      for (int c = 0; c < 4; ++c)
+      {
+        in.Colors[4 * pixel + c] = 0;
+      }
+      in.Depths[pixel] = NoDepth;
+    }
+  }
+}
+
 template <class Real, class Model, bool CellData>
 void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuffer& buffer,
   KernelCounts& counts)
 {
+  PacketFaces faces{};
+  std::uint32_t met = AllPackets;
+  if (in.TileFaces)
+  {
+    const int tile = y0 / RayTileSize * in.TileColumns + x0 / RayTileSize;
+    faces.Begin = in.TileFaces + in.TileBegins[tile];
+    faces.End = in.TileFaces + in.TileBegins[tile + 1];
+    met = 0;
+    for (const TileFace* face = faces.Begin; face != faces.End; ++face)
+    {
+      met |= face->Packets;
+    }
+  }
   for (int y = y0; y < y1; y += PacketHeight)
   {
     for (int x = x0; x < x1; x += PacketWidth)
     {
-      Packet<Real, Model, CellData>(in, x, y, x1, y1, buffer, counts).Cast();
+      const int packet =
+        y % RayTileSize / PacketHeight * PacketsAcrossTile + x % RayTileSize / PacketWidth;
+      faces.Packet = 1u << packet;
+      if ((met & faces.Packet) == 0)
+      {
+        ClearPixels(in, x, y, x1, y1);
+        continue;
+      }
+      Packet<Real, Model, CellData>(in, faces, x, y, x1, y1, buffer, counts).Cast();
     }
   }
 }

@@ -30,6 +30,15 @@ enum class Reentry
              ///< 3.4); by the boundary where the mesh can't be made convex
 };
 
+/// How rays find the boundary of the mesh. Pictures have the same bits.
+enum class BoundarySearch
+{
+  Automatic, ///< whichever is faster
+  Hierarchy, ///< by a hierarchy over the boundary's faces
+  Tiles      ///< by faces that are sorted into tiles of the picture first; by the hierarchy where
+             ///< that is not possible, see MakeBoundaryTiles
+};
+
 struct RayCastOptions
 {
   /// Largest error of a colour channel or of the opacity to aim at, 0..1. A ray ends early if what
@@ -47,6 +56,7 @@ struct RayCastOptions
   Material Surface;
 
   Reentry ReentryBy = Reentry::Automatic;
+  BoundarySearch Boundary = BoundarySearch::Automatic;
 
   int NumberOfThreads = 0; ///< 0: as many as OpenMP offers
 

@@ -3,12 +3,14 @@
 
 #include "Base/ParallelTiles.h"
 #include "Integral/SegmentWeightError.h"
+#include "RayCast/BoundaryTiles.h"
 #include "RayCast/KernelInput.h"
 #include "RayCast/RayCastKernel.h"
 #include "Scene/IntegratorChoice.h"
 #include "Simd/InstructionSet.h"
 #include "View/MeshToWorld.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -21,9 +23,9 @@ namespace tetralux
 namespace
 {
 
-/// Pixels along a tile's edge: rays of a tile share cells in the first-level cache, and there are
-/// enough tiles to balance threads.
-constexpr int TileSize = 16;
+/// Sorting a face of the boundary into tiles costs as much as this share of finding the boundary by
+/// the hierarchy for a ray.
+constexpr double RaysPerFace = 0.5;
 
 constexpr int InitialCrossings = 32;
 
@@ -121,6 +123,7 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
   choices.DoublePrecision = options.Arithmetic == Precision::Double ||
     choices.Method == Integrator::Components || !std::isfinite(geometryError) ||
     (options.Arithmetic == Precision::Automatic && geometryError > budget.Geometry);
+  choices.GeometryError = budget.Geometry;
   choices.TerminationError = budget.Termination;
   choices.Lit = options.Shaded && !choices.CellData &&
     (IsLit(choices.Method) || choices.Method == Integrator::Isosurfaces);
@@ -164,6 +167,35 @@ RayCastKernel ChooseKernel(InstructionSet set, const CastChoices& choices)
   return choices.DoublePrecision ? pair.Double : pair.Single;
 }
 
+/// The rays of a picture that do not end before they begin.
+std::int64_t CountRays(const RayGrid& grid, const RayLimits& limits)
+{
+  const std::int64_t pixels = static_cast<std::int64_t>(grid.Width) * grid.Height;
+  return limits.MaximumDistances ? pixels -
+      std::count(limits.MaximumDistances, limits.MaximumDistances + pixels,
+        -std::numeric_limits<float>::infinity())
+                                 : pixels;
+}
+
+/// Sorts the boundary into tiles, if that is asked for or pays, and possible.
+bool FillTiles(const WalkMesh& mesh, const WalkTables& tables, const RayGrid& grid,
+  const RayLimits& limits, const RayCastOptions& options, int threads, BoundaryTiles& tiles,
+  KernelInput& in)
+{
+  const bool pays = options.Boundary == BoundarySearch::Automatic
+    ? RaysPerFace * static_cast<double>(tables.Entries.size()) <
+      static_cast<double>(CountRays(grid, limits))
+    : options.Boundary == BoundarySearch::Tiles;
+  if (!pays || !MakeBoundaryTiles(mesh, tables, grid, threads, tiles))
+  {
+    return false;
+  }
+  in.TileFaces = tiles.Faces.data();
+  in.TileBegins = tiles.Begins.data();
+  in.TileColumns = tiles.Grid.GetColumns();
+  return !tiles.Faces.empty();
+}
+
 /// What a thread writes while it casts; on cache lines of its own.
 struct alignas(64) ThreadMemory
 {
@@ -171,7 +203,7 @@ struct alignas(64) ThreadMemory
   KernelCounts Counts;
 };
 
-/// Adds to statistics what the rays met, and the error that follows from it.
+/// Adds to statistics what the rays met, and the errors that follow from it.
 void Summarize(const std::vector<ThreadMemory>& threads, RayCastStatistics& statistics)
 {
   KernelCounts counts;
@@ -180,10 +212,12 @@ void Summarize(const std::vector<ThreadMemory>& threads, RayCastStatistics& stat
     counts.Segments += thread.Counts.Segments;
     counts.Steps += thread.Counts.Steps;
     counts.Paths += thread.Counts.Paths;
+    counts.ShiftError = std::max(counts.ShiftError, thread.Counts.ShiftError);
   }
   statistics.NumberOfThreads = static_cast<int>(threads.size());
   statistics.Segments = counts.Segments;
   statistics.Paths = counts.Paths;
+  statistics.GeometryError = std::max(statistics.GeometryError, std::min(1., counts.ShiftError));
   if (counts.Paths > 0)
   {
     // A sum is rounded once for each segment.
@@ -196,6 +230,146 @@ void Summarize(const std::vector<ThreadMemory>& threads, RayCastStatistics& stat
       static_cast<double>(counts.Segments) / (LaneCount * static_cast<double>(counts.Steps));
   }
 }
+
+/// A picture on its way through the kernels.
+class Casting
+{
+public:
+  Casting(VolumeScene& scene, const RayGrid& grid, const RayLimits& limits,
+    const RayCastOptions& options, const CastChoices& choices, Span<float> colors,
+    Span<float> depths)
+    : Scene(scene)
+    , Grid(grid)
+    , Limits(limits)
+    , Options(options)
+    , Choices(choices)
+    , Colors(colors)
+    , Depths(depths)
+    , Set(options.Kernels.value_or(GetWidestInstructionSet()))
+    , Threads(options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads())
+  {
+  }
+
+  void Cast(RayCastStatistics& statistics)
+  {
+    OwningKernelInput in;
+    this->Fill(this->Choices, in);
+    statistics.BoundaryTiles = FillTiles(*this->Scene.Mesh.GetMesh(), *this->Choices.Tables,
+      this->Grid, this->Limits, this->Options, this->GetNumberOfThreads(), this->Boundary, in);
+    // Where double precision takes over, it is a part of the work that is not known yet.
+    const bool mixed = in.ShiftFactor > 0 && this->Options.Arithmetic == Precision::Automatic;
+    RawVector<std::uint8_t> marks;
+    if (mixed)
+    {
+      marks.assign(
+        static_cast<std::size_t>(GetPacketPlace(this->Grid.Width, 0, this->Grid.Height - 1) +
+          GetPacketPlace(this->Grid.Width, 0, PacketHeight)),
+        0);
+      in.InexactPackets = marks.data();
+    }
+    const RayCastKernel kernel = ChooseKernel(this->Set, this->Choices);
+    const TileGrid tiles{ this->Grid.Width, this->Grid.Height, RayTileSize };
+    statistics.Aborted =
+      !ForEachTile(tiles, this->GetNumberOfThreads(), this->MakeProgress(0, mixed ? FirstShare : 1),
+        [&](const Tile& tile, int thread) { this->CastTile(in, kernel, tile, thread); });
+    if (mixed && !statistics.Aborted)
+    {
+      this->CastMarked(in, marks, statistics);
+    }
+    statistics.InstructionSet = GetName(this->Set);
+    statistics.Rays = static_cast<std::int64_t>(this->Grid.Width) * this->Grid.Height;
+    statistics.DoubleRays += this->Choices.DoublePrecision ? statistics.Rays : 0;
+    Summarize(this->Threads, statistics);
+  }
+
+private:
+  /// Of the progress of a picture, what is reported before packets are cast in double precision.
+  static constexpr double FirstShare = 0.95;
+
+  int GetNumberOfThreads() const { return static_cast<int>(this->Threads.size()); }
+
+  void Fill(const CastChoices& choices, OwningKernelInput& in)
+  {
+    FillKernelInput(this->Scene, this->Grid, this->Limits, this->Options, choices, in);
+    in.Colors = this->Colors.data();
+    in.Depths = this->Depths.data();
+  }
+
+  /// Reports shares of a part of the work.
+  std::function<bool(double)> MakeProgress(double from, double to) const
+  {
+    if (!this->Options.Progress || (from == 0 && to == 1))
+    {
+      return this->Options.Progress;
+    }
+    return [this, from, to](double share)
+    { return this->Options.Progress(from + share * (to - from)); };
+  }
+
+  void CastTile(const KernelInput& in, RayCastKernel kernel, const Tile& tile, int thread)
+  {
+    ThreadMemory& memory = this->Threads[thread];
+    kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, memory.Crossings, memory.Counts);
+  }
+
+  /// Casts the packets that single precision left out.
+  void CastMarked(
+    const KernelInput& single, const RawVector<std::uint8_t>& marks, RayCastStatistics& statistics)
+  {
+    std::vector<Tile> packets;
+    for (int y = 0; y < this->Grid.Height; y += PacketHeight)
+    {
+      for (int x = 0; x < this->Grid.Width; x += PacketWidth)
+      {
+        if (marks[GetPacketPlace(this->Grid.Width, x, y)] != 0)
+        {
+          packets.push_back({ x, y, std::min(x + PacketWidth, this->Grid.Width),
+            std::min(y + PacketHeight, this->Grid.Height) });
+        }
+      }
+    }
+    if (packets.empty())
+    {
+      if (this->Options.Progress)
+      {
+        this->Options.Progress(1);
+      }
+      return;
+    }
+    CastChoices choices = this->Choices;
+    choices.DoublePrecision = true;
+    SceneNeeds needs;
+    needs.DoublePoints = true;
+    this->Scene.Prepare(needs);
+    OwningKernelInput in;
+    this->Fill(choices, in);
+    in.TileFaces = single.TileFaces;
+    in.TileBegins = single.TileBegins;
+    in.TileColumns = single.TileColumns;
+    const RayCastKernel kernel = ChooseKernel(this->Set, choices);
+    // A row of packets, each a tile of one.
+    const TileGrid row{ static_cast<int>(packets.size()), 1, 1 };
+    statistics.Aborted =
+      !ForEachTile(row, this->GetNumberOfThreads(), this->MakeProgress(FirstShare, 1),
+        [&](const Tile& packet, int thread)
+        { this->CastTile(in, kernel, packets[packet.X0], thread); });
+    for (const Tile& packet : packets)
+    {
+      statistics.DoubleRays +=
+        static_cast<std::int64_t>(packet.X1 - packet.X0) * (packet.Y1 - packet.Y0);
+    }
+  }
+
+  VolumeScene& Scene;
+  const RayGrid& Grid;
+  const RayLimits& Limits;
+  const RayCastOptions& Options;
+  const CastChoices& Choices;
+  Span<float> Colors, Depths;
+  InstructionSet Set;
+  std::vector<ThreadMemory> Threads;
+  BoundaryTiles Boundary;
+};
 
 } // namespace
 
@@ -213,26 +387,7 @@ RayCastStatistics CastRays(VolumeScene& scene, const RayGrid& grid, const RayLim
   const CastChoices choices = ChooseCast(scene, grid, options, statistics);
   if (choices.Tables)
   {
-    OwningKernelInput in;
-    FillKernelInput(scene, grid, limits, options, choices, in);
-    in.Colors = colors.data();
-    in.Depths = depths.data();
-
-    const InstructionSet set = options.Kernels.value_or(GetWidestInstructionSet());
-    const RayCastKernel kernel = ChooseKernel(set, choices);
-    std::vector<ThreadMemory> threads(
-      options.NumberOfThreads > 0 ? options.NumberOfThreads : omp_get_max_threads());
-    const TileGrid tiles{ grid.Width, grid.Height, TileSize };
-    statistics.Aborted = !ForEachTile(tiles, static_cast<int>(threads.size()), options.Progress,
-      [&](const Tile& tile, int thread)
-      {
-        ThreadMemory& memory = threads[thread];
-        kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, memory.Crossings, memory.Counts);
-      });
-
-    statistics.InstructionSet = GetName(set);
-    statistics.Rays = static_cast<std::int64_t>(pixels);
-    Summarize(threads, statistics);
+    Casting(scene, grid, limits, options, choices, colors, depths).Cast(statistics);
   }
   else
   {

@@ -20,13 +20,15 @@ namespace tetralux
 struct RayCastStatistics
 {
   bool Aborted = false;
-  bool DoublePrecision = false;
+  bool DoublePrecision = false; ///< of all rays
+  std::int64_t DoubleRays = 0;  ///< in double precision, also where others are not
   std::string InstructionSet;
   Integrator Integration = Integrator::ClosedForm;
   int NumberOfThreads = 0;
   std::int64_t Rays = 0;
   std::int64_t Segments = 0;         ///< cells walked through, over all rays
   std::int64_t Paths = 0;            ///< entries into the mesh, over all rays
+  bool BoundaryTiles = false;        ///< whether the boundary was found by BoundarySearch::Tiles
   bool ImaginaryCells = false;       ///< whether rays went through imaginary cells
   std::int64_t TransparentCells = 0; ///< left out of the walk; 0 where that would not pay
   double LaneUse = 0;                ///< share of vector lanes that carried a ray, 0..1
@@ -37,8 +39,9 @@ struct RayCastStatistics
   double IntegralError = 0;          ///< at most, by the weights of segments
   double SummationError = 0;         ///< estimated, by adding segments up; of a path of mean length
   double TableError = 0;             ///< estimated, by interpolation in a table
-  double GeometryError = 0; ///< estimated, by rounding coordinates and scalars; not that of
-                            ///< pixels that graze, see GeometryError.h
+  double GeometryError = 0; ///< estimated, by rounding coordinates and scalars, also of rays that
+                            ///< graze the boundary; not of those that graze cells in it whose
+                            ///< scalars are constant, see GeometryError.h
 };
 
 /// Cell-to-cell ray casting on the CPU (Garrity 1990; Weiler et al. 2003): packets of rays,

@@ -20,7 +20,8 @@
 // of touching a surface are as frequent as d, and are wrong by the inverse root of d: errors above
 // e are as frequent as 1 / e^2, and the largest one grows with the number of pixels without a
 // bound. Such pixels are found by the exact picture: it changes there by more than the estimate
-// where the ray moves across by GrazingRounding.
+// where the ray moves across by GrazingRounding. The ray caster for the processor measures its rays
+// where they cross the boundary, and casts those that graze it in double precision.
 
 #include "Integral/RaySegments.h"
 #include "Optics/TransferFunction.h"

@@ -168,7 +168,8 @@ VisibilityGeometry MakeGeometry(const WalkMesh& mesh, Span<const std::int32_t> i
   geometry.RelativePoints = mesh.GetPoints<float>();
   std::copy_n(mesh.GetCenter(), 3, geometry.Center.begin());
   geometry.Radius = mesh.GetRadius();
-  geometry.Faces = imaginaryCells.empty() ? mesh.GetTables().Faces : mesh.GetConvexTables().Faces;
+  const WalkTables& tables = imaginaryCells.empty() ? mesh.GetTables() : mesh.GetConvexTables();
+  geometry.Faces = { tables.Faces.data(), tables.Faces.size() };
   if (!imaginaryCells.empty())
   {
     geometry.SteinerPoints = mesh.GetConvexification()->SteinerPoints;

@@ -12,6 +12,18 @@
 
 namespace tetralux
 {
+namespace
+{
+
+/// Of the time that a mesh takes, what is over behind each stage.
+///@{
+constexpr double CleanedShare = 0.1;
+constexpr double OrderedShare = 0.5;
+constexpr double MatchedShare = 0.95;
+///@}
+
+} // namespace
+
 template <>
 std::vector<WalkPoint<float>>& WalkMesh::GetPointTable<float>()
 {
@@ -50,11 +62,11 @@ void WalkMesh::FillCoordinates()
 }
 
 /// What lies behind each face of the cells, in the words of the tables.
-std::vector<WalkFace> MakeFaces(
+RawVector<WalkFace> MakeFaces(
   const std::vector<std::int32_t>& cells, const FaceNeighbors& neighbors)
 {
   const std::int64_t numberOfFaces = static_cast<std::int64_t>(neighbors.Neighbors.size());
-  std::vector<WalkFace> faces(numberOfFaces);
+  RawVector<WalkFace> faces(numberOfFaces);
 #pragma omp parallel for schedule(static)
   for (std::int64_t f = 0; f < numberOfFaces; ++f)
   {
@@ -66,22 +78,43 @@ std::vector<WalkFace> MakeFaces(
   return faces;
 }
 
-WalkMesh::WalkMesh(TetrahedralMesh mesh)
+WalkMesh::WalkMesh(TetrahedralMesh mesh, const std::function<bool(double)>& progress)
   : Mesh(std::move(mesh))
 {
+  const auto goOn = [&](double share)
+  {
+    this->Complete = !progress || progress(share);
+    if (!this->Complete)
+    {
+      this->Mesh = TetrahedralMesh();
+    }
+    return this->Complete;
+  };
   this->Removed = RemoveUnusableCells(this->Mesh);
+  if (!goOn(CleanedShare))
+  {
+    return;
+  }
   OrderSpatially(this->Mesh);
+  if (!goOn(OrderedShare))
+  {
+    return;
+  }
 
   this->MeasureBox();
   this->FillCoordinates<float>();
 
   const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
-  std::vector<WalkFace> faces;
+  RawVector<WalkFace> faces;
   {
     const FaceNeighbors neighbors = FindFaceNeighbors(this->Mesh.Cells, numberOfPoints);
     this->NumberOfNonManifoldFaces = neighbors.NumberOfNonManifoldFaces;
     this->NumberOfComponents = neighbors.NumberOfComponents;
     faces = MakeFaces(this->Mesh.Cells, neighbors);
+  }
+  if (!goOn(MatchedShare))
+  {
+    return;
   }
   this->Tables = MakeWalkTables(std::move(faces), this->Mesh.Cells, this->FloatPoints);
 }

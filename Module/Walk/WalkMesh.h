@@ -29,8 +29,12 @@ class TETRALUXCORE_EXPORT WalkMesh
 {
 public:
   /// Cleans and reorders the mesh (RemoveUnusableCells, OrderSpatially), finds its neighbours and
-  /// boundary, and fills the tables.
-  explicit WalkMesh(TetrahedralMesh mesh);
+  /// boundary, and fills the tables: some 100 nanoseconds a tetrahedron on two threads.
+  /// progress: called between the stages with the share that is done, 0..1; it may be empty. Where
+  /// it returns false, the rest is left out: IsComplete() is false, and there are no cells.
+  explicit WalkMesh(TetrahedralMesh mesh, const std::function<bool(double)>& progress = {});
+
+  bool IsComplete() const { return this->Complete; }
 
   /// The mesh in the order of the tables; OriginalPoints and OriginalCells lead back to the input.
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
@@ -104,6 +108,7 @@ private:
   void FillCoordinates();
 
   TetrahedralMesh Mesh;
+  bool Complete = true;
   RemovedCells Removed;
   std::int64_t NumberOfNonManifoldFaces = 0;
   std::int64_t NumberOfComponents = 0;

@@ -31,7 +31,7 @@ std::size_t WalkTables::GetSize() const
     this->Bvh.Triangles.size() * sizeof(std::int32_t);
 }
 
-WalkTables MakeWalkTables(std::vector<WalkFace> faces, Span<const std::int32_t> cells,
+WalkTables MakeWalkTables(RawVector<WalkFace> faces, Span<const std::int32_t> cells,
   Span<const WalkPoint<float>> points, Span<const std::uint8_t> selected)
 {
   WalkTables tables;

@@ -2,6 +2,7 @@
 #ifndef tetralux_WalkTables_h
 #define tetralux_WalkTables_h
 
+#include "Base/RawVector.h"
 #include "Base/Span.h"
 #include "Hierarchy/BoundaryBvh.h"
 #include "TetraluxCoreModule.h"
@@ -39,7 +40,7 @@ struct WalkEntry
 /// The topology that rays are walked through: of all cells, or of those that can be seen.
 struct WalkTables
 {
-  std::vector<WalkFace> Faces;    ///< four for each cell, face i opposite to its i-th point
+  RawVector<WalkFace> Faces;      ///< four for each cell, face i opposite to its i-th point
   std::vector<WalkEntry> Entries; ///< the boundary faces
   BoundaryBvh Bvh;                ///< over the entries
 
@@ -50,7 +51,7 @@ struct WalkTables
 /// negative on the boundary of the mesh; a face with a cell behind it that is not selected becomes
 /// boundary, too. cells: four ascending point ids each. selected: one flag a cell; empty: all.
 /// Parallel but for the tree, the same result for any number of threads.
-TETRALUXCORE_EXPORT WalkTables MakeWalkTables(std::vector<WalkFace> faces,
+TETRALUXCORE_EXPORT WalkTables MakeWalkTables(RawVector<WalkFace> faces,
   Span<const std::int32_t> cells, Span<const WalkPoint<float>> points,
   Span<const std::uint8_t> selected = {});
 

@@ -128,6 +128,9 @@ CameraRays::CameraRays(vtkRenderer* renderer, double sampleDistance)
   const Vector4 b = Multiply(this->WorldFromDevice, { 0, 0, 1, 0 });
 
   const std::array<double, 3> direction = GetDirection(a, b);
+  this->Places = this->GetDepthPlaces();
+  this->DirectionScale =
+    1 / std::max({ std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2]) });
   if (std::abs(b[3]) > SmallestPerspective * std::abs(a[3]))
   {
     // All rays come from where z is infinite.
@@ -267,21 +270,27 @@ DepthMap CameraRays::GetDepthMap() const
 
 double CameraRays::GetDistance(double i, double j, double depth) const
 {
-  double x, y;
-  this->GetDevicePoint(i, j, x, y);
-  const Vector4 point = Multiply(this->WorldFromDevice, { x, y, 2 * depth - 1, 1 });
+  // All that is divided is linear in i, j and depth.
+  const DepthPlaces& places = this->Places;
+  const auto getPlace = [&](int c)
+  {
+    return places.Farthest[c] + i * places.FarthestStepX[c] + j * places.FarthestStepY[c] +
+      (1 - depth) * places.Nearer[c];
+  };
+  const double weight = 1 / getPlace(3);
   double along = 0;
-  double length = 0;
+  double squares = 0;
   for (int c = 0; c < 3; ++c)
   {
     const double origin = this->Grid.Origin[c] - this->Position[c] + i * this->Grid.OriginStepX[c] +
       j * this->Grid.OriginStepY[c];
-    const double direction =
-      this->Grid.Direction[c] + i * this->Grid.DirectionStepX[c] + j * this->Grid.DirectionStepY[c];
-    along += (point[c] / point[3] - origin) * direction;
-    length = std::hypot(length, direction);
+    const double direction = this->DirectionScale *
+      (this->Grid.Direction[c] + i * this->Grid.DirectionStepX[c] +
+        j * this->Grid.DirectionStepY[c]);
+    along += (getPlace(c) * weight - origin) * direction;
+    squares += direction * direction;
   }
-  return along / length;
+  return along / std::sqrt(squares);
 }
 
 std::array<double, 2> CameraRays::GetWidth() const

@@ -50,7 +50,7 @@ public:
   DepthMap GetDepthMap() const;
 
   /// Distance in world units from the start of ray (i, j) to where the depth buffer (0..1) has this
-  /// value. There are rays between those of the grid, too.
+  /// value. There are rays between those of the grid, too. Some 30 operations.
   double GetDistance(double i, double j, double depth) const;
 
   /// Width of a ray, its distance to the next one: the first number times the distance from its
@@ -75,6 +75,11 @@ private:
   double Position[3] = { 0, 0, 0 };
   double DeviceFromWorld[16]; ///< rows; world relative to Position
   double WorldFromDevice[16];
+
+  // For GetDistance.
+  DepthPlaces Places;
+  double DirectionScale =
+    1; ///< makes squares of directions numbers that neither vanish nor overflow
 };
 
 } // namespace tetralux

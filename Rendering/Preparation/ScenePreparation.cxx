@@ -27,6 +27,20 @@ namespace tetralux
 namespace
 {
 
+/// Of the progress of a mesh, what taking it in takes.
+constexpr double IntakeShare = 0.2;
+
+/// Reports the progress of a part of the work as that of the whole.
+std::function<bool(double)> MakePart(
+  const std::function<bool(double)>& progress, double from, double to)
+{
+  if (!progress)
+  {
+    return {};
+  }
+  return [&progress, from, to](double share) { return progress(from + share * (to - from)); };
+}
+
 /// World units of a length in the mesh, at most.
 double GetLargestScale(const vtkMatrix4x4* worldFromMesh)
 {
@@ -197,7 +211,7 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
     this->Last.MeshSeconds = intakeStopwatch.GetSeconds();
     return true;
   }
-  TetrahedraIntake intake = TakeInTetrahedra(input, progress);
+  TetrahedraIntake intake = TakeInTetrahedra(input, MakePart(progress, 0, IntakeShare));
   if (intake.Aborted)
   {
     return false;
@@ -223,7 +237,13 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   }
   if (!used)
   {
-    this->SetMesh(std::move(intake));
+    auto mesh =
+      std::make_shared<WalkMesh>(std::move(intake.Mesh), MakePart(progress, IntakeShare, 1));
+    if (!mesh->IsComplete())
+    {
+      return false;
+    }
+    this->SetMesh(std::move(mesh), std::move(intake.Report));
     if (!merged.Points.empty())
     {
       this->Merger.CompareWith(*this->Scene.Mesh.GetMesh());
@@ -236,11 +256,6 @@ bool ScenePreparation::PrepareMesh(const MapperSettings& settings, vtkDataObject
   this->Last.MeshSeconds = meshStopwatch.GetSeconds();
   this->Last.Rebuilt.push_back("mesh");
   return true;
-}
-
-void ScenePreparation::SetMesh(TetrahedraIntake intake)
-{
-  this->SetMesh(std::make_shared<WalkMesh>(std::move(intake.Mesh)), std::move(intake.Report));
 }
 
 void ScenePreparation::SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeReport report)
@@ -295,7 +310,7 @@ bool ScenePreparation::MergePoints(const MapperSettings& settings, vtkDataObject
 bool ScenePreparation::UseMerged(const MapperSettings& settings, vtkDataObject* input,
   const CoincidentPoints& merged, const std::function<bool(double)>& progress, bool& used)
 {
-  TetrahedraIntake intake = TakeInTetrahedra(input, progress, merged);
+  TetrahedraIntake intake = TakeInTetrahedra(input, MakePart(progress, 0, IntakeShare), merged);
   if (intake.Aborted)
   {
     return false;
@@ -304,7 +319,12 @@ bool ScenePreparation::UseMerged(const MapperSettings& settings, vtkDataObject* 
   {
     throw std::invalid_argument(intake.Error);
   }
-  auto mesh = std::make_shared<WalkMesh>(std::move(intake.Mesh));
+  auto mesh =
+    std::make_shared<WalkMesh>(std::move(intake.Mesh), MakePart(progress, IntakeShare, 1));
+  if (!mesh->IsComplete())
+  {
+    return false;
+  }
   used = this->Merger.Accept(settings.Merging, merged, *mesh);
   if (used)
   {

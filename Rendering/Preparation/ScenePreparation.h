@@ -101,7 +101,6 @@ private:
     const std::function<bool(double)>& progress);
   bool UseMerged(const MapperSettings& settings, vtkDataObject* input,
     const CoincidentPoints& merged, const std::function<bool(double)>& progress, bool& used);
-  void SetMesh(TetrahedraIntake intake);
   void SetMesh(std::shared_ptr<WalkMesh> mesh, TetrahedraIntakeReport report);
   void ChooseComponents(const MapperSettings& settings, const std::vector<DataSetBlock>& blocks,
     vtkVolumeProperty* property);

@@ -70,7 +70,7 @@ OrderedMesh MakeOrderedMesh(TetrahedralMesh mesh, const std::vector<double>& sca
     result.Points.push_back({ x[0], x[1], x[2], static_cast<float>(2 * scalars[p] - 1) });
   }
   const FaceNeighbors neighbors = FindFaceNeighbors(mesh.Cells, n);
-  std::vector<WalkFace> faces;
+  RawVector<WalkFace> faces;
   for (std::size_t f = 0; f < neighbors.Neighbors.size(); ++f)
   {
     const std::int32_t cell = neighbors.Neighbors[f];

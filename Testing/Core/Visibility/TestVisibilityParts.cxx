@@ -48,7 +48,8 @@ struct Scene
   {
     this->Geometry.Points = this->Mesh.GetMesh().Points;
     this->Geometry.Cells = this->Mesh.GetMesh().Cells;
-    this->Geometry.Faces = this->Mesh.GetTables().Faces;
+    const auto& faces = this->Mesh.GetTables().Faces;
+    this->Geometry.Faces = { faces.data(), faces.size() };
     this->Geometry.Boundary = &this->Mesh.GetTables();
     this->Geometry.RelativePoints = this->Mesh.GetPoints<float>();
     std::copy_n(this->Mesh.GetCenter(), 3, this->Geometry.Center.begin());

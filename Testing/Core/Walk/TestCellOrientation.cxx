@@ -17,7 +17,9 @@ using tetralux::WalkMesh;
 
 std::vector<std::uint8_t> Orient(const WalkMesh& mesh)
 {
-  return tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces);
+  const auto& faces = mesh.GetTables().Faces;
+  return tetralux::OrientCells(
+    mesh.GetMesh().Points, mesh.GetMesh().Cells, { faces.data(), faces.size() });
 }
 
 double GetSignedVolume(const tetralux::TetrahedralMesh& mesh, std::size_t cell)

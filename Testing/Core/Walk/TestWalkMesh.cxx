@@ -299,4 +299,31 @@ TEST(WalkMesh, ImaginaryCellsShareFacesWithTheMesh)
   EXPECT_TRUE(beside.GetConvexTables().Faces.empty());
 }
 
+TEST(WalkMesh, ReportsProgressAndEndsWhereItIsTold)
+{
+  const TetrahedralMesh mesh = MakeBox(3, 3, 3, { 0, 0, 0 }, { 1, 1, 1 }, 0);
+  std::vector<double> shares;
+  const WalkMesh whole(mesh,
+    [&shares](double share)
+    {
+      shares.push_back(share);
+      return true;
+    });
+  EXPECT_TRUE(whole.IsComplete());
+  EXPECT_GT(whole.GetNumberOfBoundaryFaces(), 0);
+  ASSERT_GE(shares.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GT(shares.front(), 0);
+  EXPECT_LT(shares.back(), 1);
+
+  for (std::size_t last = 0; last < shares.size(); ++last)
+  {
+    std::size_t calls = 0;
+    const WalkMesh ended(mesh, [&](double) { return calls++ < last; });
+    EXPECT_EQ(calls, last + 1);
+    EXPECT_FALSE(ended.IsComplete());
+    EXPECT_EQ(ended.GetNumberOfCells(), 0);
+  }
+}
+
 } // namespace

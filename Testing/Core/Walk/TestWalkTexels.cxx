@@ -27,7 +27,8 @@ WalkMesh MakeRing()
 WalkTexels MakeTexels(const WalkMesh& mesh)
 {
   return tetralux::MakeWalkTexels(mesh.GetTables(),
-    tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces));
+    tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells,
+      { mesh.GetTables().Faces.data(), mesh.GetTables().Faces.size() }));
 }
 
 // Each boundary face once, with the face's own index, and seen from outside: a ray that comes in
