@@ -346,6 +346,11 @@ std::string Draw(const std::string& input, vtkAbstractVolumeMapper* mapper, vtkR
   ProgressLine progress("rendering");
   progress.Observe(mapper, vtkCommand::ProgressEvent);
   progress.Observe(mapper, vtkCommand::VolumeMapperRenderProgressEvent);
+  auto* projection = vtkTetrahedraProjectionMapper::SafeDownCast(mapper);
+  if (mayChange && projection)
+  {
+    projection->SetOrderToExact(); // which finds out whether cells overlap
+  }
   window->Render();
   if (messages.GetError().empty())
   {

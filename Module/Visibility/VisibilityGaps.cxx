@@ -40,6 +40,9 @@ constexpr double EdgeOnTolerance = 1e-12;
 /// hundred roundings.
 constexpr double ShortestStretch = 1e-13;
 
+/// How many faces in bins are looked at while a box of the hierarchy is.
+constexpr std::int64_t LooksOfBox = 8;
+
 using Vector = FaceBins::Corner;
 
 Vector operator-(const Vector& a, const Vector& b)
@@ -198,8 +201,7 @@ public:
 
   bool IsLeft(std::int64_t face) const { return this->Facing[face] > 0; }
 
-  /// Appends what is behind a face that rays leave by. Returns how many faces, and boxes of the
-  /// hierarchy, were looked at.
+  /// Appends what is behind a face that rays leave by. Returns how many faces were looked at.
   std::int64_t Find(std::int64_t leftFace, std::vector<Gap>& gaps) const
   {
     const WalkEntry& left = this->Geometry.Boundary->Entries[leftFace];
@@ -247,7 +249,8 @@ private:
     double Size;       ///< how large the face would look if it were turned to the viewer
   };
 
-  /// Looks at the faces in the boxes that meet a cone. Returns how many boxes and faces those are.
+  /// Looks at the faces in the boxes that meet a cone. Returns how many that
+  /// is, each as LooksOfBox.
   std::int64_t FindInHierarchy(const Cone& cone, std::vector<Gap>& gaps) const
   {
     const BoundaryBvh& bvh = this->Geometry.Boundary->Bvh;
@@ -280,7 +283,7 @@ private:
         }
       }
     }
-    return looked;
+    return LooksOfBox * looked;
   }
 
   /// Appends the arrow from a face that rays leave by to one that they enter by, if there is any.

@@ -25,7 +25,7 @@ struct VisibilityGaps
   /// what coordinates in single precision may be off by; else 0.
   std::vector<std::uint8_t> Slivers;
 
-  std::int64_t Looked = 0; ///< at faces and boxes: what finding the gaps took
+  std::int64_t Looked = 0; ///< how many faces were looked at: what finding the gaps took
 };
 
 /// Finds all gaps of a view. With them the order of any mesh is exact, also of one that can't be

@@ -342,6 +342,7 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
     drawn.empty() ? ofMesh : ofMesh - std::count(drawn.begin(), drawn.end(), std::uint8_t{ 0 });
   this->Cycles = {};
   this->UsedMethod = method;
+  this->LooksForGaps = 0;
   this->Order.resize(size);
 
   if (method == VisibilityMethod::CentroidDistance)
@@ -380,6 +381,7 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
     {
       this->UsedMethod = VisibilityMethod::MeshedNonConvex;
     }
+    this->LooksForGaps = gaps.Looked;
   }
   CellWriter write(this->Order, direction, ofMesh, drawn);
   if (tables.SortByArrows(roots, gaps, write))
