@@ -451,11 +451,6 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   section["tetrahedra_in_order"] = static_cast<std::int64_t>(scene.Order.size());
   section["tetrahedra_drawn"] = drawn.Cells;
   section["triangles"] = drawn.Triangles;
-  section["bytes_of_graphics_card"] = static_cast<std::int64_t>(this->Picture.GetNumberOfBytes());
-  section["bytes_of_screen_points"] =
-    static_cast<std::int64_t>(this->Points.capacity() * sizeof(tetralux::ScreenPoint));
-  section["bytes_of_order"] = static_cast<std::int64_t>(
-    this->Sorter && this->Sorted ? this->Sorter->Get().GetSize() : this->Order.capacity() * sizeof(std::int32_t));
   section["order"] = this->Sorted ? GetMethodName(this->Method) : "none";
   if (this->Sorted)
   {
@@ -467,6 +462,16 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
     section["looks_for_gaps"] = this->Sorter->Get().GetLooksForGaps();
   }
   frame.Sections.emplace_back("projection", section);
+  frame.Memory.emplace_back(
+    "screen_points", this->Points.capacity() * sizeof(tetralux::ScreenPoint));
+  frame.Memory.emplace_back("drawn_cells", this->DrawnCells.capacity());
+  frame.Memory.emplace_back("order",
+    this->Order.capacity() * sizeof(std::int32_t) +
+      (this->Sorter && this->Sorted ? this->Sorter->Get().GetSize() : 0));
+  frame.Memory.emplace_back("projected_cells", this->Picture.GetNumberOfCellBytes());
+  frame.Memory.emplace_back("card_cells", this->Picture.GetNumberOfPartBytes());
+  frame.Memory.emplace_back("card_integral", this->Picture.GetNumberOfIntegralBytes());
+  frame.Memory.emplace_back("card_pictures", this->Picture.GetNumberOfPictureBytes());
 
   const bool isOrderWrong = this->Sorted &&
     (this->Method == VisibilityMethod::CentroidDistance ||

@@ -77,6 +77,15 @@ struct ProjectedCells
   {
     return static_cast<std::int64_t>(this->PartBegins.size()) - 1;
   }
+
+  std::size_t GetNumberOfBytes() const ///< that are allocated
+  {
+    return this->Cells.capacity() * sizeof(ProjectedCell) +
+      this->InterpolatedCells.capacity() * sizeof(InterpolatedCell) +
+      this->Gradients.capacity() * sizeof(ProjectedGradient) +
+      this->FaceScalars.capacity() * sizeof(FaceScalar) +
+      this->Triangles.capacity() * sizeof(std::uint16_t);
+  }
 };
 
 /// What fragments get to know of their cell.

@@ -472,11 +472,15 @@ void ProjectionPicture::Read(const ProjectionScene& scene, Span<float> colors, S
   }
 }
 
-std::size_t ProjectionPicture::GetNumberOfBytes() const
+std::size_t ProjectionPicture::GetNumberOfIntegralBytes() const
+{
+  return this->Integral.GetNumberOfBytes() + this->Pieces.GetNumberOfBytes();
+}
+
+std::size_t ProjectionPicture::GetNumberOfPictureBytes() const
 {
   return this->Colors.GetNumberOfBytes() + this->Scalars.GetNumberOfBytes() +
-    this->Distances.GetNumberOfBytes() + this->Drawer.GetNumberOfBytes() +
-    this->Integral.GetNumberOfBytes() + this->Pieces.GetNumberOfBytes();
+    this->Distances.GetNumberOfBytes();
 }
 
 } // namespace tetralux
