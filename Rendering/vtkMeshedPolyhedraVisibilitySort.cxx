@@ -66,8 +66,7 @@ vtkMeshedPolyhedraVisibilitySort::~vtkMeshedPolyhedraVisibilitySort() = default;
 void vtkMeshedPolyhedraVisibilitySort::UpdateTables()
 {
   Internals& tables = *this->Tables;
-  if (tables.Order && tables.Input == this->Input &&
-    tables.InputTime == this->Input->GetMTime())
+  if (tables.Order && tables.Input == this->Input && tables.InputTime == this->Input->GetMTime())
   {
     return;
   }

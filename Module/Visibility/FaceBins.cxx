@@ -140,8 +140,8 @@ void FaceBins::Fill(Span<const std::uint8_t> binned)
   }
   const double perLength[2] = { this->BinsPerLength[0], this->BinsPerLength[1] };
   const auto wish = std::sqrt(static_cast<double>(chosen.size()) / FacesPerBin);
-  std::int32_t resolution = std::clamp(
-    static_cast<std::int32_t>(wish), SmallestResolution, LargestResolution);
+  std::int32_t resolution =
+    std::clamp(static_cast<std::int32_t>(wish), SmallestResolution, LargestResolution);
   for (; resolution >= SmallestResolution; resolution /= 2)
   {
     this->Resolution = resolution;

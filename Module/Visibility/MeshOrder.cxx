@@ -54,15 +54,14 @@ const std::vector<std::int32_t>* MeshOrder::Sort(const VisibilityView& view, Ord
       this->TableSeconds += watch.Lap();
     }
     const VisibilityMethod method = wish == OrderWish::NonConvex ? VisibilityMethod::MeshedNonConvex
-      : wish == OrderWish::Centroids             ? VisibilityMethod::CentroidDistance
-      : imaginary && this->Order->IsConvex()     ? VisibilityMethod::Meshed
-                                                 : VisibilityMethod::MeshedAcrossGaps;
+      : wish == OrderWish::Centroids         ? VisibilityMethod::CentroidDistance
+      : imaginary && this->Order->IsConvex() ? VisibilityMethod::Meshed
+                                             : VisibilityMethod::MeshedAcrossGaps;
     const std::vector<std::int32_t>& order = this->Order->Sort(view, method, direction, drawn);
     const bool mayBeConvex = automatic && !this->Mesh.GetConvexification();
     this->GapsAreCostly = mayBeConvex &&
       this->Order->GetLooksForGaps() > CostlyLooks * this->Mesh.GetNumberOfBoundaryFaces();
-    convexify =
-      mayBeConvex && this->Order->GetUsedMethod() == VisibilityMethod::MeshedNonConvex;
+    convexify = mayBeConvex && this->Order->GetUsedMethod() == VisibilityMethod::MeshedNonConvex;
     if (!convexify)
     {
       return &order;

@@ -235,8 +235,7 @@ public:
     const Cone cone = { left.Cell, { getSide(0), getSide(1), getSide(2), behind },
       this->MeasureFromFront(exit) };
     return this->Bins->IsUsable()
-      ? this->Bins->ForEach(
-          leftFace, [&](std::int32_t face) { this->AddGap(cone, face, gaps); })
+      ? this->Bins->ForEach(leftFace, [&](std::int32_t face) { this->AddGap(cone, face, gaps); })
       : this->FindInHierarchy(cone, gaps);
   }
 
@@ -298,8 +297,8 @@ private:
         [&](const Vector& corner) { return plane.GetDistance(corner) < distance; });
     };
     if (entered.Cell == cone.Cell || isOutside(behind, -this->Contact) ||
-      std::any_of(cone.Planes, cone.Planes + 3,
-        [&](const Plane& plane) { return isOutside(plane, 0); }))
+      std::any_of(
+        cone.Planes, cone.Planes + 3, [&](const Plane& plane) { return isOutside(plane, 0); }))
     {
       return;
     }
@@ -472,11 +471,11 @@ private:
   VisibilityView View;
   /// For each boundary face 1 where rays leave by it, -1 where they enter, 0 where it is edge-on.
   std::vector<std::int8_t> Facing;
-  std::vector<std::uint8_t> EdgeOn; ///< to rounding, see EdgeOnTolerance
+  std::vector<std::uint8_t> EdgeOn;      ///< to rounding, see EdgeOnTolerance
   std::vector<FaceBins::Face> Triangles; ///< of the boundary
   std::optional<FaceBins> Bins;          ///< those that rays enter by
-  double Rounding = 0;              ///< SingleRounding in radii
-  double Contact = 0;               ///< ContactTolerance in radii
+  double Rounding = 0;                   ///< SingleRounding in radii
+  double Contact = 0;                    ///< ContactTolerance in radii
 };
 
 } // namespace

@@ -172,9 +172,8 @@ bool WalkMesh::IsConvex()
 {
   if (!this->Convexity)
   {
-    this->Convexity = this->Convex
-      ? this->Convex->Convex
-      : tetralux::IsConvex(this->Mesh, this->MakeNeighbors());
+    this->Convexity =
+      this->Convex ? this->Convex->Convex : tetralux::IsConvex(this->Mesh, this->MakeNeighbors());
   }
   return *this->Convexity;
 }

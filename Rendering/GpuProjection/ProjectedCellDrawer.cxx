@@ -66,8 +66,8 @@ constexpr Attribute GradientAttributes[] = {
 /// Sends what there is of cells, and tells the program's attributes where it is; false where it
 /// can't be sent.
 template <class Cell, std::size_t Size>
-bool Send(Span<const Cell> cells, const Attribute (&attributes)[Size],
-  vtkShaderProgram* program, vtkOpenGLBufferObject* buffer, vtkOpenGLVertexArrayObject* array)
+bool Send(Span<const Cell> cells, const Attribute (&attributes)[Size], vtkShaderProgram* program,
+  vtkOpenGLBufferObject* buffer, vtkOpenGLVertexArrayObject* array)
 {
   if (cells.empty())
   {
