@@ -21,6 +21,8 @@ constexpr double MarginOfPlace = 1e-14;
 
 constexpr double FacesPerBin = 2;
 constexpr std::int32_t LargestResolution = 512;
+
+/// Fewer bins than that, of many faces, are no better than a hierarchy.
 constexpr std::int32_t SmallestResolution = 8;
 
 /// Entries in bins, for each face, beyond which bins are too small for the faces.
@@ -139,10 +141,11 @@ void FaceBins::Fill(Span<const std::uint8_t> binned)
     }
   }
   const double perLength[2] = { this->BinsPerLength[0], this->BinsPerLength[1] };
-  const auto wish = std::sqrt(static_cast<double>(chosen.size()) / FacesPerBin);
-  std::int32_t resolution =
-    std::clamp(static_cast<std::int32_t>(wish), SmallestResolution, LargestResolution);
-  for (; resolution >= SmallestResolution; resolution /= 2)
+  const auto wish =
+    static_cast<std::int32_t>(std::sqrt(static_cast<double>(chosen.size()) / FacesPerBin));
+  const std::int32_t finest = std::clamp(wish, 1, LargestResolution);
+  const std::int32_t coarsest = std::min(finest, SmallestResolution);
+  for (std::int32_t resolution = finest; resolution >= coarsest; resolution /= 2)
   {
     this->Resolution = resolution;
     for (int axis = 0; axis < 2; ++axis)

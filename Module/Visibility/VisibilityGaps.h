@@ -34,8 +34,8 @@ struct VisibilityGaps
 ///
 /// Where a face that rays leave by has a twin (FindTwinFaces), that is all that is right behind it,
 /// with exact signs. For the others, takes the boundary faces that are at the same place on the
-/// picture (FaceBins), and clips them by the cone behind it; for a viewer inside or beside the mesh,
-/// those in the cone, from the hierarchy over the boundary. In double precision; only slivers
+/// picture (FaceBins), and clips them by the cone behind it; for a viewer inside or beside the
+/// mesh, those in the cone, from the hierarchy over the boundary. In double precision; only slivers
 /// depend on its tolerances. Parallel, the same result for any number of threads.
 ///
 /// Returns false, and no gaps, if there are more than LargestNumberOfGaps for each boundary face.

@@ -27,8 +27,8 @@ namespace tetralux
 namespace
 {
 
-/// Cells that are projected at once, 8 MB: enough for all threads, which wait busily for each other,
-/// and few enough that whoever wants to abort is heard soon.
+/// Cells that are projected at once, 8 MB: enough for all threads, which wait busily for each
+/// other, and few enough that whoever wants to abort is heard soon.
 constexpr std::size_t BatchSize = 65536;
 
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.

@@ -13,7 +13,7 @@ from mapper_scene import MapperScene, get_points, make_property, make_unit_cube,
 
 MAPPERS = {
     "vtkTetrahedraRayCastMapper": (),
-    "vtkTetrahedraGPURayCastMapper": ("cell_orientation", "card_mesh", "card_rays"),
+    "vtkTetrahedraGPURayCastMapper": ("card_mesh", "card_integral", "card_rays"),
     "vtkTetrahedraProjectionMapper": ("screen_points", "order", "projected_cells", "card_cells"),
     "vtkTetrahedraIsosurfaceMapper": ("isosurface_trees", "isosurface_steps"),
 }
@@ -21,7 +21,7 @@ VOXELS = 48  # along an edge, each of five tetrahedra
 
 # Bytes that a process may grow by beside what is named: what Mesa makes of two parts of cells, a
 # picture, and memory that the C library keeps though it was freed.
-UNNAMED = 30e6
+UNNAMED = 25e6
 
 # The share of what is named that may not be in memory: pages that nothing was written to yet.
 UNUSED = 0.15
