@@ -164,7 +164,7 @@ public:
         for (vtkIdType i = 4 * begin; i < 4 * end; ++i)
         {
           const std::int32_t neighbor = this->Neighbors.Neighbors[i];
-          const vtkIdType value = 4 * this->Mesh.OriginalCells[i / 4] + i % 4;
+          const vtkIdType value = vtkIdType{ 4 } * this->Mesh.OriginalCells[i / 4] + i % 4;
           neighborValues[value] = neighbor < 0
             ? static_cast<vtkIdType>(vtkTetrahedraNeighbors::OUTSIDE)
             : this->Mesh.OriginalCells[neighbor];
@@ -272,7 +272,7 @@ private:
       }
       counts.GhostCells += this->CellMarks.Has(cell, vtkDataSetAttributes::DUPLICATECELL);
       this->Mesh.Cells.insert(this->Mesh.Cells.end(), points.begin(), points.end());
-      this->Mesh.OriginalCells.push_back(cell);
+      this->Mesh.OriginalCells.push_back(static_cast<std::int32_t>(cell));
     }
     return {};
   }

@@ -151,7 +151,7 @@ void CarryCellData(const Blocks& blocks, const tetralux::TetrahedralMesh& mesh, 
   }
 }
 
-void AddIds(vtkDataSetAttributes* output, const char* name, const std::vector<std::int64_t>& ids,
+void AddIds(vtkDataSetAttributes* output, const char* name, const std::vector<std::int32_t>& ids,
   std::size_t count)
 {
   vtkNew<vtkIdTypeArray> array;
@@ -165,7 +165,7 @@ void AddIds(vtkDataSetAttributes* output, const char* name, const std::vector<st
   else
   {
     std::transform(ids.begin(), ids.end(), values,
-      [](std::int64_t id) { return static_cast<vtkIdType>(std::max<std::int64_t>(id, -1)); });
+      [](std::int32_t id) { return static_cast<vtkIdType>(std::max(id, -1)); });
   }
   output->AddArray(array);
 }

@@ -4,7 +4,7 @@
 #include "Frame/CameraRays.h"
 #include "Intake/TetrahedraIntake.h"
 #include "Properties/PropertySetters.h"
-#include "Visibility/VisibilityOrder.h"
+#include "Visibility/MeshOrder.h"
 #include "Walk/WalkMesh.h"
 
 #include "vtkCamera.h"
@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+using tetralux::OrderWish;
 using tetralux::VisibilityMethod;
 
 vtkStandardNewMacro(vtkMeshedPolyhedraVisibilitySort);
@@ -32,14 +33,19 @@ struct vtkMeshedPolyhedraVisibilitySort::Internals
   // What the tables were made of.
   vtkDataSet* Input = nullptr;
   vtkMTimeType InputTime = 0;
-  bool Convex = false; ///< whether they have imaginary cells, where there are any
 
   std::unique_ptr<tetralux::WalkMesh> Mesh;
-  std::unique_ptr<tetralux::VisibilityOrder> Order;
+  std::unique_ptr<tetralux::MeshOrder> Order;
 
   std::vector<vtkIdType> Sorted; ///< ids of the input
   std::size_t Next = 0;
   vtkNew<vtkIdTypeArray> Returned;
+
+  /// Those of the last order; nullptr before the first.
+  const tetralux::VisibilityCycles* GetCycles() const
+  {
+    return this->Order ? &this->Order->Get().GetCycles() : nullptr;
+  }
 
   vtkIdType GetInputCell(std::int32_t cell) const
   {
@@ -60,42 +66,31 @@ vtkMeshedPolyhedraVisibilitySort::~vtkMeshedPolyhedraVisibilitySort() = default;
 void vtkMeshedPolyhedraVisibilitySort::UpdateTables()
 {
   Internals& tables = *this->Tables;
-  const bool convex = this->Order == AUTOMATIC_ORDER || this->Order == EXACT_ORDER;
-  const bool current =
-    tables.Mesh && tables.Input == this->Input && tables.InputTime == this->Input->GetMTime();
-  if (current && tables.Order && tables.Convex == convex)
+  if (tables.Order && tables.Input == this->Input && tables.InputTime == this->Input->GetMTime())
   {
     return;
   }
   tables.Order.reset();
-  if (!current)
+  tables.Mesh.reset();
+  tetralux::TetrahedraIntake intake = tetralux::TakeInTetrahedra(this->Input);
+  if (!intake.Error.empty())
   {
-    tables.Mesh.reset();
-    tetralux::TetrahedraIntake intake = tetralux::TakeInTetrahedra(this->Input);
-    if (!intake.Error.empty())
-    {
-      throw std::invalid_argument(intake.Error);
-    }
-    const auto& cells = intake.Mesh.OriginalCells;
-    const auto split = std::adjacent_find(cells.begin(), cells.end());
-    if (split != cells.end() || intake.Report.GetNumberOfSkippedCells() > 0)
-    {
-      throw std::invalid_argument(
-        "only tetrahedra can be sorted, which vtkTetrahedralizeCells makes of "
-        "other cells: " +
-        (split != cells.end() ? "cell " + std::to_string(*split) + " is none"
-                              : "there are " + intake.Report.DescribeSkippedCells()));
-    }
-    tables.Mesh = std::make_unique<tetralux::WalkMesh>(std::move(intake.Mesh));
-    tables.Input = this->Input;
-    tables.InputTime = this->Input->GetMTime();
+    throw std::invalid_argument(intake.Error);
   }
-  if (convex)
+  const auto& cells = intake.Mesh.OriginalCells;
+  const auto split = std::adjacent_find(cells.begin(), cells.end());
+  if (split != cells.end() || intake.Report.GetNumberOfSkippedCells() > 0)
   {
-    tables.Mesh->MakeConvex();
+    throw std::invalid_argument(
+      "only tetrahedra can be sorted, which vtkTetrahedralizeCells makes of "
+      "other cells: " +
+      (split != cells.end() ? "cell " + std::to_string(*split) + " is none"
+                            : "there are " + intake.Report.DescribeSkippedCells()));
   }
-  tables.Order = std::make_unique<tetralux::VisibilityOrder>(*tables.Mesh, convex);
-  tables.Convex = convex;
+  tables.Mesh = std::make_unique<tetralux::WalkMesh>(std::move(intake.Mesh));
+  tables.Input = this->Input;
+  tables.InputTime = this->Input->GetMTime();
+  tables.Order = std::make_unique<tetralux::MeshOrder>(*tables.Mesh);
 }
 
 //----------------------------------------------------------------------------
@@ -124,30 +119,30 @@ void vtkMeshedPolyhedraVisibilitySort::Sort()
     view.Direction[axis] = -eye[axis];
   }
 
-  const std::vector<std::int32_t>& order =
-    tables.Order->Sort(view, GetMethodOf(this->Order, *tables.Order),
-      this->Direction == FRONT_TO_BACK ? tetralux::VisibilityDirection::FrontToBack
-                                       : tetralux::VisibilityDirection::BackToFront);
-  this->UsedOrder = GetOrderOf(tables.Order->GetUsedMethod());
+  const std::vector<std::int32_t>& order = *tables.Order->Sort(view, GetWishOf(this->Order),
+    this->Direction == FRONT_TO_BACK ? tetralux::VisibilityDirection::FrontToBack
+                                     : tetralux::VisibilityDirection::BackToFront);
+  this->UsedOrder = GetOrderOf(tables.Order->Get().GetUsedMethod());
   tables.Sorted.resize(order.size());
   std::transform(order.begin(), order.end(), tables.Sorted.begin(),
     [&](std::int32_t cell) { return tables.GetInputCell(cell); });
 }
 
 //----------------------------------------------------------------------------
-VisibilityMethod vtkMeshedPolyhedraVisibilitySort::GetMethodOf(
-  int order, const tetralux::VisibilityOrder& tables)
+tetralux::OrderWish vtkMeshedPolyhedraVisibilitySort::GetWishOf(int order)
 {
   switch (order)
   {
+    case EXACT_ORDER:
+      return OrderWish::Convexified;
     case ACROSS_GAPS_ORDER:
-      return VisibilityMethod::MeshedAcrossGaps;
+      return OrderWish::AcrossGaps;
     case NON_CONVEX_ORDER:
-      return VisibilityMethod::MeshedNonConvex;
+      return OrderWish::NonConvex;
     case CENTROID_ORDER:
-      return VisibilityMethod::CentroidDistance;
+      return OrderWish::Centroids;
     default:
-      return tables.IsConvex() ? VisibilityMethod::Meshed : VisibilityMethod::MeshedAcrossGaps;
+      return OrderWish::Automatic;
   }
 }
 
@@ -215,22 +210,22 @@ vtkIdTypeArray* vtkMeshedPolyhedraVisibilitySort::GetNextCells()
 //----------------------------------------------------------------------------
 vtkIdType vtkMeshedPolyhedraVisibilitySort::GetNumberOfCycles()
 {
-  const auto& order = this->Tables->Order;
-  return order ? static_cast<vtkIdType>(order->GetCycles().GetNumberOfCycles()) : 0;
+  const tetralux::VisibilityCycles* cycles = this->Tables->GetCycles();
+  return cycles ? static_cast<vtkIdType>(cycles->GetNumberOfCycles()) : 0;
 }
 
 //----------------------------------------------------------------------------
 vtkIdType vtkMeshedPolyhedraVisibilitySort::GetNumberOfIgnoredFaces()
 {
-  const auto& order = this->Tables->Order;
-  return order ? static_cast<vtkIdType>(order->GetCycles().IgnoredFaces) : 0;
+  const tetralux::VisibilityCycles* cycles = this->Tables->GetCycles();
+  return cycles ? static_cast<vtkIdType>(cycles->IgnoredFaces) : 0;
 }
 
 //----------------------------------------------------------------------------
 double vtkMeshedPolyhedraVisibilitySort::GetIgnoredArea()
 {
-  const auto& order = this->Tables->Order;
-  return order ? order->GetCycles().IgnoredArea : 0;
+  const tetralux::VisibilityCycles* cycles = this->Tables->GetCycles();
+  return cycles ? cycles->IgnoredArea : 0;
 }
 
 //----------------------------------------------------------------------------
@@ -242,7 +237,7 @@ void vtkMeshedPolyhedraVisibilitySort::GetCycle(vtkIdType cycle, vtkIdList* cell
     vtkErrorMacro("there is no cycle " << cycle << ": there are " << this->GetNumberOfCycles());
     return;
   }
-  const tetralux::VisibilityCycles& cycles = this->Tables->Order->GetCycles();
+  const tetralux::VisibilityCycles& cycles = *this->Tables->GetCycles();
   for (std::int64_t i = cycles.Begins[cycle]; i < cycles.Begins[cycle + 1]; ++i)
   {
     if (cycles.Cells[i] < this->Tables->Mesh->GetNumberOfCells())
@@ -255,10 +250,8 @@ void vtkMeshedPolyhedraVisibilitySort::GetCycle(vtkIdType cycle, vtkIdList* cell
 //----------------------------------------------------------------------------
 const char* vtkMeshedPolyhedraVisibilitySort::GetRefusal()
 {
-  const auto& mesh = this->Tables->Mesh;
-  const tetralux::Convexification* convex =
-    mesh && this->Tables->Convex ? mesh->GetConvexification() : nullptr;
-  return convex ? convex->Refusal.c_str() : "";
+  const auto& order = this->Tables->Order;
+  return order ? order->GetRefusal().c_str() : "";
 }
 
 //----------------------------------------------------------------------------

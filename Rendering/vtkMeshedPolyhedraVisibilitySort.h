@@ -9,9 +9,10 @@
  * centers, which is wrong if neighbours differ in size or shape.
  *
  * Meshed polyhedra visibility ordering (Williams, Visibility Ordering Meshed Polyhedra, 1992): for
- * each face that two cells have in common, an exact sign tells which of them is in front. If the
- * mesh is not convex, imaginary cells fill the space between its boundary and its hull; they are
- * sorted with the others and not returned. Cells that occlude each other in a cycle have no right
+ * each face that two cells have in common, an exact sign tells which of them is in front. Across
+ * empty space it is told by pairs of boundary faces of which rays leave by one and enter by the
+ * other; or imaginary cells fill the space between the boundary and its hull, are sorted with the
+ * others and are not returned. Cells that occlude each other in a cycle have no right
  * order: they are counted and named, and the faces that look smallest are ignored. Cells that touch
  * without sharing points are ordered by what lies behind each boundary face. A viewer on an edge or
  * a face of such cells, or cells a millionth as thick as wide, may close a cycle of them.
@@ -27,8 +28,8 @@
  * transform that are singular, give one error and no cells.
  *
  * The tables of the mesh are cached until the input is modified: the first traversal of an input
- * takes some microseconds a cell (with imaginary cells, see vtkConvexifyTetrahedra), each later one
- * about 0.1. The order does not depend on the number of threads.
+ * takes about half a microsecond a cell (with imaginary cells some, see vtkConvexifyTetrahedra),
+ * each later one about 0.1. The order does not depend on the number of threads.
  *
  * @sa vtkConvexifyTetrahedra, vtkTetrahedraProjectionMapper
  */
@@ -44,7 +45,7 @@ class vtkIdList;
 
 namespace tetralux
 {
-class VisibilityOrder;
+enum class OrderWish;
 enum class VisibilityMethod;
 } // namespace tetralux
 
@@ -58,13 +59,14 @@ public:
   /**
    * Visibility orders. vtkTetrahedraProjectionMapper has the same ones.
    *
-   * - AUTOMATIC_ORDER: as EXACT_ORDER.
+   * - AUTOMATIC_ORDER: exact, by what costs less. As ACROSS_GAPS_ORDER, and as EXACT_ORDER from
+   *   where on a view had too many pairs, or pairs that took longer to find than all else.
    * - EXACT_ORDER: by the common faces of the mesh, made convex by imaginary cells. If it can't be
    *   made convex (GetRefusal() says why), as ACROSS_GAPS_ORDER.
    * - ACROSS_GAPS_ORDER: exact for any mesh, by common faces and by all pairs of boundary faces
    *   such that rays leave the mesh by one and enter it by the other. The pairs are found anew for
-   *   each view, which takes several times as long as all else. If there are more than 64 for each
-   *   boundary face, as NON_CONVEX_ORDER.
+   *   each view: of most meshes as fast as all else, but not where rays leave and enter again and
+   *   again. If there are more than 64 for each boundary face, as NON_CONVEX_ORDER.
    * - NON_CONVEX_ORDER: Williams' MPVONC. Exact across common faces, and so for convex meshes;
    *   across empty space a guess from the distances of centroids. Makes no imaginary cells, which
    *   takes seconds for a mesh with hundreds of thousands of boundary faces.
@@ -141,10 +143,9 @@ public:
 #ifndef __VTK_WRAP__
   ///@{
   /**
-   * For C++ code: the method of Tetralux::Core by which an order is made with the tables of a mesh,
-   * and the order that a method makes.
+   * For C++ code: what an order is in Tetralux::Core, and the order that a method makes.
    */
-  static tetralux::VisibilityMethod GetMethodOf(int order, const tetralux::VisibilityOrder& tables);
+  static tetralux::OrderWish GetWishOf(int order);
   static int GetOrderOf(tetralux::VisibilityMethod method);
   ///@}
 #endif

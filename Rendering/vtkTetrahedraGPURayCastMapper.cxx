@@ -258,6 +258,10 @@ void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   graphics["picture_bytes"] = bytes;
   graphics["picture_bytes_per_pixel"] = static_cast<double>(bytes) / static_cast<double>(pixels);
   frame.Sections.emplace_back("graphics_card", graphics);
+  frame.Memory.emplace_back("cell_orientation", this->Positive.Get().capacity());
+  frame.Memory.emplace_back("card_mesh", this->Mesh.GetNumberOfBytes());
+  frame.Memory.emplace_back("card_integral", this->Integral.GetNumberOfBytes());
+  frame.Memory.emplace_back("card_rays", bytes);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -61,6 +61,8 @@ void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::
   hierarchy["bytes_per_tetrahedron"] = statistics.TreeBytes;
   hierarchy["bytes_per_tetrahedron_and_step"] = statistics.StepBytes;
   frame.Sections.emplace_back("hierarchy", hierarchy);
+  frame.Memory.emplace_back("isosurface_trees", statistics.AllTreesBytes);
+  frame.Memory.emplace_back("isosurface_steps", statistics.AllStepsBytes);
 
   Json traversal;
   traversal["primary"] = Describe(statistics.Primary);

@@ -19,7 +19,7 @@
 #include "Scene/IntegratorChoice.h"
 #include "Scene/VolumeScene.h"
 #include "View/MeshToWorld.h"
-#include "Visibility/VisibilityOrder.h"
+#include "Visibility/MeshOrder.h"
 
 #include "vtkCellCenterDepthSort.h"
 #include "vtkImageData.h"
@@ -159,11 +159,6 @@ private:
   /// The order of the cells that are drawn. False after an abort.
   bool PrepareOrder(MapperFrame& frame);
 
-  /// Makes the sorter anew where the mesh or the kind of order is another one. False after an
-  /// abort.
-  bool PrepareSorter(MapperFrame& frame);
-  bool IsOrderExact() const;
-
   ChannelFormat ChooseFormat(const MapperFrame& frame) const;
   double EstimatePerspectiveError(VolumeScene& volume) const;
   void Composite(MapperFrame& frame, const CameraRays& rays);
@@ -176,8 +171,8 @@ private:
   std::vector<tetralux::ScreenPoint> Points;
   std::vector<std::uint8_t> DrawnCells; ///< empty: all
   std::vector<std::int32_t> Order;      ///< of cells that are not sorted
-  std::unique_ptr<tetralux::VisibilityOrder> Sorter;
-  tetralux::CacheStamp SorterStamp; ///< of the points, and whether imaginary cells take part
+  std::unique_ptr<tetralux::MeshOrder> Sorter;
+  tetralux::CacheStamp SorterStamp; ///< of the points
   tetralux::OnceWarning OrderWarning;
 };
 
@@ -356,28 +351,46 @@ ChannelFormat vtkTetrahedraProjectionMapper::Internals::ChooseFormat(const Mappe
 //------------------------------------------------------------------------------------------------
 bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
 {
-  const tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
+  tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
   this->Scene.Commutes = Commutes(tetralux::ChooseIntegrator(*frame.Scene, frame.GetLighting()));
   this->Sorted = !this->Scene.Commutes;
   if (this->Sorted)
   {
-    if (!this->PrepareSorter(frame))
+    const tetralux::Stopwatch stopwatch;
+    this->Scene.Order = {}; // the sorter's
+    const tetralux::CacheKey key = tetralux::CacheKey::Of(frame.Scene->Mesh.GetPointsVersion());
+    if (!this->SorterStamp.Has(key))
+    {
+      this->Sorter = std::make_unique<tetralux::MeshOrder>(mesh);
+      this->SorterStamp.Set(key);
+    }
+    const std::vector<std::int32_t>* order =
+      this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
+        Sort::GetWishOf(this->Self->Order),
+        this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
+                                : tetralux::VisibilityDirection::BackToFront,
+        this->DrawnCells, [&frame](double fraction) { return frame.ReportProgress(fraction); });
+    if (!order)
     {
       return false;
     }
-    const tetralux::Stopwatch stopwatch;
-    this->Scene.Order =
-      this->Sorter->Sort(MakeView(this->Scene.Grid, this->Scene.Frame->IsPerspective()),
-        Sort::GetMethodOf(this->Self->Order, *this->Sorter),
-        this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
-                                : tetralux::VisibilityDirection::BackToFront,
-        this->DrawnCells);
-    this->Method = this->Sorter->GetUsedMethod();
+    this->Scene.Order = *order;
+    this->Method = this->Sorter->Get().GetUsedMethod();
     this->WarnOfOrder(
       this->Self->Order == Sort::EXACT_ORDER && this->Method == VisibilityMethod::MeshedNonConvex
-        ? mesh.GetConvexification()->Refusal
+        ? this->Sorter->GetRefusal()
         : "");
-    frame.Seconds.emplace_back("order", stopwatch.GetSeconds());
+    const double convexification = this->Sorter->GetConvexificationSeconds();
+    const double tables = this->Sorter->GetTableSeconds();
+    if (convexification > 0)
+    {
+      frame.Seconds.emplace_back("convexification", convexification);
+    }
+    if (tables > 0)
+    {
+      frame.Seconds.emplace_back("order_tables", tables);
+    }
+    frame.Seconds.emplace_back("order", stopwatch.GetSeconds() - convexification - tables);
     return true;
   }
   this->Order.resize(mesh.GetNumberOfCells()); // else empty: the sorter keeps its own
@@ -389,39 +402,6 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
       this->Order.end());
   }
   this->Scene.Order = this->Order;
-  return true;
-}
-
-//------------------------------------------------------------------------------------------------
-bool vtkTetrahedraProjectionMapper::Internals::IsOrderExact() const
-{
-  return this->Self->Order == Sort::AUTOMATIC_ORDER || this->Self->Order == Sort::EXACT_ORDER;
-}
-
-//------------------------------------------------------------------------------------------------
-bool vtkTetrahedraProjectionMapper::Internals::PrepareSorter(MapperFrame& frame)
-{
-  tetralux::WalkMesh& mesh = *frame.Scene->Mesh.GetMesh();
-  const bool exact = this->IsOrderExact();
-  tetralux::CacheKey key = tetralux::CacheKey::Of(frame.Scene->Mesh.GetPointsVersion(), exact);
-  if (!this->SorterStamp.Has(key))
-  {
-    const tetralux::Stopwatch stopwatch;
-    this->Scene.Order = {}; // the sorter's
-    this->Sorter.reset();
-    this->SorterStamp.Reset();
-    if (exact)
-    {
-      mesh.MakeConvex([&frame](double fraction) { return frame.ReportProgress(fraction); });
-      if (!mesh.GetConvexification())
-      {
-        return false;
-      }
-    }
-    this->Sorter = std::make_unique<tetralux::VisibilityOrder>(mesh, exact);
-    this->SorterStamp.Set(std::move(key));
-    frame.Seconds.emplace_back("convexification", stopwatch.GetSeconds());
-  }
   return true;
 }
 
@@ -471,26 +451,32 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
   section["tetrahedra_in_order"] = static_cast<std::int64_t>(scene.Order.size());
   section["tetrahedra_drawn"] = drawn.Cells;
   section["triangles"] = drawn.Triangles;
-  section["bytes_of_graphics_card"] = static_cast<std::int64_t>(this->Picture.GetNumberOfBytes());
-  section["bytes_of_screen_points"] =
-    static_cast<std::int64_t>(this->Points.capacity() * sizeof(tetralux::ScreenPoint));
-  section["bytes_of_order"] = static_cast<std::int64_t>(
-    this->Sorter ? this->Sorter->GetSize() : this->Order.capacity() * sizeof(std::int32_t));
   section["order"] = this->Sorted ? GetMethodName(this->Method) : "none";
   if (this->Sorted)
   {
-    const tetralux::VisibilityCycles& cycles = this->Sorter->GetCycles();
+    const tetralux::VisibilityCycles& cycles = this->Sorter->Get().GetCycles();
     section["cycles"] = cycles.GetNumberOfCycles();
     section["tetrahedra_in_cycles"] = static_cast<std::int64_t>(cycles.Cells.size());
     section["ignored_faces"] = cycles.IgnoredFaces;
     section["ignored_area"] = cycles.IgnoredArea;
+    section["looks_for_gaps"] = this->Sorter->Get().GetLooksForGaps();
   }
   frame.Sections.emplace_back("projection", section);
+  frame.Memory.emplace_back(
+    "screen_points", this->Points.capacity() * sizeof(tetralux::ScreenPoint));
+  frame.Memory.emplace_back("drawn_cells", this->DrawnCells.capacity());
+  frame.Memory.emplace_back("order",
+    this->Order.capacity() * sizeof(std::int32_t) +
+      (this->Sorter && this->Sorted ? this->Sorter->Get().GetSize() : 0));
+  frame.Memory.emplace_back("projected_cells", this->Picture.GetNumberOfCellBytes());
+  frame.Memory.emplace_back("card_cells", this->Picture.GetNumberOfPartBytes());
+  frame.Memory.emplace_back("card_integral", this->Picture.GetNumberOfIntegralBytes());
+  frame.Memory.emplace_back("card_pictures", this->Picture.GetNumberOfPictureBytes());
 
   const bool isOrderWrong = this->Sorted &&
     (this->Method == VisibilityMethod::CentroidDistance ||
       this->Method == VisibilityMethod::MeshedNonConvex ||
-      this->Sorter->GetCycles().GetNumberOfCycles() > 0);
+      this->Sorter->Get().GetCycles().GetNumberOfCycles() > 0);
   const Integrator integrator = frame.Integration;
   if (IsLit(integrator))
   {

@@ -96,9 +96,10 @@ public:
   /**
    * Set the visibility order that cells are composited in, one of
    * vtkMeshedPolyhedraVisibilitySort::VisibilityOrder, which has what each of them does. Default
-   * AUTOMATIC_ORDER: as EXACT_ORDER, without its warning. EXACT_ORDER makes the mesh convex in the
-   * first frame (see vtkConvexifyTetrahedra). It warns once, and says why, if neither the convex
-   * mesh nor ACROSS_GAPS_ORDER is possible and the order is that of NON_CONVEX_ORDER.
+   * AUTOMATIC_ORDER: exact, by what costs less, without a warning. EXACT_ORDER makes the mesh
+   * convex in the first frame (see vtkConvexifyTetrahedra), which takes longer than that frame, and
+   * saves some of each later one. It warns once, and says why, if neither the convex mesh nor
+   * ACROSS_GAPS_ORDER is possible and the order is that of NON_CONVEX_ORDER.
    *
    * GetUsedOrder() returns the order of the last frame: AUTOMATIC_ORDER before the first frame, and
    * if the cells' contributions commute and need no order ("none" as a string).

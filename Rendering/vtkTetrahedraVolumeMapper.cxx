@@ -35,6 +35,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -91,11 +92,10 @@ private:
   void AddSceneToKey(MapperFrame& frame) const;
   void WriteStatistics(MapperFrame& frame, double frameSeconds);
 
-  struct
-  {
-    std::int64_t BeforeFrame = 0;
-    std::int64_t AfterPreparation = 0;
-  } Peaks; ///< of the process's memory, bytes
+  void DescribeMemory(const MapperFrame& frame, Json& sections);
+
+  std::int64_t PeakBeforeFrame = 0;                 ///< of the process's memory, bytes
+  std::map<std::string, std::int64_t> LargestParts; ///< bytes that each part has held at most
 };
 
 //------------------------------------------------------------------------------------------------
@@ -123,11 +123,10 @@ void vtkTetrahedraVolumeMapper::Internals::DrawFrame(MapperFrame& frame)
     input.Lights = &frame.Lights;
     input.Surface = &frame.Surface;
   }
-  this->Peaks.BeforeFrame = tetralux::GetPeakMemory();
+  this->PeakBeforeFrame = tetralux::GetPeakMemory();
   const bool ready = this->Preparation.Update(settings, input,
     [&](double fraction)
     { return this->Record.ReportProgress(frame.Window, vtkCommand::ProgressEvent, fraction); });
-  this->Peaks.AfterPreparation = tetralux::GetPeakMemory();
   const std::vector<std::string>& rebuilt = this->Preparation.GetLast().Rebuilt;
   const bool madeMesh = std::find(rebuilt.begin(), rebuilt.end(), "mesh") != rebuilt.end();
   if (madeMesh)
@@ -268,12 +267,35 @@ void vtkTetrahedraVolumeMapper::Internals::WriteStatistics(MapperFrame& frame, d
   Json sections;
   sections["input"] = DescribeInput(this->Preparation);
   sections["tables"] = DescribeTables(this->Preparation);
-  sections["memory"] = DescribeMemory(this->Preparation);
-  sections["memory"]["peak_before_frame"] = this->Peaks.BeforeFrame;
-  sections["memory"]["peak_after_preparation"] = this->Peaks.AfterPreparation;
-  sections["memory"]["peak_after_frame"] = tetralux::GetPeakMemory();
+  this->DescribeMemory(frame, sections);
   sections["segments"] = DescribeSegments(this->Preparation, frame.Integration);
   this->Record.Write(frame, this->Preparation.GetLast().Rebuilt, seconds, frameSeconds, sections);
+}
+
+//------------------------------------------------------------------------------------------------
+/// What each part holds and has held at most, and the peak of the process by the end of each stage.
+void vtkTetrahedraVolumeMapper::Internals::DescribeMemory(const MapperFrame& frame, Json& sections)
+{
+  Json& memory = sections["memory"];
+  memory = tetralux::DescribeMemory(this->Preparation);
+  for (const auto& [name, bytes] : frame.Memory)
+  {
+    memory[name] = bytes;
+  }
+  Json& largest = sections["memory_peaks"];
+  for (const auto& [name, bytes] : memory.items())
+  {
+    std::int64_t& peak = this->LargestParts[name];
+    peak = std::max(peak, bytes.get<std::int64_t>());
+    largest[name] = peak;
+  }
+  Json& process = sections["process_peaks"];
+  process["before_frame"] = this->PeakBeforeFrame;
+  for (const auto& [stage, bytes] : this->Preparation.GetLast().Peaks)
+  {
+    process[stage] = bytes;
+  }
+  process["frame"] = tetralux::GetPeakMemory();
 }
 
 //------------------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@
 #include "Setup/VisitMapper.h"
 #include "vtkHeadlessRenderWindow.h"
 #include "vtkTetrahedraIsosurfaceMapper.h"
+#include "vtkTetrahedraProjectionMapper.h"
 #include "vtkTetrahedraVolumeMapper.h"
 #include "vtkTriangleCasterMapper.h"
 
@@ -346,6 +347,12 @@ std::string Draw(const std::string& input, vtkAbstractVolumeMapper* mapper, vtkR
   ProgressLine progress("rendering");
   progress.Observe(mapper, vtkCommand::ProgressEvent);
   progress.Observe(mapper, vtkCommand::VolumeMapperRenderProgressEvent);
+  auto* projection = vtkTetrahedraProjectionMapper::SafeDownCast(mapper);
+  if (mayChange && projection &&
+    projection->GetOrder() == vtkMeshedPolyhedraVisibilitySort::AUTOMATIC_ORDER)
+  {
+    projection->SetOrderToExact(); // which finds out whether cells overlap
+  }
   window->Render();
   if (messages.GetError().empty())
   {

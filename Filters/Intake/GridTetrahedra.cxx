@@ -93,7 +93,7 @@ std::string ReadTetrahedra(vtkUnstructuredGrid* grid, TetrahedralMesh& mesh)
     if (!isBlanked)
     {
       mesh.Cells.insert(mesh.Cells.end(), points.begin(), points.end());
-      mesh.OriginalCells.push_back(cell);
+      mesh.OriginalCells.push_back(static_cast<std::int32_t>(cell));
     }
   }
   return {};

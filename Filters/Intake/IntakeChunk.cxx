@@ -55,7 +55,7 @@ void GatherChunks(std::vector<IntakeChunk>& chunks, TetrahedralMesh& mesh)
     std::iota(mesh.OriginalPoints.begin(), mesh.OriginalPoints.begin() + inputPoints, 0);
     for (std::int64_t k = 0; k < addedPoints; ++k)
     {
-      mesh.OriginalPoints[inputPoints + k] = -1 - k;
+      mesh.OriginalPoints[inputPoints + k] = static_cast<std::int32_t>(-1 - k);
     }
     mesh.AddedPoints.Offsets.resize(addedPoints + 1, 0);
     mesh.AddedPoints.Sources.resize(firstSource.back());

@@ -75,6 +75,12 @@ public:
       this->RefusePoints(this->Report.NumberOfPoints);
       return;
     }
+    if (this->Report.NumberOfCells > MaximumInputCells)
+    {
+      this->Result.Error = "the input has " + std::to_string(this->Report.NumberOfCells) +
+        " cells; at most " + std::to_string(MaximumInputCells) + " are possible";
+      return;
+    }
     if (structuredTetrahedra > MaximumCells)
     {
       this->RefuseTetrahedra();

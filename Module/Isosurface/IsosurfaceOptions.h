@@ -88,12 +88,14 @@ struct IsosurfaceStatistics
   double RangesSeconds = 0;
   double PolygonsSeconds = 0;
   double TraceSeconds = 0;
-  std::int64_t Nodes = 0;       ///< of the whole tree
-  std::int64_t ActiveNodes = 0; ///< of precomputed isopolygons
-  std::int64_t Polygons = 0;    ///< the same
-  int Steps = 0;                ///< time steps that are kept, with the present one
-  double TreeBytes = 0;         ///< for each tetrahedron
-  double StepBytes = 0;         ///< for each tetrahedron, of one time step: ranges and scalars
+  std::int64_t Nodes = 0;        ///< of the whole tree
+  std::int64_t ActiveNodes = 0;  ///< of precomputed isopolygons
+  std::int64_t Polygons = 0;     ///< the same
+  int Steps = 0;                 ///< time steps that are kept, with the present one
+  double TreeBytes = 0;          ///< for each tetrahedron
+  double StepBytes = 0;          ///< for each tetrahedron, of one time step: ranges and scalars
+  std::size_t AllTreesBytes = 0; ///< of all time steps that are kept
+  std::size_t AllStepsBytes = 0; ///< the same, without trees: ranges, isopolygons, gradients
   TraceCounts Primary;
   TraceCounts Shadow;
   std::int64_t Hits = 0;

@@ -46,6 +46,15 @@ const IsosurfaceStep& IsosurfaceSteps::Update(VolumeScene& scene, const Isosurfa
                            scene.Mesh.GetScalars().size() * sizeof(double)) /
     cells;
   statistics.Steps = static_cast<int>(this->Entries.size());
+  std::set<const MinMaxTree*> trees;
+  for (const Entry& entry : this->Entries)
+  {
+    statistics.AllStepsBytes += entry.Step.GetBytes();
+    if (trees.insert(entry.Step.Tree.get()).second)
+    {
+      statistics.AllTreesBytes += GetBytes(*entry.Step.Tree);
+    }
+  }
   return step;
 }
 

@@ -202,7 +202,7 @@ CoincidentPoints FindCoincidentPoints(
     sets = Unite(mesh, points, 0);
   }
 
-  const auto originalOf = [&mesh](std::int32_t point)
+  const auto originalOf = [&mesh](std::int32_t point) -> std::int64_t
   { return mesh.OriginalPoints.empty() ? point : mesh.OriginalPoints[point]; };
   std::vector<std::int64_t> firsts(
     mesh.GetNumberOfPoints(), std::numeric_limits<std::int64_t>::max());

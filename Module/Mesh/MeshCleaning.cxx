@@ -150,7 +150,7 @@ void KeepUsableCells(TetrahedralMesh& mesh, const Verdict* verdicts)
     {
       std::copy_n(&mesh.Cells[4 * cell], 4, &mesh.Cells[4 * kept]);
       mesh.OriginalCells[kept] =
-        isOriginal ? static_cast<std::int64_t>(cell) : mesh.OriginalCells[cell];
+        isOriginal ? static_cast<std::int32_t>(cell) : mesh.OriginalCells[cell];
       ++kept;
     }
   }

@@ -13,6 +13,10 @@ namespace tetralux
 constexpr std::int64_t MaximumPoints = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t MaximumCells = (std::int64_t(1) << 29) - 1;
 
+/// The largest number of cells of any kind that tetrahedra may come from, so that their ids fit an
+/// int32.
+constexpr std::int64_t MaximumInputCells = std::numeric_limits<std::int32_t>::max();
+
 } // namespace tetralux
 
 #endif

@@ -178,10 +178,10 @@ std::vector<std::int32_t> FindUsedPoints(const TetrahedralMesh& mesh)
 
 /// result[i] = original[order[i]], where an empty original stands for 0, 1, 2, ...
 template <class Order>
-std::vector<std::int64_t> Compose(
-  const std::vector<std::int64_t>& original, std::int64_t size, const Order& order)
+std::vector<std::int32_t> Compose(
+  const std::vector<std::int32_t>& original, std::int64_t size, const Order& order)
 {
-  std::vector<std::int64_t> result(size);
+  std::vector<std::int32_t> result(size);
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < size; ++i)
   {

@@ -11,7 +11,8 @@ namespace tetralux
 /// Tetrahedra as they come from the input: nothing is reordered, merged or dropped.
 ///
 /// A mesh holds at most 2^29 - 1 tetrahedra and 2^31 - 1 points, so that 4 * cell + face fits an
-/// int32 everywhere. Who fills a mesh refuses larger input with an error.
+/// int32 everywhere. Ids of the input's points and cells fit an int32 as well. Who fills a mesh
+/// refuses larger input with an error.
 struct TetrahedralMesh
 {
   /// Coordinates, three for each point, in the units of the input.
@@ -22,11 +23,11 @@ struct TetrahedralMesh
 
   /// For each point the id of the input's point, or -1 - k for the k-th added point.
   /// Empty: point i is the input's point i.
-  std::vector<std::int64_t> OriginalPoints;
+  std::vector<std::int32_t> OriginalPoints;
 
   /// For each tetrahedron the id of the input's cell that it is a part of.
   /// Empty: tetrahedron i is the input's cell i.
-  std::vector<std::int64_t> OriginalCells;
+  std::vector<std::int32_t> OriginalCells;
 
   /// Points that a split had to add (the middle of a quadratic cell or of a polyhedron): the k-th
   /// has the value sum of Weights[j] * value(input point Sources[j]), Offsets[k] <= j <

@@ -149,10 +149,10 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   std::vector<std::int64_t> counts(blocks); // of the cells that are seen
   std::vector<std::uint8_t> corners(n);
   const bool interpolated = frame.IsPerspective() && !settings.Interpolate;
-  result.Cells.resize(interpolated ? 0 : n);
-  result.InterpolatedCells.resize(interpolated ? n : 0);
+  result.Cells.resize(interpolated ? 0 : n + 1); // with the one behind all others
+  result.InterpolatedCells.resize(interpolated ? n + 1 : 0);
   const bool withGradients = data.Gradients != CellData::Gradient::None;
-  result.Gradients.resize(withGradients ? n : 0);
+  result.Gradients.resize(withGradients ? n + 1 : 0);
   result.FaceScalars.resize(data.FaceScalars ? 4 * n : 0);
 #pragma omp parallel for schedule(dynamic)
   for (std::int64_t block = 0; block < blocks; ++block)
@@ -204,6 +204,7 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
     counts[block] = last - begin;
   }
   result.Triangles.clear();
+  result.PartBegins.clear();
   std::int64_t seen = 0;
   for (std::int64_t block = 0; block < blocks; ++block)
   {
@@ -223,13 +224,22 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
     push(result.FaceScalars, 4);
     for (std::int64_t i = begin; i < end; ++i, ++seen)
     {
-      const auto corner = static_cast<std::uint32_t>(4 * seen);
-      for (std::uint32_t k = 1; k + 1 < corners[i]; ++k)
+      const std::int64_t place = seen % ProjectedCells::PartSize;
+      if (place == 0)
       {
-        result.Triangles.insert(result.Triangles.end(), { corner + k, corner + k + 1, corner });
+        result.PartBegins.push_back(result.Triangles.size());
+      }
+      const auto corner = static_cast<std::uint16_t>(4 * place);
+      for (std::uint16_t k = 1; k + 1 < corners[i]; ++k)
+      {
+        for (const int added : { k + 0, k + 1, 0 })
+        {
+          result.Triangles.push_back(static_cast<std::uint16_t>(corner + added));
+        }
       }
     }
   }
+  result.PartBegins.push_back(result.Triangles.size());
   result.Cells.resize(interpolated ? 0 : seen + 1);
   result.InterpolatedCells.resize(interpolated ? seen + 1 : 0);
   result.Gradients.resize(withGradients ? seen + 1 : 0);

@@ -63,9 +63,29 @@ struct ProjectedCells
   /// Face0, Face1 and Face2.
   std::vector<FaceScalar> FaceScalars;
 
-  /// Three for each triangle, of corners: corner k of cell i is 4 i + k. The last one is the cell's
-  /// first corner, which has the data of the cell with it.
-  std::vector<std::uint32_t> Triangles;
+  /// Cells are sent and drawn in parts of so many, the last one smaller: some megabytes for a
+  /// driver to keep, and corners that are numbered in 16 bits.
+  static constexpr std::int64_t PartSize = 1 << 13;
+
+  /// Three for each triangle, of corners: corner k of the i-th cell of a part is 4 i + k. The last
+  /// one is the cell's first corner, which has the data of the cell with it.
+  std::vector<std::uint16_t> Triangles;
+
+  /// Where the triangles of each part begin in Triangles, and the end of the last one.
+  std::vector<std::size_t> PartBegins;
+  std::int64_t GetNumberOfParts() const
+  {
+    return static_cast<std::int64_t>(this->PartBegins.size()) - 1;
+  }
+
+  std::size_t GetNumberOfBytes() const ///< that are allocated
+  {
+    return this->Cells.capacity() * sizeof(ProjectedCell) +
+      this->InterpolatedCells.capacity() * sizeof(InterpolatedCell) +
+      this->Gradients.capacity() * sizeof(ProjectedGradient) +
+      this->FaceScalars.capacity() * sizeof(FaceScalar) +
+      this->Triangles.capacity() * sizeof(std::uint16_t);
+  }
 };
 
 /// What fragments get to know of their cell.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Visibility/VisibilityGaps.h"
 
+#include "Visibility/FaceBins.h"
 #include "Visibility/MeasureTriangle.h"
 #include "Visibility/ViewOrientation.h"
 
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace tetralux
 {
@@ -38,7 +40,10 @@ constexpr double EdgeOnTolerance = 1e-12;
 /// hundred roundings.
 constexpr double ShortestStretch = 1e-13;
 
-using Vector = std::array<double, 3>;
+/// How many faces in bins are looked at while a box of the hierarchy is.
+constexpr std::int64_t LooksOfBox = 8;
+
+using Vector = FaceBins::Corner;
 
 Vector operator-(const Vector& a, const Vector& b)
 {
@@ -174,6 +179,9 @@ public:
       this->View.Direction[axis] = orientation.GetDirection()[axis];
     }
     const std::int64_t numberOfFaces = static_cast<std::int64_t>(this->Facing.size());
+    this->EdgeOn.resize(numberOfFaces);
+    this->Triangles.resize(numberOfFaces);
+    std::vector<std::uint8_t> entered(numberOfFaces);
 #pragma omp parallel for schedule(static)
     for (std::int64_t face = 0; face < numberOfFaces; ++face)
     {
@@ -181,33 +189,34 @@ public:
       this->Facing[face] = static_cast<std::int8_t>(arrows.GetBoundarySide(entry) *
         orientation.GetTurn(geometry.GetPoint(entry.Points[0]), geometry.GetPoint(entry.Points[1]),
           geometry.GetPoint(entry.Points[2])));
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        this->Triangles[face][corner] = this->GetPoint(entry.Points[corner]);
+      }
+      this->EdgeOn[face] = this->IsEdgeOn(this->GetTriangle(face));
+      entered[face] = this->Facing[face] < 0 && !this->EdgeOn[face];
     }
-    this->EdgeOn.resize(this->Facing.size());
-#pragma omp parallel for schedule(static)
-    for (std::int64_t face = 0; face < numberOfFaces; ++face)
-    {
-      this->EdgeOn[face] = this->IsEdgeOn(this->GetTriangle(geometry.Boundary->Entries[face]));
-    }
+    this->Bins.emplace(this->View, this->Triangles, entered);
   }
 
   bool IsLeft(std::int64_t face) const { return this->Facing[face] > 0; }
 
-  /// Appends what is behind a face that rays leave by.
-  void Find(std::int64_t leftFace, std::vector<Gap>& gaps) const
+  /// Appends what is behind a face that rays leave by. Returns how many faces were looked at.
+  std::int64_t Find(std::int64_t leftFace, std::vector<Gap>& gaps) const
   {
     const WalkEntry& left = this->Geometry.Boundary->Entries[leftFace];
-    Polygon exit = this->GetTriangle(left);
+    Polygon exit = this->GetTriangle(leftFace);
     const std::int32_t twin = this->Twins[leftFace];
     if (twin >= 0 && this->Facing[twin] < 0)
     {
       const double size = exit.Measure(this->View);
       gaps.push_back(
         { left.Cell, this->Geometry.Boundary->Entries[twin].Cell, static_cast<float>(size), 0 });
-      return;
+      return 1;
     }
     if (this->EdgeOn[leftFace])
     {
-      return;
+      return 1;
     }
     // Counter-clockwise to the viewer.
     Vector normal = Cross(exit.Corners[1] - exit.Corners[0], exit.Corners[2] - exit.Corners[0]);
@@ -223,18 +232,37 @@ public:
       const Vector& b = exit.Corners[(edge + 1) % 3];
       return Plane(Cross(b - a, this->GetRay(a)), a);
     };
-    const Plane planes[4] = { getSide(0), getSide(1), getSide(2), behind };
-    const double size = this->MeasureFromFront(exit);
+    const Cone cone = { left.Cell, { getSide(0), getSide(1), getSide(2), behind },
+      this->MeasureFromFront(exit) };
+    return this->Bins->IsUsable()
+      ? this->Bins->ForEach(leftFace, [&](std::int32_t face) { this->AddGap(cone, face, gaps); })
+      : this->FindInHierarchy(cone, gaps);
+  }
 
+private:
+  /// All that is behind a face.
+  struct Cone
+  {
+    std::int32_t Cell; ///< that rays leave by the face
+    Plane Planes[4];   ///< the sides, and the face; positive inside
+    double Size;       ///< how large the face would look if it were turned to the viewer
+  };
+
+  /// Looks at the faces in the boxes that meet a cone. Returns how many that
+  /// is, each as LooksOfBox.
+  std::int64_t FindInHierarchy(const Cone& cone, std::vector<Gap>& gaps) const
+  {
     const BoundaryBvh& bvh = this->Geometry.Boundary->Bvh;
     std::array<std::int32_t, BoundaryBvh::MaximumDepth + 1> stack;
+    std::int64_t looked = 0;
     int depth = 0;
     stack[depth++] = 0;
     while (depth > 0)
     {
       const std::int32_t nodeId = stack[--depth];
       const BoundaryBvh::Node& node = bvh.Nodes[nodeId];
-      if (!CanMeet(node, planes))
+      ++looked;
+      if (!CanMeet(node, cone.Planes))
       {
         continue;
       }
@@ -244,47 +272,66 @@ public:
         stack[depth++] = nodeId + 1;
         continue;
       }
+      looked += node.Count;
       for (std::int32_t i = node.First; i < node.First + node.Count; ++i)
       {
         const std::int32_t face = bvh.Triangles[i];
-        const WalkEntry& entered = this->Geometry.Boundary->Entries[face];
-        if (this->Facing[face] >= 0 || this->EdgeOn[face] || entered.Cell == left.Cell)
+        if (this->Facing[face] < 0 && !this->EdgeOn[face])
         {
-          continue;
+          this->AddGap(cone, face, gaps);
         }
-        const Polygon entry = this->GetTriangle(entered);
-        const Polygon part = ClipByCone(entry, planes, 0);
-        const double smallest = OverlapTolerance * std::min(size, this->MeasureFromFront(entry));
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        double nearest = infinity, farthest = -infinity;
-        for (int corner = 0; corner < part.Size; ++corner)
-        {
-          const double distance = behind.GetDistance(part.Corners[corner]);
-          nearest = std::min(nearest, distance);
-          farthest = std::max(farthest, distance);
-        }
-        const double common = part.Measure(this->View);
-        if (farthest < -this->Contact || common <= smallest)
-        {
-          continue;
-        }
-        bool sliver = ClipByCone(entry, planes, this->Rounding).Size == 0;
-        if (nearest < 0 || farthest <= this->Contact)
-        {
-          const double length =
-            this->GetLengthPassedBefore(left.Cell, behind, entered.Cell, part.GetMiddle());
-          if (length < ShortestStretch)
-          {
-            continue;
-          }
-          sliver = sliver || length < this->Rounding;
-        }
-        gaps.push_back({ left.Cell, entered.Cell, static_cast<float>(common), sliver });
       }
     }
+    return LooksOfBox * looked;
   }
 
-private:
+  /// Appends the arrow from a face that rays leave by to one that they enter by, if there is any.
+  void AddGap(const Cone& cone, std::int32_t face, std::vector<Gap>& gaps) const
+  {
+    const WalkEntry& entered = this->Geometry.Boundary->Entries[face];
+    const Plane& behind = cone.Planes[3];
+    const FaceBins::Face& corners = this->Triangles[face];
+    const auto isOutside = [&](const Plane& plane, double distance)
+    {
+      return std::all_of(corners.begin(), corners.end(),
+        [&](const Vector& corner) { return plane.GetDistance(corner) < distance; });
+    };
+    if (entered.Cell == cone.Cell || isOutside(behind, -this->Contact) ||
+      std::any_of(
+        cone.Planes, cone.Planes + 3, [&](const Plane& plane) { return isOutside(plane, 0); }))
+    {
+      return;
+    }
+    const Polygon entry = this->GetTriangle(face);
+    const Polygon part = ClipByCone(entry, cone.Planes, 0);
+    const double smallest = OverlapTolerance * std::min(cone.Size, this->MeasureFromFront(entry));
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double nearest = infinity, farthest = -infinity;
+    for (int corner = 0; corner < part.Size; ++corner)
+    {
+      const double distance = behind.GetDistance(part.Corners[corner]);
+      nearest = std::min(nearest, distance);
+      farthest = std::max(farthest, distance);
+    }
+    const double common = part.Measure(this->View);
+    if (farthest < -this->Contact || common <= smallest)
+    {
+      return;
+    }
+    bool sliver = ClipByCone(entry, cone.Planes, this->Rounding).Size == 0;
+    if (nearest < 0 || farthest <= this->Contact)
+    {
+      const double length =
+        this->GetLengthPassedBefore(cone.Cell, behind, entered.Cell, part.GetMiddle());
+      if (length < ShortestStretch)
+      {
+        return;
+      }
+      sliver = sliver || length < this->Rounding;
+    }
+    gaps.push_back({ cone.Cell, entered.Cell, static_cast<float>(common), sliver });
+  }
+
   bool IsEdgeOn(const Polygon& triangle) const
   {
     const Vector normal =
@@ -369,14 +416,11 @@ private:
     return relative;
   }
 
-  Polygon GetTriangle(const WalkEntry& entry) const
+  Polygon GetTriangle(std::int64_t face) const
   {
     Polygon triangle;
     triangle.Size = 3;
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      triangle.Corners[corner] = this->GetPoint(entry.Points[corner]);
-    }
+    std::copy_n(this->Triangles[face].begin(), 3, triangle.Corners.begin());
     return triangle;
   }
 
@@ -427,9 +471,11 @@ private:
   VisibilityView View;
   /// For each boundary face 1 where rays leave by it, -1 where they enter, 0 where it is edge-on.
   std::vector<std::int8_t> Facing;
-  std::vector<std::uint8_t> EdgeOn; ///< to rounding, see EdgeOnTolerance
-  double Rounding = 0;              ///< SingleRounding in radii
-  double Contact = 0;               ///< ContactTolerance in radii
+  std::vector<std::uint8_t> EdgeOn;      ///< to rounding, see EdgeOnTolerance
+  std::vector<FaceBins::Face> Triangles; ///< of the boundary
+  std::optional<FaceBins> Bins;          ///< those that rays enter by
+  double Rounding = 0;                   ///< SingleRounding in radii
+  double Contact = 0;                    ///< ContactTolerance in radii
 };
 
 } // namespace
@@ -443,8 +489,9 @@ bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows
   const std::int64_t numberOfFaces = static_cast<std::int64_t>(geometry.Boundary->Entries.size());
   const std::int64_t limit = LargestNumberOfGaps * numberOfFaces;
   std::atomic<std::int64_t> count{ 0 };
+  std::int64_t looked = 0;
   std::vector<Gap> all;
-#pragma omp parallel
+#pragma omp parallel reduction(+ : looked)
   {
     std::vector<Gap> found;
 #pragma omp for schedule(dynamic, 64)
@@ -453,13 +500,14 @@ bool FindGaps(const VisibilityGeometry& geometry, const VisibilityArrows& arrows
       if (finder.IsLeft(face) && count <= limit)
       {
         const std::size_t before = found.size();
-        finder.Find(face, found);
+        looked += finder.Find(face, found);
         count += static_cast<std::int64_t>(found.size() - before);
       }
     }
 #pragma omp critical
     all.insert(all.end(), found.begin(), found.end());
   }
+  gaps.Looked = looked;
   if (count > limit)
   {
     return false;

@@ -24,6 +24,8 @@ struct VisibilityGaps
   /// 1 where what the pair has in common, of faces or of rays through the cells, is no more than
   /// what coordinates in single precision may be off by; else 0.
   std::vector<std::uint8_t> Slivers;
+
+  std::int64_t Looked = 0; ///< how many faces were looked at: what finding the gaps took
 };
 
 /// Finds all gaps of a view. With them the order of any mesh is exact, also of one that can't be
@@ -31,8 +33,9 @@ struct VisibilityGaps
 /// Algorithm for Polyhedral Cell Complexes, 1998, who sweep the picture).
 ///
 /// Where a face that rays leave by has a twin (FindTwinFaces), that is all that is right behind it,
-/// with exact signs. For the others, takes the boundary faces in the cone behind it from the
-/// hierarchy over the boundary, and clips them by the cone. In double precision; only slivers
+/// with exact signs. For the others, takes the boundary faces that are at the same place on the
+/// picture (FaceBins), and clips them by the cone behind it; for a viewer inside or beside the
+/// mesh, those in the cone, from the hierarchy over the boundary. In double precision; only slivers
 /// depend on its tolerances. Parallel, the same result for any number of threads.
 ///
 /// Returns false, and no gaps, if there are more than LargestNumberOfGaps for each boundary face.

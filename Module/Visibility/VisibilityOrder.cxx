@@ -20,7 +20,7 @@ namespace tetralux
 namespace
 {
 
-// What SortByFaces adds to the bits of VisibilityArrows.h.
+// What SortByArrows adds to the bits of VisibilityArrows.h.
 constexpr std::uint8_t VisitedCell = 0x40;
 constexpr std::uint8_t PlacedCell = 0x80;
 
@@ -127,8 +127,8 @@ public:
 
   /// Hands the cells to write(cell), each behind all that it hides: roots first, then from the
   /// others those that are left. False, and some cells in no particular order, where there is a
-  /// cycle.
-  bool SortByFaces(Span<const KeyedItem> roots, CellWriter write);
+  /// cycle. gaps: arrows across empty space, or none.
+  bool SortByArrows(Span<const KeyedItem> roots, const VisibilityGaps& gaps, CellWriter write);
 
   const WalkMesh& Mesh;
   std::vector<std::int32_t> ImaginaryCells;
@@ -231,10 +231,16 @@ void VisibilityOrder::Internals::SortByDistance(const VisibilityView& view, cons
 }
 
 //----------------------------------------------------------------------------
-bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, CellWriter write)
+bool VisibilityOrder::Internals::SortByArrows(
+  Span<const KeyedItem> roots, const VisibilityGaps& gaps, CellWriter write)
 {
   // Depth first: a cell is placed once everything that it hides is. The bits of faces are cleared
   // as they are followed, so that a path needs no more than its cells.
+  std::vector<std::int32_t> nextGaps;
+  if (!gaps.Cells.empty())
+  {
+    nextGaps.assign(gaps.Begins.begin(), gaps.Begins.end() - 1);
+  }
   const std::int64_t numberOfCells = this->Geometry.GetNumberOfCells();
   const std::int64_t numberOfRoots = static_cast<std::int64_t>(roots.size());
   std::uint8_t* const states = this->States.data();
@@ -275,6 +281,24 @@ bool VisibilityOrder::Internals::SortByFaces(Span<const KeyedItem> roots, CellWr
             break;
           }
           cycle = cycle || (stateBehind & PlacedCell) == 0;
+        }
+      }
+      if (leaf && !nextGaps.empty())
+      {
+        states[cell] = static_cast<std::uint8_t>(state & ~HidingFaces);
+        for (std::int32_t& gap = nextGaps[cell]; leaf && gap < gaps.Begins[cell + 1]; ++gap)
+        {
+          const std::int32_t behind = gaps.Cells[gap];
+          if ((states[behind] & VisitedCell) == 0)
+          {
+            states[behind] |= VisitedCell;
+            path[depth++] = behind;
+            leaf = false;
+          }
+          else
+          {
+            cycle = cycle || (states[behind] & PlacedCell) == 0;
+          }
         }
       }
       if (leaf)
@@ -319,6 +343,7 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
     drawn.empty() ? ofMesh : ofMesh - std::count(drawn.begin(), drawn.end(), std::uint8_t{ 0 });
   this->Cycles = {};
   this->UsedMethod = method;
+  this->LooksForGaps = 0;
   this->Order.resize(size);
 
   if (method == VisibilityMethod::CentroidDistance)
@@ -357,16 +382,14 @@ const std::vector<std::int32_t>& VisibilityOrder::Sort(const VisibilityView& vie
     {
       this->UsedMethod = VisibilityMethod::MeshedNonConvex;
     }
+    this->LooksForGaps = gaps.Looked;
   }
   CellWriter write(this->Order, direction, ofMesh, drawn);
-  if (gaps.Cells.empty())
+  if (tables.SortByArrows(roots, gaps, write))
   {
-    if (tables.SortByFaces(roots, write))
-    {
-      return this->Order;
-    }
-    tables.Arrows.Point(view, tables.States);
+    return this->Order;
   }
+  tables.Arrows.Point(view, tables.States);
   for (const std::int32_t cell :
     SortWithCycles(tables.Geometry, view, tables.States, gaps, roots, this->Cycles))
   {

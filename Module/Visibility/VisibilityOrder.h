@@ -90,6 +90,9 @@ public:
   /// The cycles that the last Sort met. CentroidDistance does not look for them.
   const VisibilityCycles& GetCycles() const { return this->Cycles; }
 
+  /// How many faces the last Sort looked at to find gaps: what that took.
+  std::int64_t GetLooksForGaps() const { return this->LooksForGaps; }
+
   /// Whether Meshed is exact: the mesh is convex, or its imaginary cells are used. False before
   /// WalkMesh::MakeConvex was tried.
   bool IsConvex() const;
@@ -101,6 +104,7 @@ private:
   std::unique_ptr<Internals> Tables;
   VisibilityCycles Cycles;
   VisibilityMethod UsedMethod = VisibilityMethod::Meshed;
+  std::int64_t LooksForGaps = 0;
   std::vector<std::int32_t> Order;
 };
 

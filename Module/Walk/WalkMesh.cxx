@@ -147,6 +147,32 @@ bool WalkMesh::SetPoints(const std::vector<double>& points)
   return true;
 }
 
+FaceNeighbors WalkMesh::MakeNeighbors() const
+{
+  FaceNeighbors neighbors;
+  const auto numberOfFaces = static_cast<std::int64_t>(this->Tables.Faces.size());
+  neighbors.Neighbors.resize(numberOfFaces);
+  neighbors.NeighborFaces.resize(numberOfFaces);
+  neighbors.BoundaryFaces.resize(this->Tables.Entries.size());
+  neighbors.NumberOfNonManifoldFaces = this->NumberOfNonManifoldFaces;
+  neighbors.NumberOfComponents = this->NumberOfComponents;
+#pragma omp parallel for schedule(static)
+  for (std::int64_t f = 0; f < numberOfFaces; ++f)
+  {
+    const WalkFace& face = this->Tables.Faces[f];
+    neighbors.Neighbors[f] = face.Cell;
+    if (face.Cell < 0)
+    {
+      neighbors.BoundaryFaces[~face.Cell] = static_cast<std::int32_t>(f);
+      continue;
+    }
+    const std::int32_t* points = &this->Mesh.Cells[4 * static_cast<std::size_t>(face.Cell)];
+    neighbors.NeighborFaces[f] =
+      static_cast<std::uint8_t>(std::find(points, points + 4, face.Point) - points);
+  }
+  return neighbors;
+}
+
 void WalkMesh::MeasureBox()
 {
   const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
@@ -179,10 +205,8 @@ bool WalkMesh::IsConvex()
 {
   if (!this->Convexity)
   {
-    this->Convexity = this->Convex
-      ? this->Convex->Convex
-      : tetralux::IsConvex(
-          this->Mesh, FindFaceNeighbors(this->Mesh.Cells, this->Mesh.GetNumberOfPoints()));
+    this->Convexity =
+      this->Convex ? this->Convex->Convex : tetralux::IsConvex(this->Mesh, this->MakeNeighbors());
   }
   return *this->Convexity;
 }
@@ -194,8 +218,8 @@ void WalkMesh::MakeConvex(const std::function<bool(double)>& progress)
     return;
   }
   const std::int64_t numberOfPoints = static_cast<std::int64_t>(this->Mesh.GetNumberOfPoints());
-  auto convex = std::make_unique<Convexification>(Convexify(this->Mesh,
-    FindFaceNeighbors(this->Mesh.Cells, numberOfPoints), TouchingCells::Refuse, progress));
+  auto convex = std::make_unique<Convexification>(
+    Convexify(this->Mesh, this->MakeNeighbors(), TouchingCells::Refuse, progress));
   if (convex->Aborted)
   {
     return;

@@ -4,6 +4,7 @@
 
 #include "Base/Span.h"
 #include "Convexify/Convexification.h"
+#include "Mesh/FaceNeighbors.h"
 #include "Mesh/MeshCleaning.h"
 #include "Mesh/TetrahedralMesh.h"
 #include "TetraluxCoreModule.h"
@@ -106,6 +107,7 @@ private:
   std::vector<WalkPoint<Real>>& GetPointTable();
   template <class Real>
   void FillCoordinates();
+  FaceNeighbors MakeNeighbors() const; ///< as FindFaceNeighbors, from Tables
 
   TetrahedralMesh Mesh;
   bool Complete = true;

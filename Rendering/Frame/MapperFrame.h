@@ -78,6 +78,10 @@ struct MapperFrame
   Integrator Integration = Integrator::ClosedForm;
   std::vector<std::pair<std::string, Json>> Sections; ///< of the mapper itself
 
+  /// Bytes of what the mapper itself keeps, beside the scene. What is on the graphics card has
+  /// names that begin with "card_"; in the memory of the process it is where OpenGL is software.
+  std::vector<std::pair<std::string, std::size_t>> Memory;
+
   /// What the method spent of MaximumError.
   ErrorBudget Budget;
 

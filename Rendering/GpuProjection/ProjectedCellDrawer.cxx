@@ -15,17 +15,12 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <type_traits>
 
 namespace tetralux
 {
 namespace
 {
-
-template <class Value>
-std::size_t GetBytes(const std::vector<Value>& values)
-{
-  return values.size() * sizeof(Value);
-}
 
 /// Of corners, which are a quarter of a cell's bytes apart: attributes that belong to a whole cell
 /// are read as if they were the first corner's, from where the other corners have room.
@@ -71,8 +66,8 @@ constexpr Attribute GradientAttributes[] = {
 /// Sends what there is of cells, and tells the program's attributes where it is; false where it
 /// can't be sent.
 template <class Cell, std::size_t Size>
-bool Send(const std::vector<Cell>& cells, const Attribute (&attributes)[Size],
-  vtkShaderProgram* program, vtkOpenGLBufferObject* buffer, vtkOpenGLVertexArrayObject* array)
+bool Send(Span<const Cell> cells, const Attribute (&attributes)[Size], vtkShaderProgram* program,
+  vtkOpenGLBufferObject* buffer, vtkOpenGLVertexArrayObject* array)
 {
   if (cells.empty())
   {
@@ -107,7 +102,7 @@ ProjectedCellDrawer::ProjectedCellDrawer()
         this->FaceScalars.ReleaseGraphicsResources(window);
         this->Program = nullptr;
         this->Source.clear();
-        this->LargestBatch = 0;
+        this->LargestPart = 0;
       })
 {
 }
@@ -152,45 +147,55 @@ vtkShaderProgram* ProjectedCellDrawer::Use(vtkOpenGLRenderWindow* window, const 
   return program;
 }
 
-void ProjectedCellDrawer::Draw(const ProjectedCells& cells)
+void ProjectedCellDrawer::Draw(const ProjectedCells& cells, std::int64_t part)
 {
-  if (cells.Triangles.empty())
+  const std::size_t begin = cells.PartBegins[part];
+  const std::size_t indices = cells.PartBegins[part + 1] - begin;
+  const auto first = static_cast<std::size_t>(part * ProjectedCells::PartSize);
+  const std::size_t count = std::min<std::size_t>(
+    ProjectedCells::PartSize, static_cast<std::size_t>(cells.GetNumberOfCells()) - first);
+  std::size_t bytes = indices * sizeof(std::uint16_t);
+  // What there is of the part: nothing of an array that is empty, one more than it has cells of
+  // those whose last corner reaches into the next cell.
+  const auto take = [&](const auto& values, std::size_t perCell, std::size_t more)
   {
-    return;
-  }
-  this->LargestBatch = std::max(this->LargestBatch,
-    GetBytes(cells.Cells) + GetBytes(cells.InterpolatedCells) + GetBytes(cells.Gradients) +
-      GetBytes(cells.FaceScalars) + GetBytes(cells.Triangles));
-  if (!cells.FaceScalars.empty())
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    const std::size_t size = values.empty() ? 0 : perCell * count + more;
+    bytes += size * sizeof(Value);
+    return Span<const Value>(values.data() + (values.empty() ? 0 : perCell * first), size);
+  };
+  const auto faceScalars = take(cells.FaceScalars, 4, 0);
+  if (!faceScalars.empty())
   {
     constexpr std::size_t TexelsOfFace = 3;
     this->FaceScalars.Upload(this->Context.Get(),
-      reinterpret_cast<const float*>(cells.FaceScalars.data()),
-      TexelsOfFace * cells.FaceScalars.size(), 4, "scalars of faces");
+      reinterpret_cast<const float*>(faceScalars.data()), TexelsOfFace * faceScalars.size(), 4,
+      "scalars of faces");
   }
   this->Attributes->Bind();
   const auto send = [this](
                       const auto& values, const auto& attributes, vtkOpenGLBufferObject* buffer)
   { return Send(values, attributes, this->Program, buffer, this->Attributes); };
-  if (!send(cells.Cells, CellAttributes, this->Corners) ||
-    !send(cells.InterpolatedCells, InterpolatedAttributes, this->Corners) ||
-    !send(cells.Gradients, GradientAttributes, this->Gradients) ||
-    !this->Triangles->Upload(cells.Triangles, vtkOpenGLBufferObject::ElementArrayBuffer))
+  if (!send(take(cells.Cells, 1, 1), CellAttributes, this->Corners) ||
+    !send(take(cells.InterpolatedCells, 1, 1), InterpolatedAttributes, this->Corners) ||
+    !send(take(cells.Gradients, 1, 1), GradientAttributes, this->Gradients) ||
+    !this->Triangles->Upload(
+      cells.Triangles.data() + begin, indices, vtkOpenGLBufferObject::ElementArrayBuffer))
   {
     this->Attributes->Release();
     throw std::runtime_error("projected cells could not be sent to the graphics card");
   }
-  if (!cells.FaceScalars.empty())
+  if (!faceScalars.empty())
   {
     this->FaceScalars.Activate(this->Program, "faceScalars");
   }
-  glDrawElements(
-    GL_TRIANGLES, static_cast<GLsizei>(cells.Triangles.size()), GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices), GL_UNSIGNED_SHORT, nullptr);
   this->Attributes->Release();
-  if (!cells.FaceScalars.empty())
+  if (!faceScalars.empty())
   {
     this->FaceScalars.Deactivate();
   }
+  this->LargestPart = std::max(this->LargestPart, bytes);
 }
 
 } // namespace tetralux

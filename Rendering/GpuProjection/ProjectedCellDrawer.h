@@ -43,12 +43,12 @@ public:
   /// log, where there is none.
   vtkShaderProgram* Use(vtkOpenGLRenderWindow* window, const Shader& shader);
 
-  /// Sends and draws; the program that Use returned is in use. Throws std::runtime_error, with one
-  /// line, where the graphics card has no room for the cells.
-  void Draw(const ProjectedCells& cells);
+  /// Sends and draws one part of the cells; the program that Use returned is in use. Throws
+  /// std::runtime_error, with one line, where the graphics card has no room for it.
+  void Draw(const ProjectedCells& cells, std::int64_t part);
 
-  /// Bytes on the graphics card of the largest batch since the last release.
-  std::size_t GetNumberOfBytes() const { return this->LargestBatch; }
+  /// Bytes on the graphics card of the largest part since the last release.
+  std::size_t GetNumberOfBytes() const { return this->LargestPart; }
 
   /// window: the one that goes away.
   void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
@@ -61,7 +61,7 @@ private:
   TextureBuffer FaceScalars;
   vtkShaderProgram* Program = nullptr; ///< the cache's
   std::string Source;                  ///< of the fragment shader that was found to compile
-  std::size_t LargestBatch = 0;
+  std::size_t LargestPart = 0;
   ContextResources Context;
 };
 

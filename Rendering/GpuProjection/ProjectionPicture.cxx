@@ -27,26 +27,26 @@ namespace tetralux
 namespace
 {
 
-/// Cells that are projected and sent at once, 16 MB: enough for all threads, which wait busily for
-/// each other, and few enough that whoever wants to abort is heard soon.
-constexpr std::size_t BatchSize = 131072;
+/// Cells that are projected at once, 8 MB: enough for all threads, which wait busily for each
+/// other, and few enough that whoever wants to abort is heard soon.
+constexpr std::size_t BatchSize = 65536;
 
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.
 constexpr float Beyond = 1e38f;
 
-/// Batches that may wait for the graphics card: one that it draws and one that is ready. Drivers
-/// keep a copy of each batch until it is drawn, without a limit of their own: 300 bytes a cell.
-constexpr std::size_t MaximumBatchesInFlight = 2;
+/// Parts of cells that may wait for the graphics card. Drivers keep what they make of each part
+/// until it is drawn, without a limit of their own: Mesa's llvmpipe a kilobyte a cell.
+constexpr std::size_t MaximumPartsInFlight = 2;
 
-/// The batches that were sent and may not be drawn yet.
-class BatchQueue
+/// The parts that were sent and may not be drawn yet.
+class PartQueue
 {
 public:
-  BatchQueue() = default;
-  BatchQueue(const BatchQueue&) = delete;
-  BatchQueue& operator=(const BatchQueue&) = delete;
+  PartQueue() = default;
+  PartQueue(const PartQueue&) = delete;
+  PartQueue& operator=(const PartQueue&) = delete;
 
-  ~BatchQueue()
+  ~PartQueue()
   {
     for (const GLsync fence : this->Fences)
     {
@@ -57,7 +57,7 @@ public:
   /// Waits until there is room for one more.
   void MakeRoom()
   {
-    if (this->Fences.size() == MaximumBatchesInFlight)
+    if (this->Fences.size() == MaximumPartsInFlight)
     {
       glClientWaitSync(this->Fences.front(), GL_SYNC_FLUSH_COMMANDS_BIT, LongestWait);
       glDeleteSync(this->Fences.front());
@@ -268,7 +268,7 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   }
 
   Result result;
-  BatchQueue queue;
+  PartQueue queue;
   const std::size_t size = scene.Order.size();
   for (std::size_t begin = 0; begin < size && !result.Aborted; begin += BatchSize)
   {
@@ -279,9 +279,12 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
     result.ProjectSeconds += stopwatch.GetSeconds();
     result.Cells += this->Cells.GetNumberOfCells();
     result.Triangles += static_cast<std::int64_t>(this->Cells.Triangles.size() / 3);
-    queue.MakeRoom();
-    this->Drawer.Draw(this->Cells);
-    queue.Add();
+    for (std::int64_t part = 0; part < this->Cells.GetNumberOfParts(); ++part)
+    {
+      queue.MakeRoom();
+      this->Drawer.Draw(this->Cells, part);
+      queue.Add();
+    }
     result.Aborted = progress &&
       !progress(static_cast<double>(std::min(begin + BatchSize, size)) / static_cast<double>(size));
   }
@@ -469,11 +472,15 @@ void ProjectionPicture::Read(const ProjectionScene& scene, Span<float> colors, S
   }
 }
 
-std::size_t ProjectionPicture::GetNumberOfBytes() const
+std::size_t ProjectionPicture::GetNumberOfIntegralBytes() const
+{
+  return this->Integral.GetNumberOfBytes() + this->Pieces.GetNumberOfBytes();
+}
+
+std::size_t ProjectionPicture::GetNumberOfPictureBytes() const
 {
   return this->Colors.GetNumberOfBytes() + this->Scalars.GetNumberOfBytes() +
-    this->Distances.GetNumberOfBytes() + this->Drawer.GetNumberOfBytes() +
-    this->Integral.GetNumberOfBytes() + this->Pieces.GetNumberOfBytes();
+    this->Distances.GetNumberOfBytes();
 }
 
 } // namespace tetralux

@@ -100,7 +100,14 @@ public:
   /// is current.
   void Read(const ProjectionScene& scene, Span<float> colors, Span<float> depths);
 
-  std::size_t GetNumberOfBytes() const; ///< on the graphics card
+  /// Bytes: of the cells that were projected last, for reuse; and on the graphics card of the
+  /// largest part of them, of the functions of the integral, and of the pictures.
+  ///@{
+  std::size_t GetNumberOfCellBytes() const { return this->Cells.GetNumberOfBytes(); }
+  std::size_t GetNumberOfPartBytes() const { return this->Drawer.GetNumberOfBytes(); }
+  std::size_t GetNumberOfIntegralBytes() const;
+  std::size_t GetNumberOfPictureBytes() const;
+  ///@}
 
   /// window: the one that goes away.
   void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }

@@ -51,7 +51,7 @@ std::int64_t CountMisfits(const WalkMesh& mesh)
 TetrahedralMesh SelectPoints(const CoincidentPoints& points)
 {
   TetrahedralMesh mesh;
-  mesh.OriginalPoints = points.Points;
+  mesh.OriginalPoints.assign(points.Points.begin(), points.Points.end());
   mesh.OriginalPoints.insert(mesh.OriginalPoints.end(), points.Firsts.begin(), points.Firsts.end());
   mesh.Points.resize(3 * mesh.OriginalPoints.size());
   return mesh;

@@ -9,6 +9,7 @@
 #include "Integral/ErrorBudget.h"
 #include "Preparation/IsosurfacesFromProperty.h"
 #include "Preparation/TransferFunctionFromProperty.h"
+#include "Report/PeakMemory.h"
 #include "View/MeshToWorld.h"
 
 #include "vtkDataObject.h"
@@ -122,22 +123,28 @@ bool ScenePreparation::Update(const MapperSettings& wanted, const SceneInput& in
   // Who is told of progress may change the input: what it consists of now is read.
   const vtkSmartPointer<vtkDataObject> data =
     this->IsOf(keys) ? vtkSmartPointer<vtkDataObject>(input.Data) : HoldContents(input.Data);
+  const auto recordPeak = [this](const char* stage)
+  { this->Last.Peaks.emplace_back(stage, GetPeakMemory()); };
   if (!this->PrepareMesh(settings, data, keys, progress))
   {
     return false;
   }
+  recordPeak("mesh");
   if (!this->MergePoints(settings, data, keys.Scalars, progress))
   {
     return false;
   }
   this->PrepareScalars(data, keys.Scalars);
   this->PrepareColors(data, keys.Colors, settings.Colors);
+  recordPeak("scalars");
   this->InputTime = inputTime;
   this->AttributesTime = attributesTime;
   this->PrepareFunction(settings, input);
   this->WarnOfShade(input.Property);
   this->Scene.Prepare({});
+  recordPeak("transfer_function");
   this->PrepareTable(settings, input);
+  recordPeak("table");
   return true;
 }
 

@@ -80,6 +80,9 @@ public:
     double ScalarsSeconds = 0;
     double FunctionSeconds = 0;
     double TableSeconds = 0;
+
+    /// The largest memory that the process has held up to the end of each stage, bytes.
+    std::vector<std::pair<const char*, std::int64_t>> Peaks;
   };
   const Record& GetLast() const { return this->Last; }
 

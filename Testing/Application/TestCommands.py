@@ -502,11 +502,12 @@ class Commands(ToolTest):
         with open(self.path("stats.json"), encoding="utf-8") as file:
             statistics = json.load(file)
         memory = statistics["memory"]
-        peaks = [
-            memory[peak]
-            for peak in ("peak_before_frame", "peak_after_preparation", "peak_after_frame")
-        ]
+        peaks = list(statistics["process_peaks"].values())
+        self.assertEqual(len(peaks), 6)
         self.assertEqual(peaks, sorted(peaks))
+        self.assertEqual(set(statistics["memory_peaks"]), set(memory))
+        for name, held in memory.items():
+            self.assertGreaterEqual(statistics["memory_peaks"][name], held, name)
         cells = statistics["tables"]["tetrahedra"]
         self.assertGreaterEqual(memory["mesh"], 16 * cells)
         self.assertGreaterEqual(memory["walk_tables"], 32 * cells)

@@ -69,7 +69,6 @@ def measure(mapper_name, tetrahedra):
         "parts": {
             name: value / cells
             for name, value in statistics["memory"].items()
-            if not name.startswith("peak")
         },
     }
     print(json.dumps(row))

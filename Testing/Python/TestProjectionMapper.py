@@ -35,7 +35,7 @@ assert numpy.abs(depth[20:60, 40:80] - 3).max() < 1e-5
 assert (depth[:20] == -1).all()
 assert statistics["method"] == "projection"
 assert statistics["projection"]["tetrahedra_drawn"] == 5 * 27
-assert statistics["projection"]["order"] == "meshed polyhedra"
+assert statistics["projection"]["order"] == "meshed polyhedra, across gaps"
 assert statistics["projection"]["cycles"] == 0
 assert mapper.GetErrorEstimate() <= mapper.GetMaximumError()
 

@@ -109,6 +109,7 @@ TEST(MeshedPolyhedraVisibilitySort, IsExactInTheWorld)
   sort->SetCamera(camera);
   sort->SetModelTransform(transform->GetMatrix());
   sort->SetMaxCellsReturned(7);
+  sort->SetOrderToExact();
   EXPECT_EQ(sort->GetDirection(), vtkVisibilitySort::BACK_TO_FRONT);
   camera->SetFocalPoint(middle);
   for (const bool parallel : { false, true })
@@ -143,6 +144,8 @@ TEST(MeshedPolyhedraVisibilitySort, IsExactInTheWorld)
       sort->SetOrderToAcrossGaps();
       EXPECT_EQ(FindWrongPairs(pairs, GetCells(sort)).size(), 0U);
       EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS_ORDER);
+      sort->SetOrderToAutomatic();
+      EXPECT_EQ(FindWrongPairs(pairs, GetCells(sort)).size(), 0U);
 
       // The others are less exact, but not without sense.
       sort->SetOrderToNonConvex();
@@ -261,6 +264,10 @@ TEST(MeshedPolyhedraVisibilitySort, ReportsWhatCanNotBeSorted)
   crossing.Cells = { 0, 1, 2, 3, 4, 5, 6, 7 };
   const auto crossingGrid = MakeGridWithoutField(crossing);
   sort->SetInput(crossingGrid);
+  ExpectEachOnce(GetCells(sort), 2);
+  EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS_ORDER);
+  EXPECT_STREQ(sort->GetRefusal(), ""); // which was not tried
+  sort->SetOrderToExact();
   ExpectEachOnce(GetCells(sort), 2);
   EXPECT_EQ(sort->GetUsedOrder(), Sort::ACROSS_GAPS_ORDER);
   EXPECT_STRNE(sort->GetRefusal(), "");

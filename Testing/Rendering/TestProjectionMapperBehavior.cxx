@@ -109,7 +109,7 @@ TEST(ProjectionMapper, OrderIndependentModelsAreNotSorted)
   }
   scene.Projection->SetBlendModeToComposite();
   scene.Render();
-  EXPECT_TRUE(scene.Says("\"order\": \"meshed polyhedra\""));
+  EXPECT_TRUE(scene.Says("\"order\": \"meshed polyhedra, across gaps\""));
   EXPECT_TRUE(scene.Says("\"cycles\": 0"));
 }
 
@@ -360,6 +360,8 @@ TEST(ProjectionMapper, Orders)
   // In a box of cells all orders by faces are exact.
   ProjectionMapperScene scene;
   const std::vector<float> best = scene.Render();
+  EXPECT_STREQ(scene.Projection->GetUsedOrderAsString(), "across-gaps");
+  EXPECT_FALSE(scene.Says("convexification"));
   scene.Projection->SetOrderToNonConvex();
   EXPECT_LT(FindLargestDifference(scene.Render(), best), Exact);
   EXPECT_TRUE(scene.Says("\"order\": \"meshed polyhedra, not convex\""));

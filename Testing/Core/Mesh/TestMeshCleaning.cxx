@@ -69,7 +69,7 @@ RemovedCells RemoveSlowly(TetrahedralMesh& mesh)
     {
       kept.Cells.insert(kept.Cells.end(), points, points + 4);
       kept.OriginalCells.push_back(
-        mesh.OriginalCells.empty() ? static_cast<std::int64_t>(cell) : mesh.OriginalCells[cell]);
+        mesh.OriginalCells.empty() ? static_cast<std::int32_t>(cell) : mesh.OriginalCells[cell]);
     }
   }
   mesh.Cells = kept.Cells;
@@ -122,7 +122,7 @@ TEST(MeshCleaning, EveryReasonOnce)
   const auto points = mesh.Points;
   ExpectSame(RemoveUnusableCells(mesh), { 3, 2, 1, 2 });
   EXPECT_EQ(mesh.Cells, (std::vector<std::int32_t>{ 0, 1, 2, 3, 1, 2, 3, 4 }));
-  EXPECT_EQ(mesh.OriginalCells, (std::vector<std::int64_t>{ 0, 8 }));
+  EXPECT_EQ(mesh.OriginalCells, (std::vector<std::int32_t>{ 0, 8 }));
   EXPECT_EQ(mesh.Points.size(), points.size());
 }
 

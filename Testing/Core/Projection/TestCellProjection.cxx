@@ -394,6 +394,11 @@ TEST(CellProjection, BatchesDoNotDependOnThreads)
   ASSERT_EQ(results[0].GetNumberOfCells(), results[1].GetNumberOfCells());
   EXPECT_GT(results[0].GetNumberOfCells(), 30000);
   EXPECT_EQ(results[0].Triangles, results[1].Triangles);
+  EXPECT_EQ(results[0].PartBegins, results[1].PartBegins);
+  EXPECT_EQ(results[0].PartBegins.front(), 0U);
+  EXPECT_EQ(results[0].PartBegins.back(), results[0].Triangles.size());
+  EXPECT_EQ(results[0].GetNumberOfParts(),
+    (results[0].GetNumberOfCells() + ProjectedCells::PartSize - 1) / ProjectedCells::PartSize);
   std::int32_t last = static_cast<std::int32_t>(mesh.GetNumberOfCells());
   std::int64_t triangles = 0;
   for (std::int64_t i = 0; i < results[0].GetNumberOfCells(); ++i)

@@ -1056,7 +1056,7 @@ TEST(RayCaster, WhatIsSetAgainReplacesWhatWas)
       EXPECT_TRUE(AreIdentical(actual[i], expected[i])) << what << ", picture " << i;
     }
   };
-  const auto inOrder = [](const RayScene& scene, const std::vector<std::int64_t>& ids)
+  const auto inOrder = [](const RayScene& scene, const std::vector<std::int32_t>& ids)
   {
     std::vector<double> scalars;
     for (const std::int64_t id : ids)

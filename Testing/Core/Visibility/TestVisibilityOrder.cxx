@@ -2,6 +2,7 @@
 
 // Visibility orders against brute force: no ray may meet two cells in another order.
 
+#include "Visibility/MeshOrder.h"
 #include "Visibility/VisibilityOrder.h"
 
 #include "Base/RadixSort.h"
@@ -24,6 +25,7 @@
 #include <numeric>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -163,6 +165,23 @@ TEST_P(VisibilityOrders, AreExact)
     EXPECT_EQ(plain.GetUsedMethod(), VisibilityMethod::MeshedAcrossGaps);
     EXPECT_TRUE(FindWrongPairs(pairs, acrossGaps).empty());
     EXPECT_EQ(plain.GetCycles().GetNumberOfCycles(), 0);
+  }
+}
+
+TEST_P(VisibilityOrders, AreExactByWhatCostsLess)
+{
+  WalkMesh mesh(GenerateMesh(GetParam().Name, GetParam().Parameters).Mesh);
+  MeshOrder order(mesh);
+  int number = 0;
+  for (const VisibilityView& view : MakeViews(mesh.GetMesh()))
+  {
+    SCOPED_TRACE("view " + std::to_string(++number));
+    const std::vector<std::int32_t>* front = order.Sort(view, OrderWish::Automatic, FrontToBack);
+    ASSERT_NE(front, nullptr);
+    ExpectAllCells(*front, mesh.GetNumberOfCells());
+    EXPECT_NE(order.Get().GetUsedMethod(), VisibilityMethod::MeshedNonConvex);
+    const auto pairs = FindOccludedPairs(mesh.GetMesh(), view, 1, number);
+    EXPECT_TRUE(FindWrongPairs(pairs, *front).empty());
   }
 }
 
@@ -358,6 +377,70 @@ TEST(VisibilityOrder, OrdersWhatIsDrawnByWhatIsNot)
       EXPECT_EQ(order.Sort(view, method, direction, drawn), expected);
     }
   }
+}
+
+TEST(MeshOrder, MakesConvexWhatIsSeenOnceOnlyIfAsked)
+{
+  WalkMesh mesh(GenerateMesh("cubes", { { "count", 2 }, { "cells", 2 } }).Mesh);
+  const VisibilityView view = MakeViews(mesh.GetMesh()).front();
+  MeshOrder order(mesh);
+  ASSERT_NE(order.Sort(view, OrderWish::Automatic, FrontToBack), nullptr);
+  EXPECT_EQ(order.Get().GetUsedMethod(), VisibilityMethod::MeshedAcrossGaps);
+  EXPECT_EQ(mesh.GetConvexification(), nullptr);
+  EXPECT_GT(order.GetTableSeconds(), 0);
+  EXPECT_EQ(order.GetConvexificationSeconds(), 0);
+
+  // An abort leaves it as it was.
+  EXPECT_EQ(order.Sort(view, OrderWish::Convexified, FrontToBack, {}, [](double) { return false; }),
+    nullptr);
+  EXPECT_EQ(mesh.GetConvexification(), nullptr);
+  ASSERT_NE(order.Sort(view, OrderWish::Convexified, FrontToBack), nullptr);
+  EXPECT_EQ(order.Get().GetUsedMethod(), VisibilityMethod::Meshed);
+  EXPECT_EQ(order.GetRefusal(), "");
+  ASSERT_NE(order.Sort(view, OrderWish::AcrossGaps, FrontToBack), nullptr);
+  EXPECT_EQ(order.Get().GetUsedMethod(), VisibilityMethod::MeshedAcrossGaps);
+  // What is convex by now stays it.
+  ASSERT_NE(order.Sort(view, OrderWish::Automatic, FrontToBack), nullptr);
+  EXPECT_EQ(order.Get().GetUsedMethod(), VisibilityMethod::Meshed);
+  EXPECT_EQ(order.GetConvexificationSeconds(), 0);
+}
+
+TEST(MeshOrder, MakesConvexWhereGapsAreCostly)
+{
+  // Plates one behind the other: each one's back has the fronts of all others behind it.
+  constexpr int NumberOfPlates = 120;
+  TetrahedralMesh plates;
+  for (int plate = 0; plate < NumberOfPlates; ++plate)
+  {
+    const std::int32_t first = 8 * plate;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      plates.Points.insert(plates.Points.end(),
+        { static_cast<double>(corner & 1), static_cast<double>(corner >> 1 & 1),
+          plate + 0.5 * (corner >> 2) });
+    }
+    for (const auto& [a, b] :
+      { std::pair{ 1, 3 }, { 3, 2 }, { 2, 6 }, { 6, 4 }, { 4, 5 }, { 5, 1 } })
+    {
+      plates.Cells.insert(plates.Cells.end(), { first, first + a, first + b, first + 7 });
+    }
+  }
+  WalkMesh mesh(plates);
+  MeshOrder order(mesh);
+  VisibilityView view;
+  view.Eye = { 0.4, 0.3, -NumberOfPlates };
+  const auto pairs = FindOccludedPairs(mesh.GetMesh(), view, 1, 1);
+  EXPECT_GT(pairs.size(), 10000U);
+  // The first view finds out, and has an exact order already.
+  for (const VisibilityMethod method :
+    { VisibilityMethod::MeshedAcrossGaps, VisibilityMethod::Meshed, VisibilityMethod::Meshed })
+  {
+    const std::vector<std::int32_t>* front = order.Sort(view, OrderWish::Automatic, FrontToBack);
+    ASSERT_NE(front, nullptr);
+    EXPECT_EQ(order.Get().GetUsedMethod(), method) << order.GetRefusal();
+    EXPECT_TRUE(FindWrongPairs(pairs, *front).empty());
+  }
+  EXPECT_EQ(order.GetConvexificationSeconds(), 0);
 }
 
 TEST(VisibilityOrder, DoesNotDependOnThreads)

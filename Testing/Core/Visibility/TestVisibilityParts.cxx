@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshParts.h"
+#include "Visibility/FaceBins.h"
 #include "Visibility/MeasureTriangle.h"
 #include "Visibility/TwinFaces.h"
 #include "Visibility/VisibilityArrows.h"
@@ -17,6 +18,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -154,6 +157,95 @@ std::int32_t FindCell(const Scene& scene, std::int64_t original)
   return cells.empty()
     ? static_cast<std::int32_t>(original)
     : static_cast<std::int32_t>(std::find(cells.begin(), cells.end(), original) - cells.begin());
+}
+
+/// Where a ray from an origin along a direction meets a triangle, in lengths of the direction; not
+/// finite where it misses.
+double FindHit(
+  const FaceBins::Corner& origin, const FaceBins::Corner& direction, const FaceBins::Face& face)
+{
+  const auto minus = [](const FaceBins::Corner& a, const FaceBins::Corner& b) {
+    return FaceBins::Corner{ a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+  };
+  const auto cross = [](const FaceBins::Corner& a, const FaceBins::Corner& b)
+  {
+    return FaceBins::Corner{ a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+      a[0] * b[1] - a[1] * b[0] };
+  };
+  const auto dot = [](const FaceBins::Corner& a, const FaceBins::Corner& b)
+  { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto e1 = minus(face[1], face[0]);
+  const auto e2 = minus(face[2], face[0]);
+  const auto p = cross(direction, e2);
+  const auto t = minus(origin, face[0]);
+  const auto q = cross(t, e1);
+  const double determinant = dot(e1, p);
+  const double u = dot(t, p) / determinant;
+  const double v = dot(direction, q) / determinant;
+  return u >= 0 && v >= 0 && u + v <= 1 ? dot(e2, q) / determinant
+                                        : std::numeric_limits<double>::infinity();
+}
+
+TEST(FaceBins, HaveAllThatIsAtTheSamePlace)
+{
+  // Small faces, and a few that cover many bins.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-0.5, 0.5);
+  std::vector<FaceBins::Face> faces(400);
+  std::vector<std::uint8_t> binned(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    const double size = f % 50 == 0 ? 1 : 0.1;
+    const FaceBins::Corner middle = { place(random), place(random), place(random) };
+    for (FaceBins::Corner& corner : faces[f])
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        corner[a] = (1 - 0.5 * size) * middle[a] + size * place(random);
+      }
+    }
+    binned[f] = f % 3 != 0;
+  }
+  for (const VisibilityView& view :
+    { LookAlong(0.3, -0.2, -1), LookAlong(0, 1, 0), LookFrom(1.5, 0.4, 0.8), LookFrom(0, 0, 1e6) })
+  {
+    const FaceBins bins(view, faces, binned);
+    ASSERT_TRUE(bins.IsUsable());
+    int pairs = 0;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+    {
+      std::vector<int> visits(faces.size(), 0);
+      const std::int64_t looked =
+        bins.ForEach(static_cast<std::int64_t>(f), [&](std::int32_t other) { ++visits[other]; });
+      EXPECT_GE(looked, std::count(visits.begin(), visits.end(), 1));
+      FaceBins::Corner middle;
+      FaceBins::Corner direction;
+      for (int a = 0; a < 3; ++a)
+      {
+        middle[a] = (faces[f][0][a] + faces[f][1][a] + faces[f][2][a]) / 3;
+        direction[a] = view.Parallel ? view.Direction[a] : middle[a] - view.Eye[a];
+      }
+      for (std::size_t other = 0; other < faces.size(); ++other)
+      {
+        EXPECT_LE(visits[other], binned[other]);
+        if (binned[other] && std::isfinite(FindHit(middle, direction, faces[other])))
+        {
+          EXPECT_EQ(visits[other], 1) << f << " " << other;
+          ++pairs;
+        }
+      }
+    }
+    EXPECT_GT(pairs, 300);
+  }
+}
+
+TEST(FaceBins, AreNoneBesideTheViewer)
+{
+  const std::vector<FaceBins::Face> faces = { { { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0, 0.1, 0 } } } };
+  const std::vector<std::uint8_t> binned = { 1 };
+  EXPECT_FALSE(FaceBins(LookFrom(0, 0, 0), faces, binned).IsUsable());
+  EXPECT_FALSE(FaceBins(LookFrom(0, 0, 0.01), faces, binned).IsUsable());
+  EXPECT_TRUE(FaceBins(LookFrom(0, 0, 0.5), faces, binned).IsUsable());
 }
 
 } // namespace
