@@ -8,11 +8,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace
 {
+
+/// Different warnings that are kept. Readers of damaged files may give one for each cell.
+constexpr std::size_t MaximumWarnings = 20;
 
 /// "ERROR: In file.cxx, line 12\nvtkClass (0x1234): what is wrong\n\n" -> "what is wrong"
 std::string StripDecoration(std::string text)
@@ -60,15 +65,24 @@ public:
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     const std::string line = StripDecoration(text);
-    if (std::find(this->Warnings.begin(), this->Warnings.end(), line) == this->Warnings.end())
+    if (std::find(this->Warnings.begin(), this->Warnings.end(), line) != this->Warnings.end())
+    {
+      return;
+    }
+    if (this->Warnings.size() < MaximumWarnings)
     {
       this->Warnings.push_back(line);
+    }
+    else
+    {
+      ++this->MoreWarnings;
     }
   }
 
   std::mutex Mutex;
   std::string Error;
-  std::vector<std::string> Warnings;
+  std::vector<std::string> Warnings; ///< each once
+  std::int64_t MoreWarnings = 0;     ///< given since Warnings was full, repeated ones too
 };
 
 vtkStandardNewMacro(MessageCapture::Window);
@@ -102,5 +116,9 @@ void MessageCapture::PrintWarnings() const
   for (const std::string& warning : this->Current->Warnings)
   {
     PrintMessage("warning: " + warning);
+  }
+  if (this->Current->MoreWarnings > 0)
+  {
+    PrintMessage("warning: " + std::to_string(this->Current->MoreWarnings) + " more warnings");
   }
 }

@@ -305,6 +305,16 @@ class Fuzz(FormatFiles, ToolTest):
                     self.assertEqual(wrong, "")
         print(f"seeds {SEED} to {SEED + ROUNDS - 1}: {dict(kinds)}", file=sys.stderr)
 
+    def test_a_warning_for_each_cell(self):
+        # The file has six faces of one cell; one says that its cell is the millionth. VTK's reader
+        # warns of each cell without faces.
+        self.write_open_foam()
+        owners = "6\n(\n0\n0\n1000000\n0\n0\n0\n)"
+        self.write_foam("constant/polyMesh/owner", "labelList", owners)
+        result = self.run_tool("info", "a.foam")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        self.assertLess(len(result.stderr.splitlines()), 30, result.stderr[:2000])
+
 
 if __name__ == "__main__":
     tool.main()
