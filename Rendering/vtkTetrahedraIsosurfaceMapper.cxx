@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraIsosurfaceMapper.h"
 
-#include "Frame/CPUPicture.h"
+#include "Frame/PictureTask.h"
 #include "Frame/MapperFrame.h"
 #include "Isosurface/IsosurfaceTracer.h"
 #include "Preparation/MapperSettings.h"
@@ -38,7 +38,7 @@ Json Describe(const tetralux::TraceCounts& counts)
   return section;
 }
 
-void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::CPUPicture& picture,
+void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::PictureTask& picture,
   MapperFrame& frame)
 {
   Json section;
@@ -148,7 +148,7 @@ void vtkTetrahedraIsosurfaceMapper::SetBlendMode(int mode)
 
 //------------------------------------------------------------------------------------------------
 tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
-  MapperFrame& frame, const tetralux::CPUPicture& picture)
+  MapperFrame& frame, const tetralux::PictureTask& picture)
 {
   frame.Method = "isosurface";
   tetralux::IsosurfaceOptions options;
@@ -159,7 +159,8 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
   options.ShadowSoftness = vtkMath::RadiansFromDegrees(this->ShadowSoftness);
   options.AmbientOcclusion = this->AmbientOcclusion != 0;
   options.OcclusionRadius = this->AmbientOcclusionRadius;
-  options.SamplesPerFrame = this->SamplesPerFrame;
+  // Where a picture has edges, it is complete.
+  options.SamplesPerFrame = picture.OfSamples ? this->MaximumSamples : this->SamplesPerFrame;
   options.MaximumSamples = this->MaximumSamples;
   options.StepCacheBytes = static_cast<std::size_t>(this->TimeStepCacheBytes);
   options.Lights = frame.Lights;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Frame/RayPace.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetralux
+{
+namespace
+{
+
+/// How much larger than needed a distance may be before it changes: frames of one view take times
+/// that differ by about a third on a busy machine, and a distance changes by the root of that.
+constexpr double LargestExcess = 1.3;
+
+/// A new distance is in the middle of those that are kept.
+constexpr double FreshExcess = 1.14;
+
+/// Of what every frame takes: fewer rays than can be cast in this share of it save little.
+constexpr double SmallestRayShare = 0.25;
+
+} // namespace
+
+double RayPace::ChooseDistance(const RayDistances& distances, const FrameDemand& demand)
+{
+  if (!distances.Automatic)
+  {
+    return distances.Fixed;
+  }
+  const double raySeconds =
+    std::max(demand.Seconds - this->FixedSeconds, SmallestRayShare * this->FixedSeconds);
+  const auto clamp = [&distances](double distance)
+  { return std::max(std::min(distance, distances.Maximum), distances.Minimum); };
+  const double needed =
+    raySeconds > 0 ? std::sqrt(this->SecondsPerRay * demand.Pixels / raySeconds) : 0;
+  if (!demand.Interactive)
+  {
+    this->Last = 0;
+    return clamp(needed);
+  }
+  if (this->Last == 0)
+  {
+    this->Last = clamp(needed);
+  }
+  else if (clamp(needed) > this->Last || LargestExcess * needed < this->Last)
+  {
+    this->Last = clamp(FreshExcess * needed);
+  }
+  return clamp(this->Last);
+}
+
+bool RayPace::HasTimeForEdges(const FrameDemand& demand)
+{
+  const double seconds =
+    this->FixedSeconds + this->SecondsPerRay * demand.Pixels + this->EdgeSeconds;
+  this->LastEdges = !demand.Interactive ||
+    seconds <= (this->LastEdges ? demand.Seconds : demand.Seconds / LargestExcess);
+  return this->LastEdges;
+}
+
+void RayPace::Record(double rays, double raySeconds, double fixedSeconds)
+{
+  this->SecondsPerRay = raySeconds / rays;
+  this->FixedSeconds = fixedSeconds;
+}
+
+} // namespace tetralux
