@@ -175,7 +175,8 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     options.WindowDepths = this->Private->WindowDepths;
     frame.WindowDepths = this->Private->WindowDepths;
   }
-  const bool sampled = options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0);
+  const bool sampled = frame.Shaded &&
+    (options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0));
   if (!frame.WindowDepths.empty() && picture.IsWindowSized && !sampled &&
     HasOnlyOpaqueSurfaces(*frame.Scene))
   {
@@ -198,8 +199,8 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     *frame.Scene, picture.Grid, picture.Limits, options, picture.Colors, picture.Depths);
   frame.Integration = tetralux::Integrator::Isosurfaces;
   frame.Aborted = statistics.Aborted;
-  frame.IsMean = sampled;
-  frame.Final = !sampled || statistics.Samples + options.SamplesPerFrame > options.MaximumSamples;
+  frame.IsMean = statistics.Samples > 0;
+  frame.Final = !frame.IsMean || statistics.Samples + options.SamplesPerFrame > options.MaximumSamples;
   Describe(statistics, picture, frame);
   frame.ReportOmission(!options.AmbientOcclusion, "ambient occlusion", "it is off");
   frame.ReportOmission(!options.Shadows, "shadows", "they are off");

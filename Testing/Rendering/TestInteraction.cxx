@@ -70,7 +70,6 @@ TEST_P(Interaction, CoarseRaysAreWithinTheEstimate)
   const std::vector<int> plain = scene.Grab();
   const double fine = GetErrorEstimate(scene.GetMapper());
   Set(scene.GetMapper(), "AutoAdjustSampleDistances", 0);
-  double before = 0;
   for (const double distance : { 1.5, 3. })
   {
     SCOPED_TRACE(distance);
@@ -81,9 +80,9 @@ TEST_P(Interaction, CoarseRaysAreWithinTheEstimate)
     const double error = FindLargestDifference(scene.Grab(), plain);
     EXPECT_LE(error, 255 * estimate + Rounding);
     EXPECT_GT(error, 10);
-    EXPECT_NEAR(estimate, fine + std::stod(scene.Get("coarse_rays")), 0.1 * fine);
-    EXPECT_GT(estimate, before);
-    before = estimate;
+    const double coarse = std::stod(scene.Get("coarse_rays"));
+    EXPECT_GE(estimate, coarse);
+    EXPECT_LE(estimate, coarse + 2 * fine); // the rest is for other rays
   }
   EXPECT_EQ(warnings, 0);
 }
