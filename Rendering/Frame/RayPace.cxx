@@ -32,7 +32,7 @@ double RayPace::ChooseDistance(const RayDistances& distances, const FrameDemand&
   const auto clamp = [&distances](double distance)
   { return std::max(std::min(distance, distances.Maximum), distances.Minimum); };
   const double needed =
-    raySeconds > 0 ? std::sqrt(this->SecondsPerRay * demand.Pixels / raySeconds) : 0;
+    raySeconds > 0 ? std::sqrt(this->GetSecondsPerRay() * demand.Pixels / raySeconds) : 0;
   if (!demand.Interactive)
   {
     this->Last = 0;
@@ -52,7 +52,7 @@ double RayPace::ChooseDistance(const RayDistances& distances, const FrameDemand&
 bool RayPace::HasTimeForEdges(const FrameDemand& demand)
 {
   const double seconds =
-    this->FixedSeconds + this->SecondsPerRay * demand.Pixels + this->EdgeSeconds;
+    this->FixedSeconds + this->GetSecondsPerRay() * demand.Pixels + this->EdgeSeconds;
   this->LastEdges = !demand.Interactive ||
     seconds <= (this->LastEdges ? demand.Seconds : demand.Seconds / LargestExcess);
   return this->LastEdges;
@@ -60,8 +60,18 @@ bool RayPace::HasTimeForEdges(const FrameDemand& demand)
 
 void RayPace::Record(double rays, double raySeconds, double fixedSeconds)
 {
-  this->SecondsPerRay = raySeconds / rays;
+  std::rotate(
+    this->SecondsPerRay.begin(), this->SecondsPerRay.end() - 1, this->SecondsPerRay.end());
+  this->SecondsPerRay.front() = raySeconds / rays;
+  this->Frames = std::min(this->Frames + 1, static_cast<int>(this->SecondsPerRay.size()));
   this->FixedSeconds = fixedSeconds;
+}
+
+double RayPace::GetSecondsPerRay() const
+{
+  const auto& [first, second, third] = this->SecondsPerRay;
+  return this->Frames < 3 ? first
+                          : std::max(std::min(first, second), std::min(std::max(first, second), third));
 }
 
 } // namespace tetralux

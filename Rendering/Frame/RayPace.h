@@ -4,6 +4,8 @@
 
 #include "TetraluxRenderingModule.h"
 
+#include <array>
+
 namespace tetralux
 {
 
@@ -42,7 +44,11 @@ public:
   void RecordEdges(double seconds) { this->EdgeSeconds = seconds; }
 
 private:
-  double SecondsPerRay = 0; ///< 0: not known yet
+  /// The middle one of the last three: a frame that something else held up changes nothing.
+  double GetSecondsPerRay() const;
+
+  std::array<double, 3> SecondsPerRay = { 0, 0, 0 }; ///< the last one first
+  int Frames = 0;                                    ///< that are known
   double FixedSeconds = 0;
   double EdgeSeconds = 0;
   double Last = 0; ///< distance in the interaction; 0: there is none

@@ -200,20 +200,23 @@ TEST(RayPace, StaysWhereItIsInAnInteraction)
 {
   tetralux::RayPace pace;
   const tetralux::RayDistances distances;
-  tetralux::FrameDemand demand{ 1e6, 0.1, true };
-  pace.Record(1e6, 0.9, 0);
-  pace.ChooseDistance(distances, demand);
-  pace.Record(1e6, 1, 0);
-  const double first = pace.ChooseDistance(distances, demand);
-  for (const double seconds : { 0.8, 1.1, 0.9, 1.2 })
+  const tetralux::FrameDemand demand{ 1e6, 0.1, true };
+  const auto choose = [&](double seconds)
   {
     pace.Record(1e6, seconds, 0);
-    EXPECT_EQ(pace.ChooseDistance(distances, demand), first) << seconds;
+    return pace.ChooseDistance(distances, demand);
+  };
+  choose(0.9);
+  const double first = choose(1);
+  EXPECT_GT(first, std::sqrt(10));
+  for (const double seconds : { 0.8, 1.1, 0.9, 1.2, 9., 1., 0.01, 0.9 })
+  {
+    EXPECT_EQ(choose(seconds), first) << seconds;
   }
-  pace.Record(1e6, 1.5, 0);
-  EXPECT_GT(pace.ChooseDistance(distances, demand), first);
-  pace.Record(1e6, 0.2, 0);
-  EXPECT_LT(pace.ChooseDistance(distances, demand), first);
+  choose(1.6);
+  EXPECT_GT(choose(1.6), first);
+  choose(0.2);
+  EXPECT_LT(choose(0.2), first);
 }
 
 // What every frame takes leaves less for rays; more of it than the time is not made up for by rays.
