@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraCPUMapper.h"
 
-#include "Frame/PictureDrawing.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureDrawing.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraIsosurfaceMapper.h"
 
-#include "Frame/PictureTask.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureTask.h"
 #include "Isosurface/IsosurfaceTracer.h"
 #include "Preparation/MapperSettings.h"
 #include "Properties/PropertyPrinter.h"
@@ -38,8 +38,8 @@ Json Describe(const tetralux::TraceCounts& counts)
   return section;
 }
 
-void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::PictureTask& picture,
-  MapperFrame& frame)
+void Describe(const tetralux::IsosurfaceStatistics& statistics,
+  const tetralux::PictureTask& picture, MapperFrame& frame)
 {
   Json section;
   section["width"] = picture.Grid.Width;
@@ -175,8 +175,8 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     options.WindowDepths = this->Private->WindowDepths;
     frame.WindowDepths = this->Private->WindowDepths;
   }
-  const bool sampled = frame.Shaded &&
-    (options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0));
+  const bool sampled =
+    frame.Shaded && (options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0));
   if (!frame.WindowDepths.empty() && picture.IsWindowSized && !sampled &&
     HasOnlyOpaqueSurfaces(*frame.Scene))
   {
@@ -200,7 +200,8 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
   frame.Integration = tetralux::Integrator::Isosurfaces;
   frame.Aborted = statistics.Aborted;
   frame.IsMean = statistics.Samples > 0;
-  frame.Final = !frame.IsMean || statistics.Samples + options.SamplesPerFrame > options.MaximumSamples;
+  frame.Final =
+    !frame.IsMean || statistics.Samples + options.SamplesPerFrame > options.MaximumSamples;
   Describe(statistics, picture, frame);
   frame.ReportOmission(!options.AmbientOcclusion, "ambient occlusion", "it is off");
   frame.ReportOmission(!options.Shadows, "shadows", "they are off");

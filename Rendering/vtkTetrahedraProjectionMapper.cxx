@@ -183,8 +183,8 @@ private:
   void PrepareScene(MapperFrame& frame, const tetralux::RayGrid& grid);
 
   /// Projects the points of the mesh, and finds what limits rays and which cells are drawn.
-  static void PlaceScene(MapperFrame& frame, const View& view, tetralux::ProjectionScene& scene,
-    Sight& sight);
+  static void PlaceScene(
+    MapperFrame& frame, const View& view, tetralux::ProjectionScene& scene, Sight& sight);
   static void PlaceDepths(
     const tetralux::DepthPlaces& places, tetralux::ProjectionScene& scene, Sight& sight);
 
@@ -197,8 +197,8 @@ private:
   ChannelFormat ChooseFormat(const MapperFrame& frame) const;
   double EstimatePerspectiveError(VolumeScene& volume) const;
   void Composite(MapperFrame& frame, const CameraRays& rays);
-  void Describe(const tetralux::ProjectionPicture::Result& drawn, const View& view,
-    MapperFrame& frame);
+  void Describe(
+    const tetralux::ProjectionPicture::Result& drawn, const View& view, MapperFrame& frame);
   void WarnOfOrder(const std::string& refusal);
 
   vtkTetrahedraProjectionMapper* Self;
@@ -209,8 +209,8 @@ private:
   tetralux::ProjectionScene Scene;
   Sight OfPicture; ///< Scene's
   Sight OfSamples;
-  double WorldRadius = 1; ///< of the mesh, world units
-  std::vector<std::int32_t> Order;      ///< of cells that are not sorted
+  double WorldRadius = 1;          ///< of the mesh, world units
+  std::vector<std::int32_t> Order; ///< of cells that are not sorted
   std::unique_ptr<tetralux::MeshOrder> Sorter;
   tetralux::CacheStamp SorterStamp; ///< of the points
   tetralux::OnceWarning OrderWarning;
@@ -387,8 +387,8 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareScene(
   volume.Prepare(needs);
   tetralux::ProjectionScene& scene = this->Scene;
   scene.Volume = &volume;
-  this->WorldRadius = volume.Mesh.GetMesh()->GetRadius() *
-    tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
+  this->WorldRadius =
+    volume.Mesh.GetMesh()->GetRadius() * tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
   VolumeScene::CheckWorldRadius(this->WorldRadius);
   scene.Interpolate = this->Self->PerspectiveInterpolation != 0;
   scene.Dither = this->Self->AlphaDithering && this->Self->ColorBuffer == UNORM8_BUFFER &&
@@ -498,7 +498,8 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
         Sort::GetWishOf(this->Self->Order),
         this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
                                 : tetralux::VisibilityDirection::BackToFront,
-        this->OfPicture.DrawnCells, [&frame](double fraction) { return frame.ReportProgress(fraction); });
+        this->OfPicture.DrawnCells,
+        [&frame](double fraction) { return frame.ReportProgress(fraction); });
     if (!order)
     {
       return false;
@@ -595,8 +596,8 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(
   frame.Memory.emplace_back("screen_points",
     (this->OfPicture.Points.capacity() + this->OfSamples.Points.capacity()) *
       sizeof(tetralux::ScreenPoint));
-  frame.Memory.emplace_back("drawn_cells",
-    this->OfPicture.DrawnCells.capacity() + this->OfSamples.DrawnCells.capacity());
+  frame.Memory.emplace_back(
+    "drawn_cells", this->OfPicture.DrawnCells.capacity() + this->OfSamples.DrawnCells.capacity());
   frame.Memory.emplace_back("order",
     this->Order.capacity() * sizeof(std::int32_t) +
       (this->Sorter && this->Sorted ? this->Sorter->Get().GetSize() : 0));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
-#include "Frame/PictureTask.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureTask.h"
 #include "Preparation/MapperSettings.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"

@@ -2,10 +2,10 @@
 #include "vtkTriangleCasterMapper.h"
 
 #include "Base/Stopwatch.h"
-#include "Frame/PictureDrawing.h"
 #include "Frame/FrameRecord.h"
 #include "Frame/HeldContents.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureDrawing.h"
 #include "Frame/RendererLights.h"
 #include "ImagePreparation/ChosenDistance.h"
 #include "ImagePreparation/ImageBlends.h"

@@ -314,9 +314,9 @@ void FrameRecord::WarnOfError(const MapperFrame& frame)
   const auto largest = std::max_element(frame.Errors.begin(), frame.Errors.end(),
     [](const auto& a, const auto& b) { return a.second < b.second; });
   std::ostringstream warning;
-  warning << "the estimated error " << this->ErrorEstimate - frame.CoarseRaysError << " is above the MaximumError "
-          << frame.MaximumError << ": " << largest->second << " of it by '" << largest->first
-          << "'";
+  warning << "the estimated error " << this->ErrorEstimate - frame.CoarseRaysError
+          << " is above the MaximumError " << frame.MaximumError << ": " << largest->second
+          << " of it by '" << largest->first << "'";
   this->ErrorWarning.Update(this->Mapper, warning.str(), largest->first);
 }
 

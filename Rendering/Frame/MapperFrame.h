@@ -75,8 +75,8 @@ struct MapperFrame
   /// The picture is a mean that frames refine, which other rays would begin anew.
   bool IsMean = false;
   std::vector<std::pair<std::string, double>> Seconds; ///< of the stages of DrawFrame
-  double RaySeconds = 0;   ///< of what grows with the number of rays
-  double FixedSeconds = 0; ///< of what each new view takes besides
+  double RaySeconds = 0;                               ///< of what grows with the number of rays
+  double FixedSeconds = 0;                             ///< of what each new view takes besides
   Integrator Integration = Integrator::ClosedForm;
   std::vector<std::pair<std::string, Json>> Sections; ///< of the mapper itself
 

@@ -100,8 +100,7 @@ void OpaqueDepth::Upload(
   }
   this->Texture->Activate();
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  glTexSubImage2D(
-    GL_TEXTURE_2D, 0, 0, 0, width, height, format.Format, format.Type, depths.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, format.Format, format.Type, depths.data());
   this->Texture->Deactivate();
 }
 

@@ -89,9 +89,8 @@ void ShiftRays(double x, double y, PictureTask& picture)
 
 } // namespace
 
-void PictureDrawing::Draw(
-  MapperFrame& frame, const RayDistances& distances, const PictureMaker& makePicture,
-  const WindowDrawer& drawIntoWindow)
+void PictureDrawing::Draw(MapperFrame& frame, const RayDistances& distances,
+  const PictureMaker& makePicture, const WindowDrawer& drawIntoWindow)
 {
   const FrameDemand demand = GetDemand(frame);
   PictureTask picture;
@@ -242,8 +241,8 @@ void PictureDrawing::Composite(
 }
 
 /// Reads what ends rays, and of a multisampled frame buffer what its samples have.
-std::vector<float> PictureDrawing::FindOpaqueDepths(const MapperFrame& frame, const CameraRays& rays,
-  const SamplePlaces& places, OpaqueSamples& samples)
+std::vector<float> PictureDrawing::FindOpaqueDepths(const MapperFrame& frame,
+  const CameraRays& rays, const SamplePlaces& places, OpaqueSamples& samples)
 {
   if (places.empty())
   {
@@ -260,8 +259,9 @@ std::vector<float> PictureDrawing::FindOpaqueDepths(const MapperFrame& frame, co
 }
 
 /// Casts pixels at edges again, sample by sample. Returns false after an abort: then none is there.
-bool PictureDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const PictureTask& picture,
-  const SamplePlaces& places, const OpaqueSamples& opaque, const PictureMaker& makePicture)
+bool PictureDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays,
+  const PictureTask& picture, const SamplePlaces& places, const OpaqueSamples& opaque,
+  const PictureMaker& makePicture)
 {
   const int width = picture.Grid.Width;
   const std::size_t size = picture.Depths.size();

@@ -4,9 +4,9 @@
 
 #include "Base/Cached.h"
 #include "Base/Span.h"
-#include "Frame/PictureTask.h"
 #include "Frame/ImageCompositor.h"
 #include "Frame/OpaqueDepth.h"
+#include "Frame/PictureTask.h"
 #include "Frame/PixelSamples.h"
 #include "Frame/RayPace.h"
 #include "Frame/SampleCompositor.h"

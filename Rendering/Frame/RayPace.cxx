@@ -70,8 +70,9 @@ void RayPace::Record(double rays, double raySeconds, double fixedSeconds)
 double RayPace::GetSecondsPerRay() const
 {
   const auto& [first, second, third] = this->SecondsPerRay;
-  return this->Frames < 3 ? first
-                          : std::max(std::min(first, second), std::min(std::max(first, second), third));
+  return this->Frames < 3
+    ? first
+    : std::max(std::min(first, second), std::min(std::max(first, second), third));
 }
 
 } // namespace tetralux

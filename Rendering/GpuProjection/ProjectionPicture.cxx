@@ -196,8 +196,7 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
   targets.Colors.Prepare(window, MakeSettings(scene.Grid, 4, scene.Format, scene.Hides));
   if (scene.Volume->Optics.GetModel() == OpticalModel::MaximumIntensity)
   {
-    targets.Scalars.Prepare(
-      window, MakeSettings(scene.Grid, 1, ChannelFormat::Float, scene.Hides));
+    targets.Scalars.Prepare(window, MakeSettings(scene.Grid, 1, ChannelFormat::Float, scene.Hides));
     const Result result = this->DrawCells(Pass::LargestScalars, targets.Scalars, scene, progress);
     this->ClassifyLargest(targets);
     return result;
@@ -502,10 +501,7 @@ void ProjectionPicture::ClassifyLargest(Targets& targets)
   this->Integral.Deactivate();
 }
 
-vtkTextureObject* ProjectionPicture::GetTexture() const
-{
-  return this->Whole.Colors.GetTexture(0);
-}
+vtkTextureObject* ProjectionPicture::GetTexture() const { return this->Whole.Colors.GetTexture(0); }
 
 void ProjectionPicture::ReadColors(const ProjectionScene& scene, Span<float> colors)
 {
@@ -519,7 +515,8 @@ void ProjectionPicture::ReadDistances(const ProjectionScene& scene, Span<float> 
   SegmentSource source = MakeSegmentSource(*scene.Volume, Lighting::None);
   source.Integrator = IsTabulated(source.Integrator) ? Integrator::ClosedForm : source.Integrator;
   this->Pieces.Update(this->Context.Get(), source);
-  this->Distances.Prepare(this->Context.Get(), MakeSettings(scene.Grid, 1, ChannelFormat::Float, false));
+  this->Distances.Prepare(
+    this->Context.Get(), MakeSettings(scene.Grid, 1, ChannelFormat::Float, false));
   this->DrawCells(Pass::FirstDistances, this->Distances, scene, {});
   this->Distances.Read(0, depths);
   for (float& depth : depths)

@@ -37,8 +37,8 @@ struct ProjectionScene
   const VolumeScene* Volume = nullptr; ///< with its longest edge, and gradients for smooth shading
   RayGrid Grid;
   std::shared_ptr<const ScreenFrame> Frame; ///< of Grid
-  Span<const ScreenPoint> Points;     ///< of the mesh
-  Span<const std::int32_t> Order;     ///< the cells that are drawn
+  Span<const ScreenPoint> Points;           ///< of the mesh
+  Span<const std::int32_t> Order;           ///< the cells that are drawn
 
   /// Front to back, opacities add up: also those that are too small for 1 - opacity to differ from
   /// 1. Back to front, rounding to few bits does less harm: what is in front is not rounded again.
@@ -49,8 +49,8 @@ struct ProjectionScene
   std::vector<ScreenPlane> Cropping; ///< xmin, xmax, ymin, ymax, zmin, zmax; empty: none
   std::uint32_t CroppingFlags = 0;
   vtkTextureObject* OpaqueDepth = nullptr; ///< of the window, 0..1; nullptr: none
-  bool Hides = false; ///< draws nothing where OpaqueDepth is 0, into a picture apart
-  float OpaquePlaces[4][2];                ///< see ProjectedCellFS.glsl
+  bool Hides = false;       ///< draws nothing where OpaqueDepth is 0, into a picture apart
+  float OpaquePlaces[4][2]; ///< see ProjectedCellFS.glsl
 
   tetralux::Lighting Lighting = tetralux::Lighting::None; ///< by Lights
   bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells

@@ -388,8 +388,8 @@ private:
 
   void CoverHidden()
   {
-    vtkShaderProgram* program = this->Self.Hidden.Use(this->Window, "RayHiddenFS",
-      MakeSource(RayHiddenFS, {}, this->Limits.GetDeclarations()));
+    vtkShaderProgram* program = this->Self.Hidden.Use(
+      this->Window, "RayHiddenFS", MakeSource(RayHiddenFS, {}, this->Limits.GetDeclarations()));
     this->SetBand(program);
     this->Limits.Activate(program);
     this->Self.Targets.DrawInto(RayTargets::OfColors);

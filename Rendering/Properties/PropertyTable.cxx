@@ -70,8 +70,8 @@ MapperProperty MakeTableSize(const char* name, const char* meaning)
 
 MapperProperty MakeSampleDistance(const char* name, double value, const char* meaning)
 {
-  return { name, PropertyType::Real, AllKinds, Rays, true, {}, 0.1, 100, { value }, "",
-    "pixels", meaning };
+  return { name, PropertyType::Real, AllKinds, Rays, true, {}, 0.1, 100, { value }, "", "pixels",
+    meaning };
 }
 
 MapperProperty MakeColorFactors(const char* name, const char* meaning)

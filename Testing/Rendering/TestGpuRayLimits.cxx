@@ -169,9 +169,7 @@ public:
     std::copy_n(&this->MeshFromWorld[0][0], 12, &grid.MeshFromWorld[0][0]);
     tetralux::RayLimits limits = this->Limits;
     rays.AddClippingRange(limits);
-    const std::vector<float> distances = opaque
-      ? this->ReadDistances(rays)
-      : std::vector<float>();
+    const std::vector<float> distances = opaque ? this->ReadDistances(rays) : std::vector<float>();
     const OpenGLSnapshot before = TakeOpenGLSnapshot(this->Evaluator.Window);
     const tetralux::GpuRayLimits::OpaqueGeometry geometry = { rays.GetDepthPlaces(),
       rays.GetVisible(), {} };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of an interaction, with rays that are coarser than pixels, beside those of a still picture.
+// Frames of an interaction, with rays that are coarser than pixels, beside a still picture.
 #include "AnyMapperScene.h"
 
 #include "Frame/RayPace.h"

@@ -213,7 +213,8 @@ TEST_P(Multisampling, LeavesThePictureOfPixels)
 // Rays gather by other means in each blend mode: the largest scalar is looked for in a pass apart.
 TEST(MultisampledBlendModes, SampleEdges)
 {
-  for (const char* mapperClass : { "vtkTetrahedraGPURayCastMapper", "vtkTetrahedraProjectionMapper" })
+  for (const char* mapperClass :
+    { "vtkTetrahedraGPURayCastMapper", "vtkTetrahedraProjectionMapper" })
   {
     for (const int mode : { 1, 4, 5 })
     {
