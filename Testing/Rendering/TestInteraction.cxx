@@ -118,12 +118,15 @@ TEST_P(Interaction, KeepsTheRateAndTheStillPicture)
   {
     scene.Renderer->GetActiveCamera()->Azimuth(1);
     scene.Render();
-    EXPECT_EQ(scene.Get("sample_distance"), "5.0");
-    EXPECT_EQ(GetOutputImage(scene.GetMapper())->GetDimensions()[0], Width / 5);
     EXPECT_EQ(scene.Get("kept"), "false");
+    const double distance = std::stod(scene.Get("sample_distance"));
+    EXPECT_EQ(
+      GetOutputImage(scene.GetMapper())->GetDimensions()[0], std::lround(Width / distance));
+    if (this->GetParam() != "vtkTetrahedraProjectionMapper") // which also has to project cells
+    {
+      EXPECT_EQ(distance, 5);
+    }
   }
-  scene.Render();
-  EXPECT_EQ(scene.Get("kept"), "true");
   scene.Renderer->GetActiveCamera()->Azimuth(-3);
   scene.Renderer->ResetCamera();
   scene.Window->SetDesiredUpdateRate(1e-4);
