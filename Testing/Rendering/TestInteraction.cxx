@@ -120,8 +120,7 @@ TEST_P(Interaction, KeepsTheRateAndTheStillPicture)
     scene.Render();
     EXPECT_EQ(scene.Get("kept"), "false");
     const double distance = std::stod(scene.Get("sample_distance"));
-    EXPECT_EQ(
-      GetOutputImage(scene.GetMapper())->GetDimensions()[0], std::lround(Width / distance));
+    EXPECT_EQ(GetOutputImage(scene.GetMapper())->GetDimensions()[0], std::lround(Width / distance));
     if (this->GetParam() != "vtkTetrahedraProjectionMapper") // which also has to project cells
     {
       EXPECT_EQ(distance, 5);
