@@ -76,15 +76,6 @@ AccessorMap MakeCommonAccessors()
     ACCESSORS(MapperT, IntermixIntersectingGeometry),
     ACCESSORS(MapperT, Cropping),
     ACCESSORS(MapperT, CroppingRegionFlags),
-  };
-}
-
-/// And what mappers that make their pictures on the processor have.
-template <class MapperT>
-AccessorMap MakeProcessorAccessors()
-{
-  return {
-    ACCESSORS(MapperT, NumberOfThreads),
     ACCESSORS(MapperT, ImageSampleDistance),
     ACCESSORS(MapperT, MinimumImageSampleDistance),
     ACCESSORS(MapperT, MaximumImageSampleDistance),
@@ -101,6 +92,7 @@ AccessorMap MakeCasterAccessors()
         2, &Caster::GetAverageIPScalarRange, &Caster::SetAverageIPScalarRange) },
     { "NearColor", MakeArrayAccessors<Caster>(3, &Caster::GetNearColor, &Caster::SetNearColor) },
     { "FarColor", MakeArrayAccessors<Caster>(3, &Caster::GetFarColor, &Caster::SetFarColor) },
+    ACCESSORS(Caster, NumberOfThreads),
     ACCESSORS(Caster, MaskType),
     ACCESSORS(Caster, MaskBlendFactor),
     ACCESSORS(Caster, GradientSource),
@@ -120,7 +112,6 @@ AccessorMap MakeCasterAccessors()
     ACCESSORS(Caster, CastTriangles),
   };
   accessors.merge(MakeCommonAccessors<Caster>());
-  accessors.merge(MakeProcessorAccessors<Caster>());
   return accessors;
 }
 
@@ -142,6 +133,7 @@ AccessorMap MakeCellAccessors()
     ACCESSORS(Base, SmoothShading),
     ACCESSORS(Base, MergePoints),
     ACCESSORS(Base, Reentry),
+    ACCESSORS(vtkTetrahedraCPUMapper, NumberOfThreads),
     ACCESSORS(RayCast, Precision),
     ACCESSORS(Isosurface, ColorArrayComponent),
     ACCESSORS(Isosurface, Shadows),
@@ -161,7 +153,6 @@ AccessorMap MakeCellAccessors()
     ACCESSORS(Projection, Order),
   };
   accessors.merge(MakeCommonAccessors<Base>());
-  accessors.merge(MakeProcessorAccessors<vtkTetrahedraCPUMapper>());
   return accessors;
 }
 

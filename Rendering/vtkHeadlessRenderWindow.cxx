@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHeadlessRenderWindow.h"
 
+#include "OpenGL/CurrentContext.h"
 #include "OpenGL/LoadedFunctions.h"
 
 #include "vtkAutoInit.h"
@@ -9,16 +10,13 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-#include <dlfcn.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
@@ -89,57 +87,6 @@ bool IsSoftware(EGLDeviceEXT device)
     reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(eglGetProcAddress("eglQueryDeviceStringEXT"));
   return queryString &&
     HasExtension(queryString(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
-}
-
-// GLX, where the process has it. EGL refuses to make a context current to a thread that another
-// one is current to through GLX, and GLX ends the process in the other order: so whichever it is
-// has to be released before.
-struct Glx
-{
-  using Drawable = unsigned long; // as X has it
-
-  void* (*GetCurrentContext)() = nullptr;
-  void* (*GetCurrentDisplay)() = nullptr;
-  Drawable (*GetCurrentDrawable)() = nullptr;
-  Drawable (*GetCurrentReadDrawable)() = nullptr;
-  int (*MakeContextCurrent)(void* display, Drawable draw, Drawable read, void* context) = nullptr;
-
-  Glx()
-  {
-    void* library = nullptr;
-    for (const char* name : { "libGLX.so.0", "libGL.so.1" })
-    {
-      library = library ? library : dlopen(name, RTLD_LAZY | RTLD_NOLOAD);
-    }
-    const auto find = [library](const char* name, auto& function)
-    {
-      using Function = std::remove_reference_t<decltype(function)>;
-      function = library ? reinterpret_cast<Function>(dlsym(library, name)) : nullptr;
-      return function != nullptr;
-    };
-    this->Found = find("glXGetCurrentContext", this->GetCurrentContext) &&
-      find("glXGetCurrentDisplay", this->GetCurrentDisplay) &&
-      find("glXGetCurrentDrawable", this->GetCurrentDrawable) &&
-      find("glXGetCurrentReadDrawable", this->GetCurrentReadDrawable) &&
-      find("glXMakeContextCurrent", this->MakeContextCurrent);
-    // The library stays loaded as long as who loaded it.
-    if (library)
-    {
-      dlclose(library);
-    }
-  }
-
-  explicit operator bool() const { return this->Found; }
-
-private:
-  bool Found = false;
-};
-
-// Whether a window of this process may have its context through GLX.
-bool HasDisplay()
-{
-  const char* name = std::getenv("DISPLAY");
-  return name && *name != '\0';
 }
 
 // The displays to try, in this order.
@@ -225,6 +172,7 @@ public:
       this->Context = CreateContext(display);
       if (this->Context != EGL_NO_CONTEXT && this->MakeCurrent())
       {
+        tetralux::CurrentContext::AddHeadless(this->Context);
         return;
       }
       this->Destroy();
@@ -245,11 +193,7 @@ public:
     {
       return true;
     }
-    const Glx glx;
-    if (glx && glx.GetCurrentContext())
-    {
-      glx.MakeContextCurrent(glx.GetCurrentDisplay(), 0, 0, nullptr);
-    }
+    tetralux::CurrentContext::LeaveGlx();
     return eglMakeCurrent(this->Display, EGL_NO_SURFACE, EGL_NO_SURFACE, this->Context);
   }
 
@@ -265,6 +209,7 @@ private:
         eglMakeCurrent(this->Display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
       }
       eglDestroyContext(this->Display, this->Context);
+      tetralux::CurrentContext::RemoveHeadless(this->Context);
       this->Context = EGL_NO_CONTEXT;
     }
     ReleaseDisplay(this->Display);
@@ -272,53 +217,6 @@ private:
 
   EGLDisplay Display = EGL_NO_DISPLAY;
   EGLContext Context = EGL_NO_CONTEXT;
-};
-
-/// Whichever context is current in this thread, of whatever window, or none.
-struct vtkHeadlessRenderWindow::CurrentContext
-{
-  CurrentContext()
-  {
-    const Glx glx;
-    if (this->Context == EGL_NO_CONTEXT && glx && glx.GetCurrentContext())
-    {
-      this->GlxContext = glx.GetCurrentContext();
-      this->GlxDisplay = glx.GetCurrentDisplay();
-      this->GlxDraw = glx.GetCurrentDrawable();
-      this->GlxRead = glx.GetCurrentReadDrawable();
-    }
-  }
-
-  /// Makes it current again. Where there was none, a context stays current that no GLX can meet.
-  void Restore() const
-  {
-    const EGLContext now = eglGetCurrentContext();
-    if (this->Context != EGL_NO_CONTEXT)
-    {
-      if (this->Context != now)
-      {
-        eglMakeCurrent(this->Display, this->Draw, this->Read, this->Context);
-      }
-      return;
-    }
-    if (now != EGL_NO_CONTEXT && (this->GlxContext || HasDisplay()))
-    {
-      eglMakeCurrent(eglGetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
-    if (this->GlxContext)
-    {
-      Glx().MakeContextCurrent(this->GlxDisplay, this->GlxDraw, this->GlxRead, this->GlxContext);
-    }
-  }
-
-  EGLDisplay Display = eglGetCurrentDisplay();
-  EGLSurface Draw = eglGetCurrentSurface(EGL_DRAW);
-  EGLSurface Read = eglGetCurrentSurface(EGL_READ);
-  EGLContext Context = eglGetCurrentContext();
-  void* GlxDisplay = nullptr;
-  void* GlxContext = nullptr;
-  Glx::Drawable GlxDraw = 0;
-  Glx::Drawable GlxRead = 0;
 };
 
 /// While one lives, the window's context may be current. Then that is again which was before, also
@@ -346,7 +244,7 @@ public:
 
 private:
   vtkHeadlessRenderWindow* Window;
-  CurrentContext Before;
+  tetralux::CurrentContext Before;
 };
 
 vtkStandardNewMacro(vtkHeadlessRenderWindow);
@@ -435,7 +333,7 @@ void vtkHeadlessRenderWindow::MakeCurrent()
   this->Initialize();
   if (this->Scopes == 0 && this->Pushed.empty() && !this->IsCurrent())
   {
-    this->Before = std::make_unique<CurrentContext>();
+    this->Before = std::make_unique<tetralux::CurrentContext>();
   }
   if (this->Context && !this->Context->MakeCurrent())
   {
@@ -460,7 +358,7 @@ void vtkHeadlessRenderWindow::PopContext()
   {
     return;
   }
-  const CurrentContext before = this->Pushed.back();
+  const tetralux::CurrentContext before = this->Pushed.back();
   this->Pushed.pop_back();
   before.Restore();
 }

@@ -35,6 +35,11 @@
 #include <memory> // For std::unique_ptr
 #include <vector> // For std::vector
 
+namespace tetralux
+{
+class CurrentContext;
+} // namespace tetralux
+
 class TETRALUXRENDERING_EXPORT vtkHeadlessRenderWindow : public vtkGenericOpenGLRenderWindow
 {
 public:
@@ -105,11 +110,10 @@ private:
   class EglContext;
   std::unique_ptr<EglContext> Context;
 
-  struct CurrentContext;
   class ContextScope;
-  std::vector<CurrentContext> Pushed;
-  std::unique_ptr<CurrentContext> Before; ///< MakeCurrent was called
-  int Scopes = 0;                         ///< that live
+  std::vector<tetralux::CurrentContext> Pushed;
+  std::unique_ptr<tetralux::CurrentContext> Before; ///< MakeCurrent was called
+  int Scopes = 0;                                   ///< that live
 
   // One report per cause, not one per frame.
   bool ContextFailed = false;

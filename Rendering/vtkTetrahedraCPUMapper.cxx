@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraCPUMapper.h"
 
-#include "Frame/CPUDrawing.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureDrawing.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
 
@@ -10,7 +10,7 @@
 class vtkTetrahedraCPUMapper::Internals
 {
 public:
-  tetralux::CPUDrawing Drawing;
+  tetralux::PictureDrawing Drawing;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -25,13 +25,8 @@ vtkTetrahedraCPUMapper::~vtkTetrahedraCPUMapper() = default;
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraCPUMapper::DrawFrame(tetralux::MapperFrame& frame)
 {
-  tetralux::RayDistances distances;
-  distances.Automatic = this->AutoAdjustSampleDistances != 0;
-  distances.Fixed = this->ImageSampleDistance;
-  distances.Minimum = this->MinimumImageSampleDistance;
-  distances.Maximum = this->MaximumImageSampleDistance;
-  this->Private->Drawing.Draw(frame, distances,
-    [this](tetralux::MapperFrame& drawn, const tetralux::CPUPicture& picture)
+  this->Private->Drawing.Draw(frame, this->GetRayDistances(),
+    [this](tetralux::MapperFrame& drawn, const tetralux::PictureTask& picture)
     { return this->MakePicture(drawn, picture); });
 }
 
@@ -43,9 +38,6 @@ void vtkTetrahedraCPUMapper::ReleaseResources(vtkWindow* window)
 
 //------------------------------------------------------------------------------------------------
 tetraluxSetNumberMacro(vtkTetrahedraCPUMapper, NumberOfThreads, int);
-tetraluxSetNumberMacro(vtkTetrahedraCPUMapper, ImageSampleDistance, float);
-tetraluxSetNumberMacro(vtkTetrahedraCPUMapper, MinimumImageSampleDistance, float);
-tetraluxSetNumberMacro(vtkTetrahedraCPUMapper, MaximumImageSampleDistance, float);
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraCPUMapper::PrintProperties(ostream& os, vtkIndent indent)
@@ -53,8 +45,4 @@ void vtkTetrahedraCPUMapper::PrintProperties(ostream& os, vtkIndent indent)
   this->Superclass::PrintProperties(os, indent);
   tetralux::PropertyPrinter printer(os, indent, tetralux::FindMapperKind(this));
   printer.Print("NumberOfThreads", this->NumberOfThreads);
-  printer.Print("ImageSampleDistance", this->ImageSampleDistance);
-  printer.Print("MinimumImageSampleDistance", this->MinimumImageSampleDistance);
-  printer.Print("MaximumImageSampleDistance", this->MaximumImageSampleDistance);
-  printer.Print("AutoAdjustSampleDistances", this->AutoAdjustSampleDistances);
 }

@@ -6,6 +6,7 @@
 #include "Frame/CameraRays.h"
 #include "Frame/ImageCompositor.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureDrawing.h"
 #include "GpuIntegral/GpuLighting.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
 #include "GpuIntegral/ShaderError.h"
@@ -75,17 +76,33 @@ public:
 
   void DrawFrame(MapperFrame& frame);
 
-  void ReleaseGraphicsResources(vtkWindow* window) { this->Context.Release(window); }
+  void ReleaseGraphicsResources(vtkWindow* window)
+  {
+    this->Context.Release(window);
+    this->Drawing.ReleaseGraphicsResources(window);
+  }
 
 private:
+  /// The rays of a picture, and what ends them.
+  struct View
+  {
+    tetralux::RayGrid Grid;
+    tetralux::RayLimits Limits;
+    const tetralux::GpuRayLimits::OpaqueGeometry* Opaque; ///< nullptr: none
+    double SampleDistance;                                ///< pixels from ray to ray
+  };
+
+  void DrawIntoWindow(MapperFrame& frame, const CameraRays& rays);
+  PixelRectangle MakePicture(MapperFrame& frame, const tetralux::PictureTask& task);
+  void Cast(MapperFrame& frame, const View& view);
   const tetralux::WalkTables* ChooseTables(MapperFrame& frame, GpuReentry& reentry);
   void UpdateOrientation(const tetralux::VolumeScene& scene);
   void Upload(MapperFrame& frame, const tetralux::RayGrid& grid, const tetralux::WalkTables& tables,
     GpuReentry reentry);
-  void Read(vtkImageData* image);
+  void Read(tetralux::Span<float> colors, tetralux::Span<float> depths);
   void Composite(MapperFrame& frame, const CameraRays& rays);
   void Describe(const tetralux::GpuRayCastStatistics& statistics,
-    const tetralux::GpuRayCastOptions& options, MapperFrame& frame);
+    const tetralux::GpuRayCastOptions& options, const View& view, MapperFrame& frame);
 
   vtkTetrahedraGPURayCastMapper* Self;
   tetralux::WalkTextures Mesh;
@@ -94,6 +111,7 @@ private:
   tetralux::GpuLighting Lighting;
   tetralux::GpuRayCaster Caster;
   tetralux::ImageCompositor Compositor;
+  tetralux::PictureDrawing Drawing;
 
   tetralux::Cached<std::vector<std::uint8_t>> Positive; ///< orientation of the mesh's cells
   tetralux::CacheStamp Last;                            ///< of the picture that Caster has
@@ -104,28 +122,91 @@ private:
 void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
 {
   frame.Method = "gpu-ray-cast";
-  const CameraRays rays(frame.Renderer, 1);
-  tetralux::VolumeScene& scene = *frame.Scene;
-  if (rays.GetVisible().Width == 0 || scene.Mesh.GetMesh()->GetNumberOfCells() == 0)
+  if (frame.Scene->Mesh.GetMesh()->GetNumberOfCells() == 0)
   {
-    frame.MakeEmptyPicture(rays);
+    frame.MakeEmptyPicture(CameraRays(frame.Renderer, 1));
     this->Last.Reset();
     return;
   }
-  const tetralux::RayGrid grid = frame.MakeGrid(rays);
-  const tetralux::RayLimits limits = frame.MakeLimits(rays);
-  frame.Opaque = frame.HasOpaqueGeometry();
-  frame.AddViewToKey(rays, grid, limits);
-  frame.Key.Add(frame.Opaque);
   this->Context.Set(frame.Window);
+  bool intoWindow = false;
+  this->Drawing.Draw(
+    frame, this->Self->GetRayDistances(),
+    [this](MapperFrame& drawn, const tetralux::PictureTask& task)
+    { return this->MakePicture(drawn, task); },
+    [this, &intoWindow](MapperFrame& drawn, const CameraRays& rays)
+    {
+      intoWindow = true;
+      this->DrawIntoWindow(drawn, rays);
+    });
+  if (!intoWindow)
+  {
+    this->Last.Reset();
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraGPURayCastMapper::Internals::DrawIntoWindow(
+  MapperFrame& frame, const CameraRays& rays)
+{
+  View view = { frame.MakeGrid(rays), frame.MakeLimits(rays), nullptr, 1 };
+  frame.Opaque = frame.HasOpaqueGeometry();
+  frame.AddViewToKey(rays, view.Grid, view.Limits);
+  frame.Key.Add(frame.Opaque);
   if (frame.HasPicture && this->Last.Has(frame.Key) &&
-    (!frame.Opaque || this->Limits.HasDepthOf(frame.Window, rays)))
+    (!frame.Opaque || this->Limits.HasDepthOf(frame.Window, rays.GetVisible())))
   {
     frame.Kept = true;
     frame.ReportProgress(1); // too late to abort
     this->Composite(frame, rays);
     return;
   }
+  const tetralux::GpuRayLimits::OpaqueGeometry opaque = { rays.GetDepthPlaces(), rays.GetVisible(),
+    {} };
+  view.Opaque = frame.Opaque ? &opaque : nullptr;
+  this->Cast(frame, view);
+  if (!frame.Aborted)
+  {
+    frame.ReportProgress(1); // too late to abort
+    this->Composite(frame, rays);
+    this->Last.Set(frame.Key);
+    frame.ReadPicture = [this](vtkImageData* image)
+    {
+      const tetralux::EnteredContext context(this->Context.Get());
+      const tetralux::RayPicture& picture = this->Caster.GetPicture();
+      tetralux::Span<float> colors, depths;
+      MapperFrame::PrepareImage(image, picture.GetWidth(), picture.GetHeight(), colors, depths);
+      this->Read(colors, depths);
+    };
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+PixelRectangle vtkTetrahedraGPURayCastMapper::Internals::MakePicture(
+  MapperFrame& frame, const tetralux::PictureTask& task)
+{
+  View view = { task.Grid, task.Limits, nullptr, task.SampleDistance };
+  tetralux::GpuRayLimits::OpaqueGeometry opaque;
+  if (task.OpaqueDepths)
+  {
+    opaque = { task.Places, {}, *task.OpaqueDepths };
+    view.Opaque = &opaque;
+  }
+  this->Cast(frame, view);
+  if (frame.Aborted)
+  {
+    return {};
+  }
+  this->Read(task.Colors, task.Depths);
+  return FindCovered(task);
+}
+
+//------------------------------------------------------------------------------------------------
+// Into the picture of Caster.
+void vtkTetrahedraGPURayCastMapper::Internals::Cast(MapperFrame& frame, const View& view)
+{
+  tetralux::VolumeScene& scene = *frame.Scene;
+  const tetralux::RayGrid& grid = view.Grid;
   this->Last.Reset();
   const double worldRadius =
     scene.Mesh.GetMesh()->GetRadius() * tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
@@ -145,7 +226,7 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
   frame.Seconds.emplace_back("upload", uploadStopwatch.GetSeconds());
 
   const tetralux::Stopwatch castStopwatch;
-  this->Limits.Update(frame.Window, rays, grid, limits, frame.Opaque,
+  this->Limits.Update(frame.Window, grid, view.Limits, view.Opaque,
     scene.Mesh.GetMesh()->GetCenter(), scene.Mesh.GetMesh()->GetRadius());
   const Integrator integrator = this->Integral.GetIntegrator();
   frame.Budget = tetralux::MakeErrorBudget(frame.MaximumError,
@@ -189,18 +270,8 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     frame.Window, grid.Width, grid.Height, this->Limits, this->Mesh, this->Integral, options);
   frame.Aborted = statistics.Aborted;
   frame.Integration = integrator;
-  if (!frame.Aborted)
-  {
-    frame.ReportProgress(1); // too late to abort
-    this->Composite(frame, rays);
-    this->Last.Set(frame.Key);
-    frame.ReadPicture = [this](vtkImageData* image)
-    {
-      const tetralux::EnteredContext context(this->Context.Get());
-      this->Read(image);
-    };
-  }
-  frame.Seconds.emplace_back("cast", castStopwatch.GetSeconds());
+  frame.RaySeconds = castStopwatch.GetSeconds();
+  frame.Seconds.emplace_back("cast", frame.RaySeconds);
 
   // A sum is rounded once for each segment.
   const double segments =
@@ -214,20 +285,21 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     tables == scene.GetVisibleTables(), "transparent tetrahedra", "nothing of them is seen");
   frame.ReportOmission(reentry != GpuReentry::Imaginary, "imaginary cells",
     reentry == GpuReentry::None ? "rays do not enter again" : "rays enter by the boundary");
-  this->Describe(statistics, options, frame);
+  this->Describe(statistics, options, view, frame);
   this->Self->WarnOfReentry(*scene.Mesh.GetMesh());
 }
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraGPURayCastMapper::Internals::Describe(
   const tetralux::GpuRayCastStatistics& statistics, const tetralux::GpuRayCastOptions& options,
-  MapperFrame& frame)
+  const View& view, MapperFrame& frame)
 {
   const tetralux::RayPicture& picture = this->Caster.GetPicture();
   const std::int64_t pixels = static_cast<std::int64_t>(picture.GetWidth()) * picture.GetHeight();
   Json rays;
   rays["width"] = picture.GetWidth();
   rays["height"] = picture.GetHeight();
+  rays["sample_distance"] = view.SampleDistance;
   rays["rays"] = pixels;
   rays["bands"] = statistics.Bands;
   rays["rows_per_band"] = picture.GetRowsOfBand();
@@ -373,11 +445,10 @@ void vtkTetrahedraGPURayCastMapper::Internals::Upload(MapperFrame& frame,
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraGPURayCastMapper::Internals::Read(vtkImageData* image)
+void vtkTetrahedraGPURayCastMapper::Internals::Read(
+  tetralux::Span<float> colors, tetralux::Span<float> depths)
 {
   tetralux::RayPicture& picture = this->Caster.GetPicture();
-  tetralux::Span<float> colors, depths;
-  MapperFrame::PrepareImage(image, picture.GetWidth(), picture.GetHeight(), colors, depths);
   picture.Read(tetralux::RayPicture::Colors, colors);
   picture.Read(tetralux::RayPicture::Distances, depths);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraIsosurfaceMapper.h"
 
-#include "Frame/CPUPicture.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureTask.h"
 #include "Isosurface/IsosurfaceTracer.h"
 #include "Preparation/MapperSettings.h"
 #include "Properties/PropertyPrinter.h"
@@ -38,8 +38,8 @@ Json Describe(const tetralux::TraceCounts& counts)
   return section;
 }
 
-void Describe(const tetralux::IsosurfaceStatistics& statistics, const tetralux::CPUPicture& picture,
-  MapperFrame& frame)
+void Describe(const tetralux::IsosurfaceStatistics& statistics,
+  const tetralux::PictureTask& picture, MapperFrame& frame)
 {
   Json section;
   section["width"] = picture.Grid.Width;
@@ -148,7 +148,7 @@ void vtkTetrahedraIsosurfaceMapper::SetBlendMode(int mode)
 
 //------------------------------------------------------------------------------------------------
 tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
-  MapperFrame& frame, const tetralux::CPUPicture& picture)
+  MapperFrame& frame, const tetralux::PictureTask& picture)
 {
   frame.Method = "isosurface";
   tetralux::IsosurfaceOptions options;
@@ -159,7 +159,8 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
   options.ShadowSoftness = vtkMath::RadiansFromDegrees(this->ShadowSoftness);
   options.AmbientOcclusion = this->AmbientOcclusion != 0;
   options.OcclusionRadius = this->AmbientOcclusionRadius;
-  options.SamplesPerFrame = this->SamplesPerFrame;
+  // Where a picture has edges, it is complete.
+  options.SamplesPerFrame = picture.OfSamples ? this->MaximumSamples : this->SamplesPerFrame;
   options.MaximumSamples = this->MaximumSamples;
   options.StepCacheBytes = static_cast<std::size_t>(this->TimeStepCacheBytes);
   options.Lights = frame.Lights;
@@ -174,7 +175,8 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     options.WindowDepths = this->Private->WindowDepths;
     frame.WindowDepths = this->Private->WindowDepths;
   }
-  const bool sampled = options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0);
+  const bool sampled =
+    frame.Shaded && (options.AmbientOcclusion || (options.Shadows && options.ShadowSoftness > 0));
   if (!frame.WindowDepths.empty() && picture.IsWindowSized && !sampled &&
     HasOnlyOpaqueSurfaces(*frame.Scene))
   {
@@ -197,8 +199,9 @@ tetralux::PixelRectangle vtkTetrahedraIsosurfaceMapper::MakePicture(
     *frame.Scene, picture.Grid, picture.Limits, options, picture.Colors, picture.Depths);
   frame.Integration = tetralux::Integrator::Isosurfaces;
   frame.Aborted = statistics.Aborted;
-  frame.IsMean = sampled;
-  frame.Final = !sampled || statistics.Samples + options.SamplesPerFrame > options.MaximumSamples;
+  frame.IsMean = statistics.Samples > 0;
+  frame.Final =
+    !frame.IsMean || statistics.Samples + options.SamplesPerFrame > options.MaximumSamples;
   Describe(statistics, picture, frame);
   frame.ReportOmission(!options.AmbientOcclusion, "ambient occlusion", "it is off");
   frame.ReportOmission(!options.Shadows, "shadows", "they are off");

@@ -3,11 +3,11 @@
  * @class   vtkTetrahedraOpenGLMapper
  * @brief   what mappers have in common that draw by OpenGL: calls of VTK's ray casters
  *
- * These mappers draw every pixel of every frame. What programs for VTK's ray casters say about the
- * distance of rays and about threads is accepted and not used; see Documentation/from_vtk.md.
+ * What programs for VTK's ray casters say about threads is accepted and not used; see
+ * Documentation/from_vtk.md.
  *
- * In a window with MultiSamples, a pixel has one ray, up to the depth of one of its samples: edges
- * are not antialiased.
+ * The picture stays on the graphics card. It is read back, in each frame, if the window has
+ * MultiSamples or the distance of rays is not 1.
  *
  * @sa vtkTetrahedraGPURayCastMapper, vtkTetrahedraProjectionMapper
  */
@@ -21,22 +21,6 @@ class TETRALUXRENDERING_EXPORT vtkTetrahedraOpenGLMapper : public vtkTetrahedraV
 {
 public:
   vtkTypeMacro(vtkTetrahedraOpenGLMapper, vtkTetrahedraVolumeMapper);
-
-  ///@{
-  /**
-   * The distance of rays in pixels: always 1. Any other distance gives one warning, and so does
-   * AutoAdjustSampleDistances on.
-   */
-  virtual void SetImageSampleDistance(float distance);
-  virtual float GetImageSampleDistance() { return 1; }
-  virtual void SetMinimumImageSampleDistance(float distance);
-  virtual float GetMinimumImageSampleDistance() { return 1; }
-  virtual void SetMaximumImageSampleDistance(float) {}
-  virtual float GetMaximumImageSampleDistance() { return 1; }
-  virtual void SetAutoAdjustSampleDistances(vtkTypeBool adjust);
-  virtual vtkTypeBool GetAutoAdjustSampleDistances() { return 0; }
-  vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
-  ///@}
 
   ///@{
   /**

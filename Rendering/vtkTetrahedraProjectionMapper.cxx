@@ -7,6 +7,7 @@
 #include "Frame/ImageCompositor.h"
 #include "Frame/MapperFrame.h"
 #include "Frame/OpaqueDepth.h"
+#include "Frame/PictureDrawing.h"
 #include "GpuIntegral/ShaderError.h"
 #include "GpuProjection/ProjectionPicture.h"
 #include "Integral/SegmentWeightError.h"
@@ -145,16 +146,50 @@ public:
 
   void DrawFrame(MapperFrame& frame);
 
-  tetralux::ProjectionPicture Picture;
-  tetralux::ImageCompositor Compositor;
-  tetralux::OpaqueDepth Opaque;
-  tetralux::CacheStamp Last; ///< of the picture that Picture has
-  bool Sorted = false;       ///< in the last frame, by Method
+  void ReleaseGraphicsResources(vtkWindow* window)
+  {
+    this->Picture.ReleaseGraphicsResources(window);
+    this->Compositor.ReleaseGraphicsResources(window);
+    this->Drawing.ReleaseGraphicsResources(window);
+    this->OfPicture.Opaque.ReleaseGraphicsResources(window);
+    this->OfSamples.Opaque.ReleaseGraphicsResources(window);
+  }
+
+  bool Sorted = false; ///< in the last frame, by Method
   VisibilityMethod Method = VisibilityMethod::Meshed;
 
 private:
+  /// The rays of a picture.
+  struct View
+  {
+    tetralux::RayGrid Grid;
+    tetralux::RayLimits Limits;
+    double SampleDistance; ///< pixels from ray to ray
+  };
+
+  /// The mesh as it is seen, which scenes point to.
+  struct Sight
+  {
+    std::vector<tetralux::ScreenPoint> Points;
+    std::vector<std::uint8_t> DrawnCells; ///< empty: all
+    tetralux::OpaqueDepth Opaque;
+  };
+
+  void DrawIntoWindow(MapperFrame& frame, const CameraRays& rays);
+  tetralux::PixelRectangle MakePicture(MapperFrame& frame, const tetralux::PictureTask& task);
+  void MakeSamples(MapperFrame& frame, const tetralux::PictureTask& task);
+
+  /// Finds what all pictures of the frame have in common.
+  void PrepareScene(MapperFrame& frame, const tetralux::RayGrid& grid);
+
   /// Projects the points of the mesh, and finds what limits rays and which cells are drawn.
-  void PrepareView(MapperFrame& frame, const CameraRays& rays, const tetralux::RayGrid& grid);
+  static void PlaceScene(
+    MapperFrame& frame, const View& view, tetralux::ProjectionScene& scene, Sight& sight);
+  static void PlaceDepths(
+    const tetralux::DepthPlaces& places, tetralux::ProjectionScene& scene, Sight& sight);
+
+  /// Orders, draws and describes the scene.
+  void Draw(MapperFrame& frame, const View& view);
 
   /// The order of the cells that are drawn. False after an abort.
   bool PrepareOrder(MapperFrame& frame);
@@ -162,15 +197,20 @@ private:
   ChannelFormat ChooseFormat(const MapperFrame& frame) const;
   double EstimatePerspectiveError(VolumeScene& volume) const;
   void Composite(MapperFrame& frame, const CameraRays& rays);
-  void Describe(MapperFrame& frame);
+  void Describe(
+    const tetralux::ProjectionPicture::Result& drawn, const View& view, MapperFrame& frame);
   void WarnOfOrder(const std::string& refusal);
 
   vtkTetrahedraProjectionMapper* Self;
+  tetralux::ProjectionPicture Picture;
+  tetralux::ImageCompositor Compositor;
+  tetralux::PictureDrawing Drawing;
+  tetralux::CacheStamp Last; ///< of the picture that Picture has
   tetralux::ProjectionScene Scene;
-  double WorldRadius = 1; ///< of the mesh, world units
-  std::vector<tetralux::ScreenPoint> Points;
-  std::vector<std::uint8_t> DrawnCells; ///< empty: all
-  std::vector<std::int32_t> Order;      ///< of cells that are not sorted
+  Sight OfPicture; ///< Scene's
+  Sight OfSamples;
+  double WorldRadius = 1;          ///< of the mesh, world units
+  std::vector<std::int32_t> Order; ///< of cells that are not sorted
   std::unique_ptr<tetralux::MeshOrder> Sorter;
   tetralux::CacheStamp SorterStamp; ///< of the points
   tetralux::OnceWarning OrderWarning;
@@ -180,20 +220,39 @@ private:
 void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
 {
   frame.Method = "projection";
-  const CameraRays rays(frame.Renderer, 1);
-  if (rays.GetVisible().Width == 0 || frame.Scene->Mesh.GetMesh()->GetNumberOfCells() == 0)
+  if (frame.Scene->Mesh.GetMesh()->GetNumberOfCells() == 0)
   {
-    frame.MakeEmptyPicture(rays);
+    frame.MakeEmptyPicture(CameraRays(frame.Renderer, 1));
     this->Last.Reset();
     return;
   }
   frame.Scene->CheckComplete();
-  const tetralux::RayGrid grid = frame.MakeGrid(rays);
+  bool intoWindow = false;
+  this->Drawing.Draw(
+    frame, this->Self->GetRayDistances(),
+    [this](MapperFrame& drawn, const tetralux::PictureTask& task)
+    { return this->MakePicture(drawn, task); },
+    [this, &intoWindow](MapperFrame& drawn, const CameraRays& rays)
+    {
+      intoWindow = true;
+      this->DrawIntoWindow(drawn, rays);
+    });
+  if (!intoWindow)
+  {
+    this->Last.Reset();
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::DrawIntoWindow(
+  MapperFrame& frame, const CameraRays& rays)
+{
+  const View view = { frame.MakeGrid(rays), frame.MakeLimits(rays), 1 };
   frame.Opaque = frame.HasOpaqueGeometry();
-  frame.AddViewToKey(rays, grid, frame.MakeLimits(rays));
+  frame.AddViewToKey(rays, view.Grid, view.Limits);
   frame.Key.Add(frame.Opaque);
   if (frame.HasPicture && this->Last.Has(frame.Key) &&
-    (!frame.Opaque || this->Opaque.IsSame(frame.Window, rays.GetVisible())))
+    (!frame.Opaque || this->OfPicture.Opaque.IsSame(frame.Window, rays.GetVisible())))
   {
     frame.Kept = true;
     frame.ReportProgress(1); // too late to abort
@@ -201,34 +260,104 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
     return;
   }
   this->Last.Reset();
-  this->PrepareView(frame, rays, grid);
-  if (!this->PrepareOrder(frame))
+  this->PrepareScene(frame, view.Grid);
+  PlaceScene(frame, view, this->Scene, this->OfPicture);
+  if (frame.Opaque)
   {
-    frame.Aborted = true;
+    const tetralux::Stopwatch stopwatch;
+    this->OfPicture.Opaque.Copy(frame.Window, rays.GetVisible());
+    PlaceDepths(rays.GetDepthPlaces(), this->Scene, this->OfPicture);
+    frame.Seconds.emplace_back("depth_buffer", stopwatch.GetSeconds());
+  }
+  this->Draw(frame, view);
+  if (frame.Aborted)
+  {
     return;
   }
-
-  const tetralux::Stopwatch drawStopwatch;
-  const tetralux::ProjectionPicture::Result result = this->Picture.Draw(frame.Window, this->Scene,
-    [&frame](double fraction) { return frame.ReportProgress(fraction); });
-  frame.Seconds.emplace_back("project", result.ProjectSeconds);
-  frame.Seconds.emplace_back("draw", drawStopwatch.GetSeconds() - result.ProjectSeconds);
-  frame.Aborted = result.Aborted;
-  frame.Integration = this->Picture.GetIntegrator();
-  this->Describe(frame);
-  if (!frame.Aborted)
-  {
-    this->Composite(frame, rays);
-    this->Last.Set(frame.Key);
-  }
+  this->Composite(frame, rays);
+  this->Last.Set(frame.Key);
   frame.ReadPicture = [this, window = frame.Window](vtkImageData* image)
   {
     const tetralux::EnteredContext context(window);
     Span<float> colors, depths;
     MapperFrame::PrepareImage(
       image, this->Scene.Grid.Width, this->Scene.Grid.Height, colors, depths);
-    this->Picture.Read(this->Scene, colors, depths);
+    this->Picture.ReadColors(this->Scene, colors);
+    this->Picture.ReadDistances(this->Scene, depths);
   };
+}
+
+//------------------------------------------------------------------------------------------------
+tetralux::PixelRectangle vtkTetrahedraProjectionMapper::Internals::MakePicture(
+  MapperFrame& frame, const tetralux::PictureTask& task)
+{
+  if (task.OfSamples)
+  {
+    this->MakeSamples(frame, task);
+    return FindColored(task);
+  }
+  const View view = { task.Grid, task.Limits, task.SampleDistance };
+  this->PrepareScene(frame, view.Grid);
+  PlaceScene(frame, view, this->Scene, this->OfPicture);
+  if (task.OpaqueDepths)
+  {
+    this->OfPicture.Opaque.Upload(
+      frame.Window, task.Grid.Width, task.Grid.Height, *task.OpaqueDepths);
+    PlaceDepths(task.Places, this->Scene, this->OfPicture);
+  }
+  this->Draw(frame, view);
+  if (frame.Aborted)
+  {
+    return {};
+  }
+  this->Picture.ReadColors(this->Scene, task.Colors);
+  // Distances take another drawing, for who asks for them.
+  frame.ReadPicture = [this, window = frame.Window, depths = task.Depths](vtkImageData*)
+  {
+    const tetralux::EnteredContext context(window);
+    this->Picture.ReadDistances(this->Scene, depths);
+  };
+  return FindColored(task);
+}
+
+//------------------------------------------------------------------------------------------------
+// The cells of the frame's picture in the same order, seen by rays beside the middles of pixels.
+void vtkTetrahedraProjectionMapper::Internals::MakeSamples(
+  MapperFrame& frame, const tetralux::PictureTask& task)
+{
+  tetralux::ProjectionScene scene = this->Scene;
+  PlaceScene(frame, { task.Grid, task.Limits, task.SampleDistance }, scene, this->OfSamples);
+  this->OfSamples.Opaque.Upload(
+    frame.Window, task.Grid.Width, task.Grid.Height, *task.OpaqueDepths);
+  PlaceDepths(task.Places, scene, this->OfSamples);
+  scene.Hides = true;
+  const auto goOn = [&frame](double fraction) { return frame.ReportProgress(fraction); };
+  frame.Aborted = this->Picture.Draw(frame.Window, scene, goOn).Aborted;
+  this->Picture.ReadColors(scene, task.Colors);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::Draw(MapperFrame& frame, const View& view)
+{
+  if (!this->PrepareOrder(frame))
+  {
+    frame.Aborted = true;
+    return;
+  }
+  const tetralux::Stopwatch stopwatch;
+  const tetralux::ProjectionPicture::Result result = this->Picture.Draw(frame.Window, this->Scene,
+    [&frame](double fraction) { return frame.ReportProgress(fraction); });
+  frame.RaySeconds = stopwatch.GetSeconds() - result.ProjectSeconds;
+  frame.Seconds.emplace_back("project", result.ProjectSeconds);
+  for (const auto& [stage, seconds] : frame.Seconds)
+  {
+    const bool ofView = stage == "points" || stage == "order" || stage == "project";
+    frame.FixedSeconds += ofView ? seconds : 0;
+  }
+  frame.Seconds.emplace_back("draw", frame.RaySeconds);
+  frame.Aborted = result.Aborted;
+  frame.Integration = this->Picture.GetIntegrator();
+  this->Describe(result, view, frame);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -247,8 +376,8 @@ void vtkTetrahedraProjectionMapper::Internals::Composite(MapperFrame& frame, con
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraProjectionMapper::Internals::PrepareView(
-  MapperFrame& frame, const CameraRays& rays, const tetralux::RayGrid& grid)
+void vtkTetrahedraProjectionMapper::Internals::PrepareScene(
+  MapperFrame& frame, const tetralux::RayGrid& grid)
 {
   VolumeScene& volume = *frame.Scene;
   tetralux::SceneNeeds needs;
@@ -256,13 +385,10 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
   needs.LongestEdge = true;
   needs.PointGradients = frame.Shaded && frame.Settings.SmoothShading;
   volume.Prepare(needs);
-  const tetralux::WalkMesh& mesh = *volume.Mesh.GetMesh();
-  const tetralux::TetrahedralMesh& tetrahedra = mesh.GetMesh();
   tetralux::ProjectionScene& scene = this->Scene;
   scene.Volume = &volume;
-  scene.Grid = grid;
   this->WorldRadius =
-    mesh.GetRadius() * tetralux::MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest;
+    volume.Mesh.GetMesh()->GetRadius() * tetralux::MeasureMeshToWorld(grid.MeshFromWorld).Largest;
   VolumeScene::CheckWorldRadius(this->WorldRadius);
   scene.Interpolate = this->Self->PerspectiveInterpolation != 0;
   scene.Dither = this->Self->AlphaDithering && this->Self->ColorBuffer == UNORM8_BUFFER &&
@@ -276,56 +402,59 @@ void vtkTetrahedraProjectionMapper::Internals::PrepareView(
     tetralux::MakeErrorBudget(frame.MaximumError, { false, false, false, false, true }).Light);
   scene.Lights = frame.Lights;
   scene.Surface = frame.Surface;
+}
 
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::PlaceScene(
+  MapperFrame& frame, const View& view, tetralux::ProjectionScene& scene, Sight& sight)
+{
   const tetralux::Stopwatch stopwatch;
-  scene.Frame = std::make_unique<ScreenFrame>(scene.Grid, mesh.GetCenter(), mesh.GetRadius());
-  this->Points.resize(tetrahedra.GetNumberOfPoints());
+  const VolumeScene& volume = *scene.Volume;
+  const tetralux::WalkMesh& mesh = *volume.Mesh.GetMesh();
+  const tetralux::TetrahedralMesh& tetrahedra = mesh.GetMesh();
+  scene.Grid = view.Grid;
+  scene.Frame = std::make_shared<ScreenFrame>(scene.Grid, mesh.GetCenter(), mesh.GetRadius());
+  sight.Points.resize(tetrahedra.GetNumberOfPoints());
   const tetralux::ScalarMap map = volume.GetScalarMap();
   const Span<const double> none;
   scene.Frame->Project(tetrahedra.Points,
     volume.Mesh.HasCellScalars() ? none : Span<const double>(volume.Mesh.GetScalars()), map.Offset,
-    map.Scale, this->Points);
-  scene.Points = this->Points;
+    map.Scale, sight.Points);
+  scene.Points = sight.Points;
 
-  const tetralux::RayLimits limits = frame.MakeLimits(rays);
   ScreenFrame::Limits found = scene.Frame->FindLimits(
-    limits.Planes, this->Points, tetrahedra.Cells, volume.GetVisibleCells());
-  this->DrawnCells = found.Planes.empty() ? volume.GetVisibleCells() : found.Cells;
+    view.Limits.Planes, sight.Points, tetrahedra.Cells, volume.GetVisibleCells());
+  sight.DrawnCells = found.Planes.empty() ? volume.GetVisibleCells() : found.Cells;
   scene.Planes = std::move(found.Planes);
   scene.Cropping.clear();
-  if (limits.Cropping)
+  if (view.Limits.Cropping)
   {
     for (int plane = 0; plane < 6; ++plane)
     {
       const double* row = scene.Grid.MeshFromWorld[plane / 2];
       scene.Cropping.push_back(scene.Frame->ProjectPlane(
-        { row[0], row[1], row[2], row[3] - limits.CroppingPlanes[plane] }));
+        { row[0], row[1], row[2], row[3] - view.Limits.CroppingPlanes[plane] }));
     }
-    scene.CroppingFlags = limits.CroppingFlags;
+    scene.CroppingFlags = view.Limits.CroppingFlags;
   }
-  frame.Seconds.emplace_back("points", stopwatch.GetSeconds());
-
   scene.OpaqueDepth = nullptr;
-  if (frame.Opaque)
+  frame.Seconds.emplace_back("points", stopwatch.GetSeconds());
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkTetrahedraProjectionMapper::Internals::PlaceDepths(
+  const tetralux::DepthPlaces& places, tetralux::ProjectionScene& scene, Sight& sight)
+{
+  scene.OpaqueDepth = sight.Opaque.GetTexture();
+  tetralux::DepthPlaces ofMiddle = places;
+  ofMiddle.Shift(scene.Frame->GetMiddle()[0], scene.Frame->GetMiddle()[1]);
+  const double* points[4] = { ofMiddle.Farthest, ofMiddle.FarthestStepX, ofMiddle.FarthestStepY,
+    ofMiddle.Nearer };
+  for (int k = 0; k < 4; ++k)
   {
-    const tetralux::Stopwatch depthStopwatch;
-    this->Opaque.Copy(frame.Window, rays.GetVisible());
-    scene.OpaqueDepth = this->Opaque.GetTexture();
-    CameraRays::DepthPlaces places = rays.GetDepthPlaces();
-    for (int c = 0; c < 4; ++c)
-    {
-      places.Farthest[c] += scene.Frame->GetMiddle()[0] * places.FarthestStepX[c] +
-        scene.Frame->GetMiddle()[1] * places.FarthestStepY[c];
-    }
-    const double* points[4] = { places.Farthest, places.FarthestStepX, places.FarthestStepY,
-      places.Nearer };
-    for (int k = 0; k < 4; ++k)
-    {
-      const std::array<double, 2> depth = scene.Frame->ProjectDepth(rays.GetPosition(), points[k]);
-      scene.OpaquePlaces[k][0] = static_cast<float>(depth[0]);
-      scene.OpaquePlaces[k][1] = static_cast<float>(depth[1]);
-    }
-    frame.Seconds.emplace_back("depth_buffer", depthStopwatch.GetSeconds());
+    const std::array<double, 2> depth = scene.Frame->ProjectDepth(ofMiddle.Position, points[k]);
+    scene.OpaquePlaces[k][0] = static_cast<float>(depth[0]);
+    scene.OpaquePlaces[k][1] = static_cast<float>(depth[1]);
   }
 }
 
@@ -369,7 +498,8 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
         Sort::GetWishOf(this->Self->Order),
         this->Scene.FrontToBack ? tetralux::VisibilityDirection::FrontToBack
                                 : tetralux::VisibilityDirection::BackToFront,
-        this->DrawnCells, [&frame](double fraction) { return frame.ReportProgress(fraction); });
+        this->OfPicture.DrawnCells,
+        [&frame](double fraction) { return frame.ReportProgress(fraction); });
     if (!order)
     {
       return false;
@@ -395,10 +525,10 @@ bool vtkTetrahedraProjectionMapper::Internals::PrepareOrder(MapperFrame& frame)
   }
   this->Order.resize(mesh.GetNumberOfCells()); // else empty: the sorter keeps its own
   std::iota(this->Order.begin(), this->Order.end(), 0);
-  if (!this->DrawnCells.empty())
+  if (!this->OfPicture.DrawnCells.empty())
   {
     this->Order.erase(std::remove_if(this->Order.begin(), this->Order.end(),
-                        [this](std::int32_t cell) { return !this->DrawnCells[cell]; }),
+                        [this](std::int32_t cell) { return !this->OfPicture.DrawnCells[cell]; }),
       this->Order.end());
   }
   this->Scene.Order = this->Order;
@@ -425,20 +555,21 @@ double vtkTetrahedraProjectionMapper::Internals::EstimatePerspectiveError(Volume
   }
   const tetralux::WalkMesh& mesh = *volume.Mesh.GetMesh();
   const double shift = tetralux::FindPerspectiveShift(
-    *this->Scene.Frame, this->Points, mesh.GetMesh(), this->DrawnCells);
+    *this->Scene.Frame, this->OfPicture.Points, mesh.GetMesh(), this->OfPicture.DrawnCells);
   return volume.EstimateShiftError(this->WorldRadius, shift / mesh.GetRadius());
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
+void vtkTetrahedraProjectionMapper::Internals::Describe(
+  const tetralux::ProjectionPicture::Result& drawn, const View& view, MapperFrame& frame)
 {
   VolumeScene& volume = *frame.Scene;
   const tetralux::ProjectionScene& scene = this->Scene;
-  const tetralux::ProjectionPicture::Result& drawn = this->Picture.GetLastResult();
 
   Json section;
   section["width"] = scene.Grid.Width;
   section["height"] = scene.Grid.Height;
+  section["sample_distance"] = view.SampleDistance;
   section["perspective_interpolation"] = scene.Interpolate;
   section["color_buffer"] = GetFormatName(scene.Format);
   section["alpha_dithering"] = scene.Dither;
@@ -462,9 +593,11 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(MapperFrame& frame)
     section["looks_for_gaps"] = this->Sorter->Get().GetLooksForGaps();
   }
   frame.Sections.emplace_back("projection", section);
+  frame.Memory.emplace_back("screen_points",
+    (this->OfPicture.Points.capacity() + this->OfSamples.Points.capacity()) *
+      sizeof(tetralux::ScreenPoint));
   frame.Memory.emplace_back(
-    "screen_points", this->Points.capacity() * sizeof(tetralux::ScreenPoint));
-  frame.Memory.emplace_back("drawn_cells", this->DrawnCells.capacity());
+    "drawn_cells", this->OfPicture.DrawnCells.capacity() + this->OfSamples.DrawnCells.capacity());
   frame.Memory.emplace_back("order",
     this->Order.capacity() * sizeof(std::int32_t) +
       (this->Sorter && this->Sorted ? this->Sorter->Get().GetSize() : 0));
@@ -529,9 +662,7 @@ void vtkTetrahedraProjectionMapper::DrawFrame(MapperFrame& frame)
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraProjectionMapper::ReleaseResources(vtkWindow* window)
 {
-  this->Private->Picture.ReleaseGraphicsResources(window);
-  this->Private->Compositor.ReleaseGraphicsResources(window);
-  this->Private->Opaque.ReleaseGraphicsResources(window);
+  this->Private->ReleaseGraphicsResources(window);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
-#include "Frame/CPUPicture.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureTask.h"
 #include "Preparation/MapperSettings.h"
 #include "Properties/PropertyPrinter.h"
 #include "Properties/PropertySetters.h"
@@ -18,7 +18,7 @@ namespace
 {
 
 void Describe(
-  const tetralux::RayCastStatistics& rays, const tetralux::CPUPicture& picture, MapperFrame& frame)
+  const tetralux::RayCastStatistics& rays, const tetralux::PictureTask& picture, MapperFrame& frame)
 {
   Json section;
   section["width"] = picture.Grid.Width;
@@ -69,7 +69,7 @@ void vtkTetrahedraRayCastMapper::AddSettings(tetralux::MapperSettings& settings)
 
 //------------------------------------------------------------------------------------------------
 tetralux::PixelRectangle vtkTetrahedraRayCastMapper::MakePicture(
-  MapperFrame& frame, const tetralux::CPUPicture& picture)
+  MapperFrame& frame, const tetralux::PictureTask& picture)
 {
   frame.Method = "ray-cast";
   tetralux::VolumeScene::CheckWorldRadius(frame.Scene->Mesh.GetMesh()->GetRadius() *

@@ -49,7 +49,7 @@ protected:
   ~vtkTetrahedraRayCastMapper() override;
 
   tetralux::PixelRectangle MakePicture(
-    tetralux::MapperFrame& frame, const tetralux::CPUPicture& picture) override;
+    tetralux::MapperFrame& frame, const tetralux::PictureTask& picture) override;
   void AddSettings(tetralux::MapperSettings& settings) override;
   void PrintProperties(ostream& os, vtkIndent indent) override;
 

@@ -5,6 +5,7 @@
 #include "Base/Stopwatch.h"
 #include "Frame/FrameRecord.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/RayPace.h"
 #include "Frame/RendererLights.h"
 #include "Intake/DataSetBlocks.h"
 #include "OpenGL/EnteredContext.h"
@@ -507,6 +508,20 @@ tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, VectorMode);
 tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, VectorComponent, int);
 tetraluxEnumerationMacro(vtkTetrahedraVolumeMapper, Reentry);
 tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, CroppingRegionFlags, int);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, ImageSampleDistance, float);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, MinimumImageSampleDistance, float);
+tetraluxSetNumberMacro(vtkTetrahedraVolumeMapper, MaximumImageSampleDistance, float);
+
+//------------------------------------------------------------------------------------------------
+tetralux::RayDistances vtkTetrahedraVolumeMapper::GetRayDistances() const
+{
+  tetralux::RayDistances distances;
+  distances.Automatic = this->AutoAdjustSampleDistances != 0;
+  distances.Fixed = this->ImageSampleDistance;
+  distances.Minimum = this->MinimumImageSampleDistance;
+  distances.Maximum = this->MaximumImageSampleDistance;
+  return distances;
+}
 
 //------------------------------------------------------------------------------------------------
 void vtkTetrahedraVolumeMapper::SetCroppingRegionPlanes(
@@ -568,6 +583,10 @@ void vtkTetrahedraVolumeMapper::PrintProperties(ostream& os, vtkIndent indent)
   printer.Print(
     "CroppingRegionPlanes", planes[0], planes[1], planes[2], planes[3], planes[4], planes[5]);
   printer.Print("CroppingRegionFlags", this->CroppingRegionFlags);
+  printer.Print("ImageSampleDistance", this->ImageSampleDistance);
+  printer.Print("MinimumImageSampleDistance", this->MinimumImageSampleDistance);
+  printer.Print("MaximumImageSampleDistance", this->MaximumImageSampleDistance);
+  printer.Print("AutoAdjustSampleDistances", this->AutoAdjustSampleDistances);
 }
 
 //------------------------------------------------------------------------------------------------

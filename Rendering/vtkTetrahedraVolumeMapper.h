@@ -41,14 +41,20 @@
  * only image data and rectilinear grids; vtkVolume and renderers treat both alike. Of
  * vtkVolumeMapper there are, by the same names and numbers, BlendMode (composite, maximum
  * intensity, additive, isosurface), Cropping, CroppingRegionPlanes and CroppingRegionFlags; of its
- * subclasses VectorMode and VectorComponent, and on the processor ImageSampleDistance with its
- * limits and AutoAdjustSampleDistances. There are no minimum, average and slice blending, no
- * masks and no gradient opacity. There is no SampleDistance: rays are not sampled. Every call of
+ * subclasses VectorMode and VectorComponent, ImageSampleDistance with its limits and
+ * AutoAdjustSampleDistances. There are no minimum, average and slice blending, no masks and no
+ * gradient opacity. There is no SampleDistance: rays are not sampled. Every call of
  * VTK's mappers of unstructured grids is there; Documentation/from_vtk.md has what it does.
  *
  * Mappers are created by name; there is no object factory behind them. Each cause of an error is
  * reported once; the volume is then not drawn. Setters clamp numbers to the range that is stated,
  * and refuse, with an error that names the right values, any other value of an enumeration and NaN.
+ *
+ * In a window with MultiSamples, where a ray is a pixel, pixels at edges are cast once for each
+ * sample, through its own place and up to its own opaque depth: edges of opaque geometry, and
+ * wherever colours change unevenly. What no ray through the middle of a pixel meets is not found.
+ * GetOutputImage has one ray a pixel. A picture that light samples refine over several frames gets
+ * its samples at edges with the last of them. In an interaction, only if there is time.
  *
  * @warning Gradient opacity is not used, nor is Shade with other blend modes or scalars at cells;
  * one warning says so.
@@ -75,6 +81,7 @@ namespace tetralux
 {
 struct MapperFrame;
 struct MapperSettings;
+struct RayDistances;
 class WalkMesh;
 } // namespace tetralux
 
@@ -449,6 +456,42 @@ public:
 
   ///@{
   /**
+   * Set the distance of rays in pixels, 0.1 to 100, for frames with AutoAdjustSampleDistances off.
+   * Default 1: one ray through each pixel's centre. At 2 one ray covers 2 x 2 pixels, and the
+   * picture is interpolated; at 0.5 a pixel is the mean of 4 rays. vtkTetrahedraProjectionMapper
+   * casts no rays: it draws a picture of that many pixels.
+   *
+   * If it is above 1, GetErrorEstimate() includes the largest difference between colours of
+   * neighbouring rays. No warning tells of it.
+   */
+  virtual void SetImageSampleDistance(float distance);
+  vtkGetMacro(ImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * Set the range of the automatic distance of rays in pixels, each 0.1 to 100. Default 1 and 10.
+   */
+  virtual void SetMinimumImageSampleDistance(float distance);
+  vtkGetMacro(MinimumImageSampleDistance, float);
+  virtual void SetMaximumImageSampleDistance(float distance);
+  vtkGetMacro(MaximumImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * Set whether the distance of rays follows from the time that the renderer allocates to the
+   * volume and the time that a ray took in the last frame. Default on. During an interaction, it
+   * changes only if the time asks for it. Without a desired update rate, as in still and off-screen
+   * frames, that time is hours, and the distance is MinimumImageSampleDistance.
+   */
+  vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Return whether the mapper works in a window: whether that draws by OpenGL 3.2 or later, on a
    * graphics card or in software. Makes the window's context if there is none. GetSupportReason()
    * then says why not, or what draws in the window.
@@ -611,6 +654,11 @@ protected:
    */
   void WarnOfReentry(const tetralux::WalkMesh& mesh);
 
+  /**
+   * ImageSampleDistance, its limits, and whether it is chosen.
+   */
+  tetralux::RayDistances GetRayDistances() const;
+
   double MaximumError = 1e-4;
   int Integration = AUTOMATIC_INTEGRATION;
   int TableScalarSize = 0;
@@ -628,6 +676,10 @@ protected:
   vtkTypeBool Cropping = 0;
   double CroppingRegionPlanes[6] = { 0, 1, 0, 1, 0, 1 };
   int CroppingRegionFlags = 0x2000;
+  float ImageSampleDistance = 1;
+  float MinimumImageSampleDistance = 1;
+  float MaximumImageSampleDistance = 10;
+  vtkTypeBool AutoAdjustSampleDistances = 1;
 
 private:
   vtkTetrahedraVolumeMapper(const vtkTetrahedraVolumeMapper&) = delete;

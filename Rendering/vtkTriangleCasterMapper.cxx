@@ -2,10 +2,10 @@
 #include "vtkTriangleCasterMapper.h"
 
 #include "Base/Stopwatch.h"
-#include "Frame/CPUDrawing.h"
 #include "Frame/FrameRecord.h"
 #include "Frame/HeldContents.h"
 #include "Frame/MapperFrame.h"
+#include "Frame/PictureDrawing.h"
 #include "Frame/RendererLights.h"
 #include "ImagePreparation/ChosenDistance.h"
 #include "ImagePreparation/ImageBlends.h"
@@ -110,13 +110,13 @@ public:
   vtkTriangleCasterMapper* Self;
   tetralux::ImagePreparation Preparation;
   tetralux::FrameRecord Record;
-  tetralux::CPUDrawing Drawing;
+  tetralux::PictureDrawing Drawing;
 
 private:
   void SetUp(MapperFrame& frame) const;
   void SetUpLights(MapperFrame& frame) const;
   void AddSceneToKey(MapperFrame& frame) const;
-  PixelRectangle MakePicture(MapperFrame& frame, const tetralux::CPUPicture& picture);
+  PixelRectangle MakePicture(MapperFrame& frame, const tetralux::PictureTask& picture);
   tetralux::ImageCasterOptions MakeOptions(const tetralux::RayGrid& grid, MapperFrame& frame) const;
   double FindBrightness(const tetralux::RayGrid& grid, const MapperFrame& frame) const;
   /// What slices are laid through, in indices of the input's points.
@@ -125,7 +125,7 @@ private:
   double ChooseSampleDistance(const tetralux::RayGrid& grid, const tetralux::RayLimits& limits,
     const tetralux::ImageCasterOptions& options, const MapperFrame& frame);
   void Describe(const tetralux::ImageCastStatistics& statistics,
-    const tetralux::ImageCasterOptions& options, const tetralux::CPUPicture& picture,
+    const tetralux::ImageCasterOptions& options, const tetralux::PictureTask& picture,
     MapperFrame& frame) const;
 
   tetralux::ChosenDistance Chosen;  ///< by the error, of frames without an interaction
@@ -196,7 +196,7 @@ void vtkTriangleCasterMapper::Internals::DrawFrame(MapperFrame& frame)
   distances.Minimum = this->Self->MinimumImageSampleDistance;
   distances.Maximum = this->Self->MaximumImageSampleDistance;
   this->Drawing.Draw(frame, distances,
-    [this](MapperFrame& drawn, const tetralux::CPUPicture& picture)
+    [this](MapperFrame& drawn, const tetralux::PictureTask& picture)
     { return this->MakePicture(drawn, picture); });
 
   Json sections;
@@ -266,7 +266,7 @@ tetralux::ScalarSelection vtkTriangleCasterMapper::Internals::SelectScalars() co
 
 //------------------------------------------------------------------------------------------------
 PixelRectangle vtkTriangleCasterMapper::Internals::MakePicture(
-  MapperFrame& frame, const tetralux::CPUPicture& picture)
+  MapperFrame& frame, const tetralux::PictureTask& picture)
 {
   const tetralux::ImagePlacement& placement = this->Preparation.GetPlacement();
   const tetralux::RayGrid grid = ToIndices(placement, picture.Grid);
@@ -461,7 +461,7 @@ double vtkTriangleCasterMapper::Internals::FindSampleDistance(const MapperFrame&
 
 //------------------------------------------------------------------------------------------------
 void vtkTriangleCasterMapper::Internals::Describe(const tetralux::ImageCastStatistics& statistics,
-  const tetralux::ImageCasterOptions& options, const tetralux::CPUPicture& picture,
+  const tetralux::ImageCasterOptions& options, const tetralux::PictureTask& picture,
   MapperFrame& frame) const
 {
   Json rays;

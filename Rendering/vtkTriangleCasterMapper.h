@@ -46,7 +46,7 @@
  * COMPOSITE_BLEND only. Warnings say what of the property is not used.
  *
  * In a window with MultiSamples, pixels at edges are cast once for each sample, as
- * vtkTetrahedraCPUMapper says.
+ * vtkTetrahedraVolumeMapper says.
  *
  * @sa vtkFixedPointVolumeRayCastMapper, vtkTetrahedraRayCastMapper
  */

@@ -91,6 +91,14 @@ std::array<double, 4> FindEye(vtkCamera* camera)
   return { -direction[0], -direction[1], -direction[2], 0 };
 }
 
+void DepthPlaces::Shift(double x, double y)
+{
+  for (int c = 0; c < 4; ++c)
+  {
+    this->Farthest[c] += x * this->FarthestStepX[c] + y * this->FarthestStepY[c];
+  }
+}
+
 CameraRays::CameraRays(vtkRenderer* renderer, double sampleDistance)
 {
   this->Viewport = FindDrawnViewport(renderer);
@@ -174,7 +182,7 @@ void CameraRays::GetDevicePoint(double i, double j, double& x, double& y) const
   y = 2 * pixelY / whole.Height - 1;
 }
 
-CameraRays::DepthPlaces CameraRays::GetDepthPlaces() const
+DepthPlaces CameraRays::GetDepthPlaces() const
 {
   double x0, y0, x1, y1;
   this->GetDevicePoint(0, 0, x0, y0);
@@ -189,6 +197,7 @@ CameraRays::DepthPlaces CameraRays::GetDepthPlaces() const
   std::copy(stepX.begin(), stepX.end(), places.FarthestStepX);
   std::copy(stepY.begin(), stepY.end(), places.FarthestStepY);
   std::copy(nearer.begin(), nearer.end(), places.Nearer);
+  std::copy_n(this->Position, 3, places.Position);
   return places;
 }
 

@@ -16,6 +16,17 @@ class vtkRenderer;
 namespace tetralux
 {
 
+/// What pixels show, as homogeneous world coordinates relative to a position: ray (i, j) at depth d
+/// of the depth buffer, 0..1, is at Farthest + i FarthestStepX + j FarthestStepY + (1 - d) Nearer.
+struct DepthPlaces
+{
+  double Farthest[4], FarthestStepX[4], FarthestStepY[4], Nearer[4];
+  double Position[3];
+
+  /// Moves the rays, in pixels.
+  void Shift(double x, double y);
+};
+
 /// Where the rays of a camera come from, in homogeneous coordinates of the world: the last one is
 /// 1, or 0 in a parallel projection, where the others point against the rays. Throws
 /// std::invalid_argument, with one line, where the camera's matrices have no inverse.
@@ -57,14 +68,7 @@ public:
   /// start, plus the second one.
   std::array<double, 2> GetWidth() const;
 
-  /// What pixels show, as homogeneous world coordinates relative to the camera's position: ray (i,
-  /// j) at depth d is at Farthest + i FarthestStepX + j FarthestStepY + (1 - d) Nearer.
-  struct DepthPlaces
-  {
-    double Farthest[4], FarthestStepX[4], FarthestStepY[4], Nearer[4];
-  };
   DepthPlaces GetDepthPlaces() const;
-  const double* GetPosition() const { return this->Position; }
 
 private:
   /// Position of a ray in normalized device coordinates.

@@ -264,7 +264,7 @@ void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebu
     this->HasPicture = true;
   }
 
-  this->ErrorEstimate = 0;
+  this->ErrorEstimate = frame.CoarseRaysError;
   for (const auto& [name, value] : frame.Errors)
   {
     this->ErrorEstimate += value;
@@ -277,6 +277,7 @@ void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebu
   {
     error[name] = value;
   }
+  error["coarse_rays"] = frame.CoarseRaysError;
 
   frame.ReportOmission(frame.Settings.ClippingPlanes.empty(), "clipping planes", "there are none");
   frame.ReportOmission(!frame.Settings.Cropping, "cropping", "it is off");
@@ -305,7 +306,7 @@ void FrameRecord::Write(MapperFrame& frame, const std::vector<std::string>& rebu
 
 void FrameRecord::WarnOfError(const MapperFrame& frame)
 {
-  if (frame.Aborted || this->IsErrorKept(frame.MaximumError))
+  if (frame.Aborted || this->IsErrorKept(frame.MaximumError, -frame.CoarseRaysError))
   {
     this->ErrorWarning.Update(this->Mapper, "");
     return;
@@ -313,9 +314,9 @@ void FrameRecord::WarnOfError(const MapperFrame& frame)
   const auto largest = std::max_element(frame.Errors.begin(), frame.Errors.end(),
     [](const auto& a, const auto& b) { return a.second < b.second; });
   std::ostringstream warning;
-  warning << "the estimated error " << this->ErrorEstimate << " is above the MaximumError "
-          << frame.MaximumError << ": " << largest->second << " of it by '" << largest->first
-          << "'";
+  warning << "the estimated error " << this->ErrorEstimate - frame.CoarseRaysError
+          << " is above the MaximumError " << frame.MaximumError << ": " << largest->second
+          << " of it by '" << largest->first << "'";
   this->ErrorWarning.Update(this->Mapper, warning.str(), largest->first);
 }
 

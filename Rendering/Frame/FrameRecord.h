@@ -59,9 +59,9 @@ public:
 
   /// Writes the statistics of a frame that was drawn or aborted: those that are the same for all
   /// mappers, with sections of the mapper between them, and the estimated error, which is the sum
-  /// of the frame's errors. Warns where that is above MaximumError. seconds: of the stages before
-  /// the drawing, by name. frameSeconds: of all. Where the picture was kept, all but the seconds
-  /// are those of the frame that made it, and nothing was rebuilt.
+  /// of the frame's errors. Warns where that is above MaximumError without that of coarse rays.
+  /// seconds: of the stages before the drawing, by name. frameSeconds: of all. Where the picture
+  /// was kept, all but the seconds are those of the frame that made it, and nothing was rebuilt.
   void Write(MapperFrame& frame, const std::vector<std::string>& rebuilt, Json seconds,
     double frameSeconds, const Json& sections);
 

@@ -75,6 +75,8 @@ struct MapperFrame
   /// The picture is a mean that frames refine, which other rays would begin anew.
   bool IsMean = false;
   std::vector<std::pair<std::string, double>> Seconds; ///< of the stages of DrawFrame
+  double RaySeconds = 0;                               ///< of what grows with the number of rays
+  double FixedSeconds = 0;                             ///< of what each new view takes besides
   Integrator Integration = Integrator::ClosedForm;
   std::vector<std::pair<std::string, Json>> Sections; ///< of the mapper itself
 
@@ -91,6 +93,10 @@ struct MapperFrame
 
   /// Contributions to the largest error of a channel, absolute, 0..1; their sum is the estimate.
   std::vector<std::pair<std::string, double>> Errors;
+
+  /// Error by rays that are coarser than pixels. It belongs to the estimate, but is asked for: no
+  /// warning tells of it.
+  double CoarseRaysError = 0;
 
   /// What the scene did not need, and why.
   Json LeftOut = Json::object();

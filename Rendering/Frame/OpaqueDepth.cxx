@@ -83,6 +83,27 @@ void OpaqueDepth::Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rect
   this->Bytes = format.Bytes * width * height;
 }
 
+void OpaqueDepth::Upload(
+  vtkOpenGLRenderWindow* window, int width, int height, Span<const float> depths)
+{
+  this->Context.Set(window);
+  const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
+  const DepthFormat format = { GL_R32F, GL_RED, GL_FLOAT, sizeof(float) };
+  if (this->Bytes == 0 || !(format == this->Format) ||
+    static_cast<int>(this->Texture->GetWidth()) != width ||
+    static_cast<int>(this->Texture->GetHeight()) != height)
+  {
+    this->Bytes = 0;
+    AllocateDepths(this->Texture, window, format, width, height, 0);
+    this->Format = format;
+    this->Bytes = format.Bytes * width * height;
+  }
+  this->Texture->Activate();
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, format.Format, format.Type, depths.data());
+  this->Texture->Deactivate();
+}
+
 void OpaqueDepth::Read(Span<float> depths)
 {
   vtkOpenGLState* state = this->Context.Get()->GetState();
@@ -99,7 +120,7 @@ void OpaqueDepth::Read(Span<float> depths)
 
 bool OpaqueDepth::IsSame(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle)
 {
-  if (this->Context.Get() != window || this->Bytes == 0)
+  if (this->Context.Get() != window || this->Bytes == 0 || this->Format.Internal == GL_R32F)
   {
     return false;
   }

@@ -20,7 +20,7 @@ class vtkWindow;
 namespace tetralux
 {
 
-/// The depth buffer of the opaque geometry that was drawn before, as a texture. Belongs to one
+/// The depths of the opaque geometry that was drawn before, as a texture. Belongs to one
 /// window's context, the last one.
 class TETRALUXRENDERING_EXPORT OpaqueDepth
 {
@@ -34,6 +34,10 @@ public:
   /// of the samples of each pixel, as resolving it does. Leaves OpenGL's state as it was. Throws
   /// std::runtime_error, with one line, where there is none or it can't be copied.
   void Copy(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle);
+
+  /// Takes depths from memory, 0..1, lower row first. Leaves OpenGL's state as it was. Throws
+  /// std::runtime_error, with one line, where there is no texture for them.
+  void Upload(vtkOpenGLRenderWindow* window, int width, int height, Span<const float> depths);
 
   /// Depths 0..1, lower row first, a texel for each pixel of the rectangle.
   vtkTextureObject* GetTexture() const { return this->Texture; }

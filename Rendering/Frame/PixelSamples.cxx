@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace tetralux
 {
@@ -91,14 +90,14 @@ bool HasEdge(const OpaqueSamples& opaque, int x, int y, const PixelDepths& depth
 
 } // namespace
 
-std::vector<float> FindOpaqueDistances(const OpaqueSamples& opaque)
+std::vector<float> FindOpaqueDepths(const OpaqueSamples& opaque)
 {
   if (std::none_of(
         opaque.Depths.begin(), opaque.Depths.end(), [](float depth) { return depth < EmptyDepth; }))
   {
     return {};
   }
-  std::vector<float> distances(static_cast<std::size_t>(opaque.Width) * opaque.Height);
+  std::vector<float> middle(static_cast<std::size_t>(opaque.Width) * opaque.Height);
   vtkSMPTools::For(0, opaque.Height,
     [&](vtkIdType firstRow, vtkIdType lastRow)
     {
@@ -108,16 +107,13 @@ std::vector<float> FindOpaqueDistances(const OpaqueSamples& opaque)
         {
           const std::size_t pixel = static_cast<std::size_t>(y) * opaque.Width + x;
           const PixelDepths depths = FindDepths(opaque, pixel);
-          const float depth = depths.Nearest < EmptyDepth && HasEdge(opaque, x, y, depths)
+          middle[pixel] = depths.Nearest < EmptyDepth && HasEdge(opaque, x, y, depths)
             ? opaque.Depths[pixel]
             : depths.Mean;
-          distances[pixel] = depth < EmptyDepth
-            ? static_cast<float>(opaque.GetDistance(x, y, depth))
-            : std::numeric_limits<float>::infinity();
         }
       }
     });
-  return distances;
+  return middle;
 }
 
 std::vector<std::int32_t> FindEdges(const OpaqueSamples& opaque, const float* colors)

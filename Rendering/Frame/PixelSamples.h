@@ -35,10 +35,10 @@ struct OpaqueSamples
   std::function<double(int x, int y, double depth)> GetDistance;
 };
 
-/// Distances to opaque geometry along the rays through the middles of pixels, infinite where there
-/// is none; empty if there is none at all. Where a pixel has no edge, that of the mean depth, which
-/// is right for planes; else that of the first sample.
-TETRALUXRENDERING_EXPORT std::vector<float> FindOpaqueDistances(const OpaqueSamples& opaque);
+/// Depths of opaque geometry, 0..1, for the rays through the middles of pixels; empty if there is
+/// none at all. Where a pixel has no edge, the mean depth, which is right for planes; else that of
+/// the first sample.
+TETRALUXRENDERING_EXPORT std::vector<float> FindOpaqueDepths(const OpaqueSamples& opaque);
 
 /// Pixels of which one ray is too few: where colours of a picture do not change evenly, and where
 /// opaque geometry ends within a pixel that is not empty. colors: four a pixel, premultiplied.

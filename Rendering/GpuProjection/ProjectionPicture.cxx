@@ -6,6 +6,7 @@
 #include "Base/Stopwatch.h"
 #include "FirstPieceDec.h"
 #include "FirstSurfaceDec.h"
+#include "HiddenPixelsFS.h"
 #include "LargestPictureFS.h"
 #include "RayGridDec.h"
 #include "Scene/VolumeScene.h"
@@ -59,15 +60,29 @@ public:
   {
     if (this->Fences.size() == MaximumPartsInFlight)
     {
-      glClientWaitSync(this->Fences.front(), GL_SYNC_FLUSH_COMMANDS_BIT, LongestWait);
-      glDeleteSync(this->Fences.front());
-      this->Fences.pop_front();
+      this->WaitForFirst();
+    }
+  }
+
+  /// Waits until all are drawn.
+  void Finish()
+  {
+    while (!this->Fences.empty())
+    {
+      this->WaitForFirst();
     }
   }
 
   void Add() { this->Fences.push_back(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
 
 private:
+  void WaitForFirst()
+  {
+    glClientWaitSync(this->Fences.front(), GL_SYNC_FLUSH_COMMANDS_BIT, LongestWait);
+    glDeleteSync(this->Fences.front());
+    this->Fences.pop_front();
+  }
+
   static constexpr GLuint64 LongestWait = GLuint64(60) * 1000 * 1000 * 1000; // nanoseconds
 
   std::deque<GLsync> Fences;
@@ -84,6 +99,7 @@ public:
     , CullFace(state, GL_CULL_FACE)
     , Scissor(state, GL_SCISSOR_TEST)
     , DepthMask(state)
+    , DepthFunction(state)
     , ColorMask(state)
     , ClearColor(state)
     , BlendFunction(state)
@@ -115,6 +131,7 @@ private:
   const vtkOpenGLState::ScopedglEnableDisable CullFace;
   const vtkOpenGLState::ScopedglEnableDisable Scissor;
   const vtkOpenGLState::ScopedglDepthMask DepthMask;
+  const vtkOpenGLState::ScopedglDepthFunc DepthFunction;
   const vtkOpenGLState::ScopedglColorMask ColorMask;
   const vtkOpenGLState::ScopedglClearColor ClearColor;
   const vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
@@ -124,13 +141,15 @@ private:
   GLint ProvokingVertex = GL_LAST_VERTEX_CONVENTION;
 };
 
-FloatTarget::Settings MakeSettings(const RayGrid& grid, int components, ChannelFormat format)
+FloatTarget::Settings MakeSettings(
+  const RayGrid& grid, int components, ChannelFormat format, bool hides)
 {
   FloatTarget::Settings settings;
   settings.Width = grid.Width;
   settings.Height = grid.Height;
   settings.Pictures[0].Components = components;
   settings.Pictures[0].Format = format;
+  settings.DepthStencil = hides;
   return settings;
 }
 
@@ -140,13 +159,17 @@ ProjectionPicture::ProjectionPicture()
   : Context(
       [this](vtkOpenGLRenderWindow* window)
       {
-        this->Colors.ReleaseGraphicsResources(window);
-        this->Scalars.ReleaseGraphicsResources(window);
+        for (Targets* targets : { &this->Whole, &this->Apart })
+        {
+          targets->Colors.ReleaseGraphicsResources(window);
+          targets->Scalars.ReleaseGraphicsResources(window);
+        }
         this->Distances.ReleaseGraphicsResources(window);
         this->Drawer.ReleaseGraphicsResources(window);
         this->Integral.ReleaseGraphicsResources(window);
         this->Pieces.ReleaseGraphicsResources(window);
         this->Classifier.ReleaseGraphicsResources(window);
+        this->Hidden.ReleaseGraphicsResources(window);
       })
 {
 }
@@ -169,18 +192,16 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
     this->Rays.emplace(scene.Grid, RayLimits(), mesh.GetCenter(), mesh.GetRadius());
   }
   const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
-  this->Colors.Prepare(window, MakeSettings(scene.Grid, 4, scene.Format));
+  Targets& targets = scene.Hides ? this->Apart : this->Whole;
+  targets.Colors.Prepare(window, MakeSettings(scene.Grid, 4, scene.Format, scene.Hides));
   if (scene.Volume->Optics.GetModel() == OpticalModel::MaximumIntensity)
   {
-    this->Scalars.Prepare(window, MakeSettings(scene.Grid, 1, ChannelFormat::Float));
-    this->Last = this->DrawCells(Pass::LargestScalars, this->Scalars, scene, progress);
-    this->ClassifyLargest();
+    targets.Scalars.Prepare(window, MakeSettings(scene.Grid, 1, ChannelFormat::Float, scene.Hides));
+    const Result result = this->DrawCells(Pass::LargestScalars, targets.Scalars, scene, progress);
+    this->ClassifyLargest(targets);
+    return result;
   }
-  else
-  {
-    this->Last = this->DrawCells(Pass::Colors, this->Colors, scene, progress);
-  }
-  return this->Last;
+  return this->DrawCells(Pass::Colors, targets.Colors, scene, progress);
 }
 
 ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& target,
@@ -215,6 +236,10 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
       break;
   }
   state->vtkglClear(GL_COLOR_BUFFER_BIT);
+  if (scene.Hides)
+  {
+    this->CoverHidden(scene);
+  }
 
   vtkShaderProgram* program = this->Drawer.Use(this->Context.Get(), this->MakeShader(pass, scene));
   this->SetUniforms(program, scene);
@@ -236,8 +261,8 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
     scene.Volume->Optics.GetModel() == OpticalModel::MaximumIntensity;
   if (ofLargest)
   {
-    this->Scalars.GetTexture(0)->Activate();
-    program->SetUniformi("largestScalars", this->Scalars.GetTexture(0)->GetTextureUnit());
+    this->Whole.Scalars.GetTexture(0)->Activate();
+    program->SetUniformi("largestScalars", this->Whole.Scalars.GetTexture(0)->GetTextureUnit());
   }
 
   const std::vector<std::int32_t>& cells = scene.Volume->Mesh.GetMesh()->GetMesh().Cells;
@@ -289,9 +314,11 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
       !progress(static_cast<double>(std::min(begin + BatchSize, size)) / static_cast<double>(size));
   }
 
+  queue.Finish();
+
   if (ofLargest)
   {
-    this->Scalars.GetTexture(0)->Deactivate();
+    this->Whole.Scalars.GetTexture(0)->Deactivate();
   }
   if (scene.OpaqueDepth)
   {
@@ -433,11 +460,32 @@ void ProjectionPicture::SetUniforms(vtkShaderProgram* program, const ProjectionS
   program->SetUniformi("croppingFlags", static_cast<int>(scene.CroppingFlags));
 }
 
-void ProjectionPicture::ClassifyLargest()
+/// Keeps cells out of pixels of depth 0, in the target that is drawn into.
+void ProjectionPicture::CoverHidden(const ProjectionScene& scene)
+{
+  vtkOpenGLState* state = this->Context.Get()->GetState();
+  const GLfloat farthest = 1;
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_LESS);
+  state->vtkglDepthMask(GL_TRUE); // clearing, too, heeds it
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  std::string fragment = HiddenPixelsFS;
+  vtkShaderProgram::Substitute(fragment, "//VTK::System::Dec", "#version 150\n");
+  vtkShaderProgram* program = this->Hidden.Use(this->Context.Get(), "HiddenPixelsFS", fragment);
+  scene.OpaqueDepth->Activate();
+  program->SetUniformi("opaqueDepth", scene.OpaqueDepth->GetTextureUnit());
+  state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  this->Hidden.Draw();
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  scene.OpaqueDepth->Deactivate();
+  state->vtkglDepthMask(GL_FALSE);
+}
+
+void ProjectionPicture::ClassifyLargest(Targets& targets)
 {
   vtkOpenGLState* state = this->Context.Get()->GetState();
   const DrawingState drawing(state);
-  const FloatTarget::Use use(this->Colors);
+  const FloatTarget::Use use(targets.Colors);
   state->vtkglDisable(GL_BLEND);
   std::string fragment = LargestPictureFS;
   vtkShaderProgram::Substitute(fragment, "//VTK::Segment::Dec", this->Integral.GetDeclarations());
@@ -445,24 +493,30 @@ void ProjectionPicture::ClassifyLargest()
   vtkShaderProgram* program =
     this->Classifier.Use(this->Context.Get(), "LargestPictureFS", fragment);
   this->Integral.Activate(program);
-  this->Scalars.GetTexture(0)->Activate();
-  program->SetUniformi("largestScalars", this->Scalars.GetTexture(0)->GetTextureUnit());
+  vtkTextureObject* scalars = targets.Scalars.GetTexture(0);
+  scalars->Activate();
+  program->SetUniformi("largestScalars", scalars->GetTextureUnit());
   this->Classifier.Draw();
-  this->Scalars.GetTexture(0)->Deactivate();
+  scalars->Deactivate();
   this->Integral.Deactivate();
 }
 
-vtkTextureObject* ProjectionPicture::GetTexture() const { return this->Colors.GetTexture(0); }
+vtkTextureObject* ProjectionPicture::GetTexture() const { return this->Whole.Colors.GetTexture(0); }
 
-void ProjectionPicture::Read(const ProjectionScene& scene, Span<float> colors, Span<float> depths)
+void ProjectionPicture::ReadColors(const ProjectionScene& scene, Span<float> colors)
 {
-  this->Colors.Read(0, colors);
+  (scene.Hides ? this->Apart : this->Whole).Colors.Read(0, colors);
+}
+
+void ProjectionPicture::ReadDistances(const ProjectionScene& scene, Span<float> depths)
+{
   const vtkOpenGLState::ScopedglActiveTexture unit(this->Context.Get()->GetState());
   // A table does not tell where in a segment the function first contributes.
   SegmentSource source = MakeSegmentSource(*scene.Volume, Lighting::None);
   source.Integrator = IsTabulated(source.Integrator) ? Integrator::ClosedForm : source.Integrator;
   this->Pieces.Update(this->Context.Get(), source);
-  this->Distances.Prepare(this->Context.Get(), MakeSettings(scene.Grid, 1, ChannelFormat::Float));
+  this->Distances.Prepare(
+    this->Context.Get(), MakeSettings(scene.Grid, 1, ChannelFormat::Float, false));
   this->DrawCells(Pass::FirstDistances, this->Distances, scene, {});
   this->Distances.Read(0, depths);
   for (float& depth : depths)
@@ -479,7 +533,8 @@ std::size_t ProjectionPicture::GetNumberOfIntegralBytes() const
 
 std::size_t ProjectionPicture::GetNumberOfPictureBytes() const
 {
-  return this->Colors.GetNumberOfBytes() + this->Scalars.GetNumberOfBytes() +
+  return this->Whole.Colors.GetNumberOfBytes() + this->Whole.Scalars.GetNumberOfBytes() +
+    this->Apart.Colors.GetNumberOfBytes() + this->Apart.Scalars.GetNumberOfBytes() +
     this->Distances.GetNumberOfBytes();
 }
 

@@ -36,9 +36,9 @@ struct ProjectionScene
 {
   const VolumeScene* Volume = nullptr; ///< with its longest edge, and gradients for smooth shading
   RayGrid Grid;
-  std::unique_ptr<ScreenFrame> Frame; ///< of Grid
-  Span<const ScreenPoint> Points;     ///< of the mesh
-  Span<const std::int32_t> Order;     ///< the cells that are drawn
+  std::shared_ptr<const ScreenFrame> Frame; ///< of Grid
+  Span<const ScreenPoint> Points;           ///< of the mesh
+  Span<const std::int32_t> Order;           ///< the cells that are drawn
 
   /// Front to back, opacities add up: also those that are too small for 1 - opacity to differ from
   /// 1. Back to front, rounding to few bits does less harm: what is in front is not rounded again.
@@ -49,7 +49,8 @@ struct ProjectionScene
   std::vector<ScreenPlane> Cropping; ///< xmin, xmax, ymin, ymax, zmin, zmax; empty: none
   std::uint32_t CroppingFlags = 0;
   vtkTextureObject* OpaqueDepth = nullptr; ///< of the window, 0..1; nullptr: none
-  float OpaquePlaces[4][2];                ///< see ProjectedCellFS.glsl
+  bool Hides = false;       ///< draws nothing where OpaqueDepth is 0, into a picture apart
+  float OpaquePlaces[4][2]; ///< see ProjectedCellFS.glsl
 
   tetralux::Lighting Lighting = tetralux::Lighting::None; ///< by Lights
   bool SmoothShading = true; ///< by gradients interpolated between points; else those of cells
@@ -81,24 +82,26 @@ public:
     double ProjectSeconds = 0; ///< projecting cells, on the processor
   };
 
-  /// Draws the colours, the cells in batches. progress: told the share that is done, 0..1; the
-  /// drawing ends where it returns false. Leaves OpenGL's state as it was. Throws
-  /// std::runtime_error, with one line, where the graphics card or its driver can't.
+  /// Draws the colours, the cells in batches, and waits until they are drawn. progress: told the
+  /// share that is done, 0..1; the drawing ends where it returns false. Leaves OpenGL's state as it
+  /// was. Throws std::runtime_error, with one line, where the graphics card or its driver can't.
   Result Draw(vtkOpenGLRenderWindow* window, const ProjectionScene& scene,
     const std::function<bool(double)>& progress);
 
-  const Result& GetLastResult() const { return this->Last; }
-
-  /// The colours, premultiplied.
+  /// The colours, premultiplied, of the last scene that did not hide.
   vtkTextureObject* GetTexture() const;
 
   /// How segments were integrated.
   Integrator GetIntegrator() const { return this->Integral.GetIntegrator(); }
 
-  /// The picture's colours, and the distances along the rays to the first contribution, -1 where
-  /// there is none: those are drawn for that. scene: that of the last Draw, whose window's context
-  /// is current.
-  void Read(const ProjectionScene& scene, Span<float> colors, Span<float> depths);
+  /// scene: that of the last Draw, or the last one that did not hide, whose window's context is
+  /// current.
+  ///@{
+  void ReadColors(const ProjectionScene& scene, Span<float> colors);
+  /// The distances along the rays to the first contribution, -1 where there is none: those are
+  /// drawn for that. Of a scene that does not hide.
+  void ReadDistances(const ProjectionScene& scene, Span<float> depths);
+  ///@}
 
   /// Bytes: of the cells that were projected last, for reuse; and on the graphics card of the
   /// largest part of them, of the functions of the integral, and of the pictures.
@@ -123,19 +126,25 @@ private:
     const std::function<bool(double)>& progress);
   ProjectedCellDrawer::Shader MakeShader(Pass pass, const ProjectionScene& scene) const;
   void SetUniforms(vtkShaderProgram* program, const ProjectionScene& scene) const;
-  void ClassifyLargest();
+  /// What is drawn into.
+  struct Targets
+  {
+    FloatTarget Colors;
+    FloatTarget Scalars; ///< the largest ones along rays
+  };
+  void ClassifyLargest(Targets& targets);
+  void CoverHidden(const ProjectionScene& scene);
 
-  FloatTarget Colors;
-  FloatTarget Scalars; ///< the largest ones along rays
+  Targets Whole;
+  Targets Apart; ///< of scenes that hide
   FloatTarget Distances;
   ProjectedCellDrawer Drawer;
   GpuSegmentIntegral Integral;
   GpuSegmentIntegral Pieces; ///< in closed form, for the distances
   GpuLighting Lighting;
   std::optional<RayGridUniforms> Rays; ///< where there is light
-  ScreenProgram Classifier;
+  ScreenProgram Classifier, Hidden;
   ProjectedCells Cells;
-  Result Last;
   ContextResources Context;
 };
 

@@ -14,6 +14,7 @@
 #include "RayDoneFS.h"
 #include "RayEntryFS.h"
 #include "RayFrameDec.h"
+#include "RayHiddenFS.h"
 #include "RayLayerFS.h"
 #include "RayLayerVS.h"
 #include "RayStatesDec.h"
@@ -252,6 +253,10 @@ private:
   {
     this->State->vtkglDepthMask(GL_TRUE); // clearing, too, heeds it
     this->Self.Targets.Clear(this->Options.LargestScalar);
+    if (this->Limits.MayHide())
+    {
+      this->CoverHidden();
+    }
     std::vector<std::int64_t> fragments;
     PassCounts counts(fragments);
     const int parts = this->Limits.GetNumberOfParts();
@@ -379,6 +384,20 @@ private:
   {
     program->SetUniformf(
       "firstRow", static_cast<float>(this->Self.Picture.GetFirstRow(this->Band)));
+  }
+
+  void CoverHidden()
+  {
+    vtkShaderProgram* program = this->Self.Hidden.Use(
+      this->Window, "RayHiddenFS", MakeSource(RayHiddenFS, {}, this->Limits.GetDeclarations()));
+    this->SetBand(program);
+    this->Limits.Activate(program);
+    this->Self.Targets.DrawInto(RayTargets::OfColors);
+    this->State->vtkglDepthFunc(GL_LESS);
+    const vtkOpenGLState::ScopedglColorMask mask(this->State);
+    this->State->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    this->Self.Hidden.Draw();
+    this->Deactivate();
   }
 
   void FindEntries(int from)
@@ -545,7 +564,8 @@ void GpuRayCaster::ReleaseGraphicsResources(vtkWindow* window)
   this->Targets.ReleaseGraphicsResources(window);
   this->Picture.ReleaseGraphicsResources(window);
   this->RowsOfBand = 0;
-  for (ScreenProgram* program : { &this->Entry, &this->Layer, &this->Walk, &this->Done })
+  for (ScreenProgram* program :
+    { &this->Hidden, &this->Entry, &this->Layer, &this->Walk, &this->Done })
   {
     program->ReleaseGraphicsResources(window);
   }

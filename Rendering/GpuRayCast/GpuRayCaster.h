@@ -102,7 +102,7 @@ private:
 
   RayTargets Targets;
   RayPicture Picture;
-  ScreenProgram Entry, Layer, Walk, Done;
+  ScreenProgram Hidden, Entry, Layer, Walk, Done;
   RayBandRequest Request; ///< that RowsOfBand were found for
   int RowsOfBand = 0;
 };

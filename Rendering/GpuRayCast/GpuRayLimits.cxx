@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuRayCast/GpuRayLimits.h"
 
-#include "Frame/CameraRays.h"
 #include "GpuRayCast/RayTargets.h"
 #include "RayGridDec.h"
 #include "RayLimitsDec.h"
@@ -46,28 +45,33 @@ GpuRayLimits::GpuRayLimits() = default;
 
 GpuRayLimits::~GpuRayLimits() = default;
 
-void GpuRayLimits::Update(vtkOpenGLRenderWindow* window, const CameraRays& rays,
-  const RayGrid& grid, const RayLimits& limits, bool opaque, const double center[3], double radius)
+void GpuRayLimits::Update(vtkOpenGLRenderWindow* window, const RayGrid& grid,
+  const RayLimits& limits, const OpaqueGeometry* opaque, const double center[3], double radius)
 {
   this->Rays.emplace(grid, limits, center, radius);
-  this->Opaque = opaque;
+  this->Opaque = opaque != nullptr;
+  this->Hides = opaque && opaque->Depths.size() > 0;
   if (opaque)
   {
-    const PixelRectangle& visible = rays.GetVisible();
-    this->Depth.Copy(window, visible);
-    this->OpaquePixels[0] = static_cast<float>(visible.Width) / static_cast<float>(grid.Width);
-    this->OpaquePixels[1] = static_cast<float>(visible.Height) / static_cast<float>(grid.Height);
-    CameraRays::DepthPlaces places = rays.GetDepthPlaces();
-    for (int c = 0; c < 4; ++c)
+    if (this->Hides)
     {
-      // In the middle of the picture instead of in its lower left pixel.
-      places.Farthest[c] += 0.5 * (grid.Width - 1) * places.FarthestStepX[c] +
-        0.5 * (grid.Height - 1) * places.FarthestStepY[c];
+      this->Depth.Upload(window, grid.Width, grid.Height, opaque->Depths);
     }
+    else
+    {
+      this->Depth.Copy(window, opaque->Rectangle);
+    }
+    vtkTextureObject* depths = this->Depth.GetTexture();
+    this->OpaquePixels[0] = static_cast<float>(depths->GetWidth()) / static_cast<float>(grid.Width);
+    this->OpaquePixels[1] =
+      static_cast<float>(depths->GetHeight()) / static_cast<float>(grid.Height);
+    DepthPlaces places = opaque->Places;
+    // In the middle of the picture instead of in its lower left pixel.
+    places.Shift(0.5 * (grid.Width - 1), 0.5 * (grid.Height - 1));
     // Made so that the last coordinate is about 1: in any unit of the world, all are in range.
     const double factor = 1 / std::max(std::abs(places.Farthest[3]), std::abs(places.Nearer[3]));
     const auto transform = [&](const double point[4], float result[4])
-    { TransformPoint(grid, rays.GetPosition(), center, radius, factor, point, result); };
+    { TransformPoint(grid, places.Position, center, radius, factor, point, result); };
     transform(places.Farthest, this->OpaqueFar[0]);
     transform(places.FarthestStepX, this->OpaqueFar[1]);
     transform(places.FarthestStepY, this->OpaqueFar[2]);
@@ -85,9 +89,9 @@ void GpuRayLimits::Update(vtkOpenGLRenderWindow* window, const CameraRays& rays,
   this->CroppingFlags = static_cast<int>(limits.CroppingFlags);
 }
 
-bool GpuRayLimits::HasDepthOf(vtkOpenGLRenderWindow* window, const CameraRays& rays)
+bool GpuRayLimits::HasDepthOf(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle)
 {
-  return this->Depth.IsSame(window, rays.GetVisible());
+  return this->Depth.IsSame(window, rectangle);
 }
 
 int GpuRayLimits::GetNumberOfParts() const { return this->Cropping ? MostParts : 1; }

@@ -2,6 +2,9 @@
 #ifndef tetralux_GpuRayLimits_h
 #define tetralux_GpuRayLimits_h
 
+#include "Base/Span.h"
+#include "Frame/CameraRays.h"
+#include "Frame/DrawnViewport.h"
 #include "Frame/OpaqueDepth.h"
 #include "GpuIntegral/RayGridUniforms.h"
 #include "TetraluxRenderingModule.h"
@@ -18,8 +21,6 @@ class vtkWindow;
 
 namespace tetralux
 {
-
-class CameraRays;
 
 /// Which parts of each ray count, in shaders; what a frame does not need is not compiled in.
 ///
@@ -40,16 +41,27 @@ public:
   GpuRayLimits();
   ~GpuRayLimits();
 
-  /// For one frame. grid: the rays, with MeshFromWorld. center and radius: see WalkMesh. limits: as
-  /// rays of the CPU have them; MaximumDistances is not read, but where opaque is true what lies
-  /// behind the depth buffer that is bound for drawing is left out. Throws std::runtime_error, as
-  /// OpaqueDepth does, and std::invalid_argument, as RayGridUniforms does.
-  void Update(vtkOpenGLRenderWindow* window, const CameraRays& rays, const RayGrid& grid,
-    const RayLimits& limits, bool opaque, const double center[3], double radius);
+  /// What lies behind opaque geometry is left out.
+  struct OpaqueGeometry
+  {
+    DepthPlaces Places;       ///< of rays
+    PixelRectangle Rectangle; ///< of the depth buffer that is bound for drawing, which is copied,
+    Span<const float> Depths; ///< unless they are here, 0..1, one a ray
+  };
 
-  /// Whether the depth buffer that is bound for drawing holds what the last Update with opaque
-  /// geometry found there. Throws as OpaqueDepth does.
-  bool HasDepthOf(vtkOpenGLRenderWindow* window, const CameraRays& rays);
+  /// For one frame. grid: the rays, with MeshFromWorld. center and radius: see WalkMesh. limits: as
+  /// rays of the CPU have them; MaximumDistances is not read. opaque: nullptr if there is none.
+  /// Throws std::runtime_error, as OpaqueDepth does, and std::invalid_argument, as RayGridUniforms
+  /// does.
+  void Update(vtkOpenGLRenderWindow* window, const RayGrid& grid, const RayLimits& limits,
+    const OpaqueGeometry* opaque, const double center[3], double radius);
+
+  /// Whether a rectangle of the depth buffer that is bound for drawing holds what the last Update
+  /// with opaque geometry found there. Throws as OpaqueDepth does.
+  bool HasDepthOf(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle);
+
+  /// Whether some rays may see nothing, as their depth is 0.
+  bool MayHide() const { return this->Hides; }
 
   /// To be put into a shader before its own functions.
   std::string GetDeclarations() const;
@@ -71,6 +83,7 @@ private:
   std::optional<RayGridUniforms> Rays;
   OpaqueDepth Depth;
   bool Opaque = false;
+  bool Hides = false;
   bool Cropping = false;
   float OpaquePixels[2];
   float OpaqueFar[3][4];

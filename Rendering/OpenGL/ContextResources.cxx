@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenGL/ContextResources.h"
 
+#include "OpenGL/EnteredContext.h"
+
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkTextureObject.h"
@@ -68,9 +70,8 @@ void ContextResources::Release(vtkWindow* window)
     return;
   }
   vtkOpenGLRenderWindow* const last = this->Window;
-  last->PushContext();
+  const EnteredContext context(last);
   this->Told->ReleaseGraphicsResources(last);
-  last->PopContext();
 }
 
 /// Called by the sentinel, which therefore stays, while the context is current.

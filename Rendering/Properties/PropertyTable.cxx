@@ -70,8 +70,8 @@ MapperProperty MakeTableSize(const char* name, const char* meaning)
 
 MapperProperty MakeSampleDistance(const char* name, double value, const char* meaning)
 {
-  return { name, PropertyType::Real, ProcessorKinds, Rays, true, {}, 0.1, 100, { value }, "",
-    "pixels", meaning };
+  return { name, PropertyType::Real, AllKinds, Rays, true, {}, 0.1, 100, { value }, "", "pixels",
+    meaning };
 }
 
 MapperProperty MakeColorFactors(const char* name, const char* meaning)
@@ -162,6 +162,14 @@ std::vector<MapperProperty> MakeProperties()
         { "inverted-cross", 0x7be8bef, "all others" } },
       0, 0x7ffffff, { 0x2000 }, "", "",
       "The regions that are rendered: bit x + 3 y + 9 z is region x, y, z." },
+    MakeSampleDistance(
+      "ImageSampleDistance", 1, "Distance of rays if AutoAdjustSampleDistances is off."),
+    MakeSampleDistance(
+      "MinimumImageSampleDistance", 1, "Smallest distance of rays that the adjustment chooses."),
+    MakeSampleDistance(
+      "MaximumImageSampleDistance", 10, "Largest distance of rays that the adjustment chooses."),
+    MakeBoolean("AutoAdjustSampleDistances", AllKinds, Rays, true, true,
+      "Adjust the distance of rays to the time that the renderer allocates."),
 
     { "NumberOfThreads", PropertyType::Integer, ProcessorKinds, Rays, true,
       { { "automatic", 0, "as many as OpenMP offers" } }, 1, 1024, { 0 }, "", "threads",
@@ -170,14 +178,6 @@ std::vector<MapperProperty> MakeProperties()
       { { "automatic", 0, "single if MaximumError allows it, else double" },
         { "single", 1, "32-bit floats" }, { "double", 2, "64-bit floats" } },
       "Arithmetic of the geometry along rays."),
-    MakeSampleDistance(
-      "ImageSampleDistance", 1, "Distance of rays if AutoAdjustSampleDistances is off."),
-    MakeSampleDistance(
-      "MinimumImageSampleDistance", 1, "Smallest distance of rays that the adjustment chooses."),
-    MakeSampleDistance(
-      "MaximumImageSampleDistance", 10, "Largest distance of rays that the adjustment chooses."),
-    MakeBoolean("AutoAdjustSampleDistances", ProcessorKinds, Rays, true, true,
-      "Adjust the distance of rays to the time that the renderer allocates."),
 
     { "ColorArrayComponent", PropertyType::Integer, IsosurfaceKind, Scalars, false,
       { { "magnitude", -1, "the Euclidean norm" } }, 0, std::numeric_limits<int>::max(), { -1 }, "",

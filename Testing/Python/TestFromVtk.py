@@ -324,17 +324,6 @@ def test_calls_that_are_not_used():
         mapper.SetRayCastFunction(vtkUnstructuredGridBunykRayCastFunction())
         assert [event for event, _ in scene.messages] == ["WarningEvent"]
         assert "RayCastFunction is not used" in scene.messages[0][1]
-        if cls is tetralux.vtkTetrahedraRayCastMapper:
-            continue
-        for call, argument in (
-            (mapper.SetImageSampleDistance, 2),
-            (mapper.SetMinimumImageSampleDistance, 0.5),
-            (mapper.SetAutoAdjustSampleDistances, 1),
-        ):
-            scene.messages.clear()
-            call(argument)
-            call(argument)
-            assert len(scene.messages) == 1 and "vtkTetrahedraRayCastMapper" in scene.messages[0][1]
 
 
 def test_other_names():

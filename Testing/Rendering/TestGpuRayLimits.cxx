@@ -2,7 +2,7 @@
 // Rays and their limits in shaders against those in double precision.
 
 #include "Frame/CameraRays.h"
-#include "Frame/OpaqueDistances.h"
+#include "Frame/OpaqueEnds.h"
 #include "GlslEvaluator.h"
 #include "GpuRayCast/GpuRayLimits.h"
 #include "OpenGLSnapshot.h"
@@ -141,6 +141,12 @@ public:
     this->Evaluator.Window->GetRenderFramebuffer()->Bind();
   }
 
+  std::vector<float> ReadDistances(const tetralux::CameraRays& rays)
+  {
+    return tetralux::FindOpaqueDistances(
+      rays, tetralux::ReadOpaqueDepths(this->Opaque, this->Evaluator.Window, rays));
+  }
+
   /// An opaque ball, in front of a part of the mesh.
   void AddBall()
   {
@@ -163,12 +169,12 @@ public:
     std::copy_n(&this->MeshFromWorld[0][0], 12, &grid.MeshFromWorld[0][0]);
     tetralux::RayLimits limits = this->Limits;
     rays.AddClippingRange(limits);
-    const std::vector<float> distances = opaque
-      ? tetralux::ReadOpaqueDistances(this->Opaque, this->Evaluator.Window, rays)
-      : std::vector<float>();
+    const std::vector<float> distances = opaque ? this->ReadDistances(rays) : std::vector<float>();
     const OpenGLSnapshot before = TakeOpenGLSnapshot(this->Evaluator.Window);
-    this->GpuLimits.Update(
-      this->Evaluator.Window, rays, grid, limits, opaque, this->Center.data(), this->Radius);
+    const tetralux::GpuRayLimits::OpaqueGeometry geometry = { rays.GetDepthPlaces(),
+      rays.GetVisible(), {} };
+    this->GpuLimits.Update(this->Evaluator.Window, grid, limits, opaque ? &geometry : nullptr,
+      this->Center.data(), this->Radius);
     EXPECT_EQ(FindDifferences(before, TakeOpenGLSnapshot(this->Evaluator.Window)), "");
 
     std::vector<Arguments> cases;
@@ -327,10 +333,11 @@ TEST_F(GpuRayLimitsTest, OpaqueGeometryOfAMultisampledWindow)
   this->Evaluator.Renderer->GetActiveCamera()->SetClippingRange(5, 14);
   this->Draw();
   const tetralux::CameraRays rays(this->Evaluator.Renderer, 1);
-  const std::vector<float> distances =
-    tetralux::ReadOpaqueDistances(this->Opaque, this->Evaluator.Window, rays);
+  const std::vector<float> distances = this->ReadDistances(rays);
   this->Draw();
-  this->GpuLimits.Update(this->Evaluator.Window, rays, rays.GetGrid(), this->Limits, true,
+  const tetralux::GpuRayLimits::OpaqueGeometry geometry = { rays.GetDepthPlaces(),
+    rays.GetVisible(), {} };
+  this->GpuLimits.Update(this->Evaluator.Window, rays.GetGrid(), this->Limits, &geometry,
     this->Center.data(), this->Radius);
   std::vector<Arguments> cases;
   for (int pixel = 0; pixel < 40 * 30; ++pixel)

@@ -9,6 +9,8 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkSphereSource.h"
+#include "vtkTetrahedraIsosurfaceMapper.h"
+#include "vtkTetrahedraVolumeMapper.h"
 
 #include <algorithm>
 #include <array>
@@ -142,10 +144,8 @@ class Multisampling : public testing::TestWithParam<std::string>
 
 } // namespace
 
-INSTANTIATE_TEST_SUITE_P(OnTheProcessor, Multisampling,
-  testing::Values(
-    "vtkTetrahedraRayCastMapper", "vtkTetrahedraIsosurfaceMapper", "vtkTriangleCasterMapper"),
-  NameAnyMapperTest);
+INSTANTIATE_TEST_SUITE_P(
+  Mappers, Multisampling, testing::ValuesIn(GetMapperClasses()), NameAnyMapperTest);
 
 TEST_P(Multisampling, SamplesEdges)
 {
@@ -203,5 +203,83 @@ TEST_P(Multisampling, LeavesThePictureOfPixels)
   AnyMapperScene sampled(MakeMapper(this->GetParam()));
   sampled.Window->SetMultiSamples(Samples);
   AnyMapperScene plain(MakeMapper(this->GetParam()));
-  EXPECT_EQ(sampled.Render(), plain.Render());
+  const std::vector<float> picture = plain.Render();
+  EXPECT_EQ(sampled.Render(), picture);
+  sampled.Window->SetMultiSamples(0);
+  EXPECT_EQ(sampled.Render(), picture);
+  EXPECT_EQ(sampled.Grab(), plain.Grab());
+}
+
+// Rays gather by other means in each blend mode: the largest scalar is looked for in a pass apart.
+TEST(MultisampledBlendModes, SampleEdges)
+{
+  for (const char* mapperClass :
+    { "vtkTetrahedraGPURayCastMapper", "vtkTetrahedraProjectionMapper" })
+  {
+    for (const int mode : { 1, 4, 5 })
+    {
+      SCOPED_TRACE(std::string(mapperClass) + ", blend mode " + std::to_string(mode));
+      std::vector<int> windows[2];
+      for (const bool onTheProcessor : { false, true })
+      {
+        SampledScene scene(onTheProcessor ? "vtkTetrahedraRayCastMapper" : mapperClass, 1);
+        vtkTetrahedraVolumeMapper::SafeDownCast(scene.GetMapper())->SetBlendMode(mode);
+        scene.Render();
+        EXPECT_GT(std::stoi(scene.Get("pixels_at_edges")), 100);
+        windows[onTheProcessor ? 1 : 0] = scene.Grab();
+      }
+      const std::vector<bool> all(windows[0].size() / 3, true);
+      const std::vector<double> expected(windows[1].begin(), windows[1].end());
+      // Edges that single precision finds in one picture and not in the other.
+      EXPECT_LE(CountDifferences(windows[0], expected, all, 1), 5);
+    }
+  }
+}
+
+// Where nothing is lit, there is nothing to refine.
+TEST(MultisampledPictures, AreCompleteWithoutLight)
+{
+  SampledScene scene("vtkTetrahedraIsosurfaceMapper", 1);
+  vtkTetrahedraIsosurfaceMapper::SafeDownCast(scene.GetMapper())->AmbientOcclusionOn();
+  scene.Render();
+  EXPECT_GT(std::stoi(scene.Get("pixels_at_edges")), 100);
+  scene.Render();
+  EXPECT_EQ(scene.Get("kept"), "true");
+}
+
+// One that frames refine gets its samples when it is complete.
+TEST(MultisampledPictures, SampleEdgesOfSoftShadows)
+{
+  SampledScene scene("vtkTetrahedraIsosurfaceMapper", 1);
+  SampledScene large("vtkTetrahedraIsosurfaceMapper", Enlargement);
+  for (SampledScene* each : { &scene, &large })
+  {
+    auto* mapper = vtkTetrahedraIsosurfaceMapper::SafeDownCast(each->GetMapper());
+    each->Volume->GetProperty()->ShadeOn();
+    mapper->AmbientOcclusionOn();
+    mapper->SetSamplesPerFrame(32);
+    mapper->SetMaximumSamples(64);
+    each->Volume->VisibilityOff();
+    each->Window->Render();
+  }
+  const std::vector<bool> agreed = FindAgreement(scene.Grab(), Average(large.Grab()));
+  for (SampledScene* each : { &scene, &large })
+  {
+    each->Volume->VisibilityOn();
+    each->Render();
+  }
+  EXPECT_EQ(scene.Get("pixels_at_edges"), "no statistic pixels_at_edges");
+  const std::vector<int> unsampled = scene.Grab();
+  scene.Render();
+  large.Render();
+  EXPECT_GT(std::stoi(scene.Get("pixels_at_edges")), 100);
+  const std::vector<double> expected = Average(large.Grab());
+  const std::vector<int> window = scene.Grab();
+  // Samples of light differ from pixel to pixel.
+  constexpr double LightSteps = 12;
+  EXPECT_LE(CountDifferences(window, expected, agreed, LightSteps), 10);
+  EXPECT_GT(CountDifferences(unsampled, expected, agreed, LightSteps), 40);
+  scene.Render();
+  EXPECT_EQ(scene.Get("kept"), "true");
+  EXPECT_EQ(scene.Grab(), window);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Frame/CPUDrawing.h"
+#include "Frame/PictureDrawing.h"
 
 #include "Base/Digest.h"
 #include "Base/Stopwatch.h"
 #include "Frame/CameraRays.h"
 #include "Frame/MapperFrame.h"
-#include "Frame/OpaqueDistances.h"
+#include "Frame/OpaqueEnds.h"
 #include "View/ViewKey.h"
 
 #include "vtkImageData.h"
@@ -14,10 +14,10 @@
 #include "vtkVolume.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace tetralux
@@ -61,9 +61,20 @@ PixelRectangle FindBounds(const std::vector<std::int32_t>& pixels, int width)
   return { left, lower, right + 1 - left, pixels.back() / width + 1 - lower };
 }
 
-/// Moves the rays of a picture, in pixels.
-void ShiftRays(double x, double y, CPUPicture& picture)
+FrameDemand GetDemand(const MapperFrame& frame)
 {
+  const PixelRectangle whole = FindDrawnViewport(frame.Renderer).Whole;
+  FrameDemand demand;
+  demand.Pixels = static_cast<double>(whole.Width) * whole.Height;
+  demand.Seconds = frame.Volume->GetAllocatedRenderTime();
+  demand.Interactive = frame.IsInteractive();
+  return demand;
+}
+
+/// Moves the rays of a picture, in pixels.
+void ShiftRays(double x, double y, PictureTask& picture)
+{
+  picture.Places.Shift(x, y);
   RayGrid& grid = picture.Grid;
   DepthMap& map = picture.Depth;
   for (int c = 0; c < 3; ++c)
@@ -78,11 +89,12 @@ void ShiftRays(double x, double y, CPUPicture& picture)
 
 } // namespace
 
-void CPUDrawing::Draw(
-  MapperFrame& frame, const RayDistances& distances, const PictureMaker& makePicture)
+void PictureDrawing::Draw(MapperFrame& frame, const RayDistances& distances,
+  const PictureMaker& makePicture, const WindowDrawer& drawIntoWindow)
 {
-  CPUPicture picture;
-  picture.SampleDistance = this->ChooseSampleDistance(frame, distances);
+  const FrameDemand demand = GetDemand(frame);
+  PictureTask picture;
+  picture.SampleDistance = this->Pace.ChooseDistance(distances, demand);
   const CameraRays rays(frame.Renderer, picture.SampleDistance);
   if (rays.GetVisible().Width == 0)
   {
@@ -90,20 +102,33 @@ void CPUDrawing::Draw(
     this->Last = LastPicture();
     return;
   }
+  // Of frame buffers that are not multisampled, and where rays are not pixels: none.
+  const SamplePlaces places = IsOfPixels(rays) ? FindSamplePlaces() : SamplePlaces();
+  if (drawIntoWindow && IsOfPixels(rays) && places.empty())
+  {
+    this->Last = LastPicture();
+    drawIntoWindow(frame, rays);
+    this->RecordPace(frame, rays);
+    return;
+  }
   picture.Grid = frame.MakeGrid(rays);
   picture.Limits = frame.MakeLimits(rays);
   picture.Depth = rays.GetDepthMap();
-  // Of frame buffers that are not multisampled, and where rays are not pixels: none.
-  const SamplePlaces places = IsOfPixels(rays) ? FindSamplePlaces() : SamplePlaces();
+  picture.Places = rays.GetDepthPlaces();
   OpaqueSamples samples = MakeSamples(rays, places.size());
   if (frame.HasOpaqueGeometry())
   {
     const Stopwatch stopwatch;
-    picture.OpaqueDistances = std::make_shared<const std::vector<float>>(
-      this->FindOpaqueDistances(frame, rays, places, samples));
+    std::vector<float> depths = this->FindOpaqueDepths(frame, rays, places, samples);
+    if (!depths.empty())
+    {
+      picture.OpaqueDistances =
+        std::make_shared<const std::vector<float>>(FindOpaqueDistances(rays, depths));
+      picture.OpaqueDepths = std::make_shared<const std::vector<float>>(std::move(depths));
+    }
     frame.Seconds.emplace_back("depth_buffer", stopwatch.GetSeconds());
   }
-  frame.Opaque = picture.OpaqueDistances && !picture.OpaqueDistances->empty();
+  frame.Opaque = picture.OpaqueDistances != nullptr;
   picture.Limits.MaximumDistances = frame.Opaque ? picture.OpaqueDistances->data() : nullptr;
 
   frame.AddViewToKey(rays, picture.Grid, picture.Limits);
@@ -116,15 +141,17 @@ void CPUDrawing::Draw(
   }
   if (frame.Opaque)
   {
-    Digester distances;
-    distances.Add(picture.OpaqueDistances->data(), sizeof(float) * picture.OpaqueDistances->size());
-    AddNumbersTo(frame.Key, distances.Get());
+    Digester depths;
+    depths.Add(picture.OpaqueDepths->data(), sizeof(float) * picture.OpaqueDepths->size());
+    AddNumbersTo(frame.Key, depths.Get());
   }
 
   const PixelRectangle& visible = rays.GetVisible();
   const int width = picture.Grid.Width;
   const int height = picture.Grid.Height;
   picture.IsWindowSized = IsOfPixels(rays) && places.empty();
+  const bool sampled = !places.empty() && this->Pace.HasTimeForEdges(demand);
+  frame.Key.Add(sampled);
   frame.Kept = this->IsKept(frame);
   const Stopwatch castStopwatch;
   MapperFrame::PrepareImage(frame.Image, width, height, picture.Colors, picture.Depths);
@@ -142,16 +169,24 @@ void CPUDrawing::Draw(
     {
       return;
     }
-    this->SecondsPerRay = seconds / (static_cast<double>(width) * height);
+    frame.RaySeconds = frame.RaySeconds > 0 ? frame.RaySeconds : seconds;
+    this->RecordPace(frame, rays);
     this->Last.Depths = frame.WindowDepths;
     this->Last.Colors = frame.WindowColors;
-    if (!places.empty() && this->Last.Covered.Width > 0 && !frame.IsMean)
+    if (width < visible.Width || height < visible.Height)
+    {
+      frame.CoarseRaysError = FindLargestStep(picture);
+    }
+    bool complete = frame.Final;
+    if (sampled && this->Last.Covered.Width > 0 && frame.Final)
     {
       const Stopwatch samplesStopwatch;
-      this->CastSamples(frame, rays, picture, places, samples, makePicture);
-      frame.Seconds.emplace_back("edges", samplesStopwatch.GetSeconds());
+      complete = this->CastSamples(frame, rays, picture, places, samples, makePicture);
+      const double edgeSeconds = samplesStopwatch.GetSeconds();
+      frame.Seconds.emplace_back("edges", edgeSeconds);
+      this->Pace.RecordEdges(edgeSeconds);
     }
-    if (frame.Final)
+    if (complete)
     {
       this->Last.Stamp.Set(frame.Key);
     }
@@ -166,15 +201,24 @@ void CPUDrawing::Draw(
   }
 }
 
+void PictureDrawing::RecordPace(const MapperFrame& frame, const CameraRays& rays)
+{
+  if (!frame.Aborted && !frame.Kept)
+  {
+    this->Pace.Record(static_cast<double>(rays.GetGrid().Width) * rays.GetGrid().Height,
+      frame.RaySeconds, frame.FixedSeconds);
+  }
+}
+
 /// Whether the picture would be the last one again, and that is still there.
-bool CPUDrawing::IsKept(const MapperFrame& frame) const
+bool PictureDrawing::IsKept(const MapperFrame& frame) const
 {
   return frame.HasPicture && this->Last.Stamp.Has(frame.Key) &&
     (!this->Last.Colors.empty() || this->Last.ImageTime == frame.Image->GetMTime());
 }
 
-void CPUDrawing::Composite(
-  const MapperFrame& frame, const CPUPicture& picture, const PixelRectangle& visible)
+void PictureDrawing::Composite(
+  const MapperFrame& frame, const PictureTask& picture, const PixelRectangle& visible)
 {
   const LastPicture& last = this->Last;
   MemoryPicture drawn;
@@ -197,26 +241,27 @@ void CPUDrawing::Composite(
 }
 
 /// Reads what ends rays, and of a multisampled frame buffer what its samples have.
-std::vector<float> CPUDrawing::FindOpaqueDistances(const MapperFrame& frame, const CameraRays& rays,
-  const SamplePlaces& places, OpaqueSamples& samples)
+std::vector<float> PictureDrawing::FindOpaqueDepths(const MapperFrame& frame,
+  const CameraRays& rays, const SamplePlaces& places, OpaqueSamples& samples)
 {
   if (places.empty())
   {
-    return ReadOpaqueDistances(this->Opaque, frame.Window, rays);
+    return ReadOpaqueDepths(this->Opaque, frame.Window, rays);
   }
   samples.Depths =
     this->OpaqueOfSamples.Read(frame.Window, rays.GetVisible(), static_cast<int>(places.size()));
-  std::vector<float> distances = tetralux::FindOpaqueDistances(samples);
-  if (distances.empty())
+  std::vector<float> depths = tetralux::FindOpaqueDepths(samples);
+  if (depths.empty())
   {
     samples.Depths.clear();
   }
-  return distances;
+  return depths;
 }
 
-/// Casts pixels at edges again, sample by sample.
-void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const CPUPicture& picture,
-  const SamplePlaces& places, const OpaqueSamples& opaque, const PictureMaker& makePicture)
+/// Casts pixels at edges again, sample by sample. Returns false after an abort: then none is there.
+bool PictureDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays,
+  const PictureTask& picture, const SamplePlaces& places, const OpaqueSamples& opaque,
+  const PictureMaker& makePicture)
 {
   const int width = picture.Grid.Width;
   const std::size_t size = picture.Depths.size();
@@ -229,7 +274,7 @@ void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const C
   frame.Sections.emplace_back("multisampling", section);
   if (result.Pixels.empty())
   {
-    return;
+    return true;
   }
   this->SetEdgesApart(frame, picture);
 
@@ -242,6 +287,7 @@ void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const C
   this->SampleColors.resize(4 * rayCount);
   this->SampleDistances.resize(rayCount);
   this->SampleEnds.assign(rayCount, -Infinity);
+  const auto endDepths = std::make_shared<std::vector<float>>(rayCount, 0.f);
   for (std::size_t sample = 0; sample < places.size(); ++sample)
   {
     const double x = places[sample][0] - 0.5;
@@ -252,21 +298,29 @@ void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const C
       const int row = pixel / width;
       const float depth =
         opaque.Depths.empty() ? 1 : opaque.Depths[sample * size + static_cast<std::size_t>(pixel)];
+      (*endDepths)[findPlace(pixel)] = depth;
       this->SampleEnds[findPlace(pixel)] =
         depth < 1 ? static_cast<float>(rays.GetDistance(column + x, row + y, depth)) : Infinity;
     }
-    CPUPicture ofSample = picture;
+    PictureTask ofSample = picture;
     ShiftRays(part.X + x, part.Y + y, ofSample);
     ofSample.Grid.Width = part.Width;
     ofSample.Grid.Height = part.Height;
     ofSample.OfSamples = true;
     ofSample.OpaqueDistances = nullptr;
+    ofSample.OpaqueDepths = endDepths;
     ofSample.Limits.MaximumDistances = this->SampleEnds.data();
     ofSample.Colors = this->SampleColors;
     ofSample.Depths = this->SampleDistances;
     MapperFrame drawn = frame;
-    drawn.Progress = nullptr;
+    drawn.Progress = frame.IsMean ? frame.Progress : nullptr; // which may take long
     makePicture(drawn, ofSample);
+    if (drawn.Aborted)
+    {
+      result = PixelSamples();
+      this->Last.Depths = frame.WindowDepths;
+      return false;
+    }
     for (const std::int32_t pixel : result.Pixels)
     {
       const std::size_t place = findPlace(pixel);
@@ -278,10 +332,11 @@ void CPUDrawing::CastSamples(MapperFrame& frame, const CameraRays& rays, const C
       }
     }
   }
+  return true;
 }
 
 /// Takes pixels at edges out of copies of what the window gets of all pixels.
-void CPUDrawing::SetEdgesApart(const MapperFrame& frame, const CPUPicture& picture)
+void PictureDrawing::SetEdgesApart(const MapperFrame& frame, const PictureTask& picture)
 {
   std::vector<float>& colors = this->OtherColors;
   std::vector<float>& depths = this->OtherDepths;
@@ -299,25 +354,12 @@ void CPUDrawing::SetEdgesApart(const MapperFrame& frame, const CPUPicture& pictu
   this->Last.Depths = depths;
 }
 
-void CPUDrawing::ReleaseGraphicsResources(vtkWindow* window)
+void PictureDrawing::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Compositor.ReleaseGraphicsResources(window);
   this->EdgeCompositor.ReleaseGraphicsResources(window);
   this->Opaque.ReleaseGraphicsResources(window);
   this->OpaqueOfSamples.ReleaseGraphicsResources(window);
-}
-
-double CPUDrawing::ChooseSampleDistance(
-  const MapperFrame& frame, const RayDistances& distances) const
-{
-  if (!distances.Automatic)
-  {
-    return distances.Fixed;
-  }
-  const PixelRectangle whole = FindDrawnViewport(frame.Renderer).Whole;
-  const double fullSeconds = this->SecondsPerRay * whole.Width * whole.Height;
-  const double distance = std::sqrt(fullSeconds / frame.Volume->GetAllocatedRenderTime());
-  return std::max(std::min(distance, distances.Maximum), distances.Minimum);
 }
 
 } // namespace tetralux
