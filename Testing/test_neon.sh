@@ -9,5 +9,6 @@ Examples/setup.sh test neon
 cmake -S Testing/Neon -B build-neon -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_TOOLCHAIN_FILE=toolchain.cmake
 cmake --build build-neon
+slow='*Lit*:*DrawsRandomScenes:*LightsAllMeshes:*ForPolygons*:*BothTrees:*GenericKernel*'
 OMP_WAIT_POLICY=passive qemu-aarch64 -L /usr/aarch64-linux-gnu build-neon/NeonTests \
-  --gtest_filter='-*Lit*:*DrawsRandomScenes:*LightsAllMeshes:*ForPolygons*:*BothTrees:*GenericKernel*'
+  --gtest_filter="-$slow"
