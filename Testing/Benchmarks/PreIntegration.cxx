@@ -230,7 +230,8 @@ void SampleEntries(const TransferFunction& function, std::vector<float>& table)
       for (int k = 0; k < r; ++k)
       {
         const float s = front + (static_cast<float>(k) + 0.5f) * slope;
-        const float* step = &steps[4 * static_cast<int>(s * (Samples - 1) + 0.5f)];
+        const float place = s * (Samples - 1) + 0.5f; // of the nearest one, when cut off
+        const float* step = &steps[4 * static_cast<int>(place)];
         const float behind = 1.f - color[3];
         for (int c = 0; c < 4; ++c)
         {
