@@ -34,7 +34,7 @@ result=$scratch/bench
 "$tool" bench --data "$TETRALUX_DATA" --features "$@" --output "$result"
 mkdir -p "$page"
 "$tool" bench --stability > "$page/stability.txt"
-cp "$result/index.html" "$result/results.csv" "$result/results.json" "$page"
+cp "$result/index.html" "$result/results.csv" "$page"
 chromium --headless --no-sandbox --disable-gpu --disable-background-networking \
   --user-data-dir="$scratch/browser" --dump-dom "file://$result/index.html" 2> "$scratch/chromium" |
   python3 -c 'import re, sys
