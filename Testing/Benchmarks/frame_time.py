@@ -58,6 +58,8 @@ def main():
     double = tetralux.vtkTetrahedraRayCastMapper()
     double.SetAutoAdjustSampleDistances(False)
     double.SetPrecisionToDouble()
+    projection = tetralux.vtkTetrahedraProjectionMapper()
+    projection.SetAutoAdjustSampleDistances(False)
     bunyk = vtkUnstructuredGridVolumeRayCastMapper()
     bunyk.SetAutoAdjustSampleDistances(False)
     bunyk.SetImageSampleDistance(1)
@@ -66,6 +68,7 @@ def main():
         ("vtkTetrahedraRayCastMapper", ours),
         ("vtkTetrahedraRayCastMapper, double precision", double),
         ("vtkUnstructuredGridVolumeRayCastMapper", bunyk),
+        ("vtkTetrahedraProjectionMapper", projection),
         ("vtkProjectedTetrahedraMapper", vtkProjectedTetrahedraMapper()),
     ):
         mapper.SetInputData(mesh)
