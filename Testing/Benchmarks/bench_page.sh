@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Measures again what Documentation/bench shows, with one command on a quiet machine (about
-# ten minutes on two cores):
+# five minutes on two cores):
 #
 #   TETRALUX_DATA=FOLDER Testing/Benchmarks/bench_page.sh [build/bin/tetralux [OPTIONS OF bench...]]
 #
