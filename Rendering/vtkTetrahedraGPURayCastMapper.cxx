@@ -129,17 +129,12 @@ void vtkTetrahedraGPURayCastMapper::Internals::DrawFrame(MapperFrame& frame)
     return;
   }
   this->Context.Set(frame.Window);
-  bool intoWindow = false;
-  this->Drawing.Draw(
+  const bool isInMemory = this->Drawing.Draw(
     frame, this->Self->GetRayDistances(),
     [this](MapperFrame& drawn, const tetralux::PictureTask& task)
     { return this->MakePicture(drawn, task); },
-    [this, &intoWindow](MapperFrame& drawn, const CameraRays& rays)
-    {
-      intoWindow = true;
-      this->DrawIntoWindow(drawn, rays);
-    });
-  if (!intoWindow)
+    [this](MapperFrame& drawn, const CameraRays& rays) { this->DrawIntoWindow(drawn, rays); });
+  if (isInMemory)
   {
     this->Last.Reset();
   }

@@ -227,17 +227,12 @@ void vtkTetrahedraProjectionMapper::Internals::DrawFrame(MapperFrame& frame)
     return;
   }
   frame.Scene->CheckComplete();
-  bool intoWindow = false;
-  this->Drawing.Draw(
+  const bool isInMemory = this->Drawing.Draw(
     frame, this->Self->GetRayDistances(),
     [this](MapperFrame& drawn, const tetralux::PictureTask& task)
     { return this->MakePicture(drawn, task); },
-    [this, &intoWindow](MapperFrame& drawn, const CameraRays& rays)
-    {
-      intoWindow = true;
-      this->DrawIntoWindow(drawn, rays);
-    });
-  if (!intoWindow)
+    [this](MapperFrame& drawn, const CameraRays& rays) { this->DrawIntoWindow(drawn, rays); });
+  if (isInMemory)
   {
     this->Last.Reset();
   }

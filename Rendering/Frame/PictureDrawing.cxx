@@ -89,7 +89,7 @@ void ShiftRays(double x, double y, PictureTask& picture)
 
 } // namespace
 
-void PictureDrawing::Draw(MapperFrame& frame, const RayDistances& distances,
+bool PictureDrawing::Draw(MapperFrame& frame, const RayDistances& distances,
   const PictureMaker& makePicture, const WindowDrawer& drawIntoWindow)
 {
   const FrameDemand demand = GetDemand(frame);
@@ -100,7 +100,7 @@ void PictureDrawing::Draw(MapperFrame& frame, const RayDistances& distances,
   {
     frame.MakeEmptyPicture(rays);
     this->Last = LastPicture();
-    return;
+    return true;
   }
   // Of frame buffers that are not multisampled, and where rays are not pixels: none.
   const SamplePlaces places = IsOfPixels(rays) ? FindSamplePlaces() : SamplePlaces();
@@ -109,7 +109,7 @@ void PictureDrawing::Draw(MapperFrame& frame, const RayDistances& distances,
     this->Last = LastPicture();
     drawIntoWindow(frame, rays);
     this->RecordPace(frame, rays);
-    return;
+    return false;
   }
   picture.Grid = frame.MakeGrid(rays);
   picture.Limits = frame.MakeLimits(rays);
@@ -167,7 +167,7 @@ void PictureDrawing::Draw(MapperFrame& frame, const RayDistances& distances,
     frame.Seconds.emplace_back("cast", seconds);
     if (frame.Aborted)
     {
-      return;
+      return true;
     }
     frame.RaySeconds = frame.RaySeconds > 0 ? frame.RaySeconds : seconds;
     this->RecordPace(frame, rays);
@@ -199,6 +199,7 @@ void PictureDrawing::Draw(MapperFrame& frame, const RayDistances& distances,
     this->Composite(frame, picture, visible);
     frame.Seconds.emplace_back("composite", stopwatch.GetSeconds());
   }
+  return true;
 }
 
 void PictureDrawing::RecordPace(const MapperFrame& frame, const CameraRays& rays)

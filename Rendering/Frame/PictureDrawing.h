@@ -46,10 +46,11 @@ public:
   /// whose picture is on the graphics card.
   using WindowDrawer = std::function<void(MapperFrame&, const CameraRays&)>;
 
-  /// drawIntoWindow: called in place of all the rest where it can be; empty: never. Throws what
-  /// these throw, and std::invalid_argument or std::runtime_error, with one line, where the camera
-  /// has no rays, or depths can't be read, or nothing can be drawn.
-  void Draw(MapperFrame& frame, const RayDistances& distances, const PictureMaker& makePicture,
+  /// drawIntoWindow: called in place of all the rest where it can be; empty: never. Returns whether
+  /// it was not, so that the picture went through memory. Throws what these throw, and
+  /// std::invalid_argument or std::runtime_error, with one line, where the camera has no rays, or
+  /// depths can't be read, or nothing can be drawn.
+  bool Draw(MapperFrame& frame, const RayDistances& distances, const PictureMaker& makePicture,
     const WindowDrawer& drawIntoWindow = {});
 
   /// window: the one that goes away.
