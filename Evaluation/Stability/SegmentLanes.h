@@ -22,6 +22,7 @@ struct SegmentLanes
   Function MinusLog;
   Function MinusLogOfRest;
   Function OneMinusExp;
+  Function ShortExpMinus;
   Function ShortMinusLogOfRest;
   Function ShortOneMinusExp;
   void (*Power)(const float* x, const float* power, float* result);

@@ -24,6 +24,8 @@ SegmentLanes MakeSegmentLanes(InstructionSet set)
   { Store(result, MinusLogOfRest(LoadFloat8(x))); };
   lanes.OneMinusExp = [](const float* x, float* result)
   { Store(result, OneMinusExp(LoadFloat8(x))); };
+  lanes.ShortExpMinus = [](const float* x, float* result)
+  { Store(result, ShortExpMinus(LoadFloat8(x))); };
   lanes.ShortMinusLogOfRest = [](const float* x, float* result)
   { Store(result, ShortMinusLogOfRest(LoadFloat8(x))); };
   lanes.ShortOneMinusExp = [](const float* x, float* result)

@@ -106,14 +106,17 @@ TETRALUX_INLINE void IntegrateConstant(Float8 depth, Float8& opacity, Float8& tr
     Select(Float8(ThinDepth) < depth, Float8(1.f) - transmittance, Float8(2.f) * root * Sinh(half));
 }
 
+/// Optical depth up to which exp(-D/2) is a short one. A packet mostly has only such segments.
+constexpr float ShortDepth = 2 * MostOfShortExp;
+static_assert(ShortDepth <= ThinDepth, "what is short is thin");
+
 /// Weights of a thin segment from its optical depths, both at least 0 and their mean at most
-/// ThinDepth; above that any number.
-TETRALUX_INLINE SegmentWeights IntegrateThinSegment(Float8 d0, Float8 d1)
+/// ThinDepth; above that any number. root: exp(-D/2).
+TETRALUX_INLINE SegmentWeights IntegrateThinSegment(Float8 d0, Float8 d1, Float8 root)
 {
   const Float8 depth = Float8(0.5f) * (d0 + d1);
   const Float8 b = Float8(0.5f) * (d1 - d0);
   const Float8 half = Float8(0.5f) * depth;
-  const Float8 root = ExpMinus(half); // exp(-D/2)
   // The bracket as a polynomial in b and D^2, by iteratively reweighted least squares over
   // |b| <= D <= ThinDepth, relative to the opacity. The terms of its power series are
   // -(integral of x^2m q^n) / ((2m)! n!) b^n D^2m, and for n = 0 those of cosh(D/2) more; the
@@ -134,6 +137,11 @@ TETRALUX_INLINE SegmentWeights IntegrateThinSegment(Float8 d0, Float8 d1)
   w.Back = root * (mean - bracket);
   w.Transmittance = root * root;
   return w;
+}
+
+TETRALUX_INLINE SegmentWeights IntegrateThinSegment(Float8 d0, Float8 d1)
+{
+  return IntegrateThinSegment(d0, d1, ExpMinus(Float8(0.25f) * (d0 + d1)));
 }
 
 /// The weight of a colour 4 w (1 - w) along a thin segment, as a share of its opacity: 2 / 3 in the
@@ -186,8 +194,13 @@ TETRALUX_INLINE void SetThickWeights(Mask8 thick, Float8 integral, SegmentWeight
 /// Weights of a segment from its optical depths, both at least 0 and at most LargestSingleDepth.
 TETRALUX_INLINE SegmentWeights IntegrateSegment(Float8 d0, Float8 d1)
 {
+  const Float8 depth = Float8(0.5f) * (d0 + d1);
+  if (!Any(Float8(ShortDepth) < depth))
+  {
+    return IntegrateThinSegment(d0, d1, ShortExpMinus(Float8(0.5f) * depth));
+  }
   SegmentWeights w = IntegrateThinSegment(d0, d1);
-  const Mask8 thick = Float8(ThinDepth) < Float8(0.5f) * (d0 + d1);
+  const Mask8 thick = Float8(ThinDepth) < depth;
   if (Any(thick))
   {
     SetThickWeights(thick, IntegrateThickSegment(d0, d1, w.Transmittance, thick), w);
@@ -223,9 +236,16 @@ TETRALUX_INLINE Float8 FindThickBulge(Float8 d0, Float8 d1, Float8 transmittance
 /// error is BulgeShareError of the opacity.
 TETRALUX_INLINE SegmentWeights IntegrateCurvedSegment(Float8 d0, Float8 d1, Float8& bulge)
 {
-  SegmentWeights w = IntegrateThinSegment(d0, d1);
+  const Float8 depth = Float8(0.5f) * (d0 + d1);
+  const bool isShort = !Any(Float8(ShortDepth) < depth);
+  SegmentWeights w = isShort ? IntegrateThinSegment(d0, d1, ShortExpMinus(Float8(0.5f) * depth))
+                             : IntegrateThinSegment(d0, d1);
   bulge = FindBulgeShare(d0, d1) * (w.Front + w.Back);
-  const Mask8 thick = Float8(ThinDepth) < Float8(0.5f) * (d0 + d1);
+  if (isShort)
+  {
+    return w;
+  }
+  const Mask8 thick = Float8(ThinDepth) < depth;
   if (Any(thick))
   {
     const Float8 integral = IntegrateThickSegment(d0, d1, w.Transmittance, thick);

@@ -173,22 +173,22 @@ void ForEachTileOf(const PixelBounds& bounds, int columns, const Function& funct
   }
 }
 
-/// The packets of a tile with pixels of the bounds.
-std::uint32_t FindPackets(const PixelBounds& bounds, const TileGrid& grid, int tile)
+/// The blocks of a tile with pixels of the bounds.
+std::uint32_t FindBlocks(const PixelBounds& bounds, const TileGrid& grid, int tile)
 {
   const int left = tile % grid.GetColumns() * RayTileSize;
   const int lower = tile / grid.GetColumns() * RayTileSize;
-  const int first = (std::max(bounds.X0, left) - left) / PacketWidth;
-  const int last = (std::min(bounds.X1, left + RayTileSize - 1) - left) / PacketWidth;
-  const int firstRow = (std::max(bounds.Y0, lower) - lower) / PacketHeight;
-  const int lastRow = (std::min(bounds.Y1, lower + RayTileSize - 1) - lower) / PacketHeight;
+  const int first = (std::max(bounds.X0, left) - left) / BlockWidth;
+  const int last = (std::min(bounds.X1, left + RayTileSize - 1) - left) / BlockWidth;
+  const int firstRow = (std::max(bounds.Y0, lower) - lower) / BlockHeight;
+  const int lastRow = (std::min(bounds.Y1, lower + RayTileSize - 1) - lower) / BlockHeight;
   const std::uint32_t row = (1u << (last + 1)) - (1u << first);
-  std::uint32_t packets = 0;
+  std::uint32_t blocks = 0;
   for (int k = firstRow; k <= lastRow; ++k)
   {
-    packets |= row << (k * PacketsAcrossTile);
+    blocks |= row << (k * BlocksAcrossTile);
   }
-  return packets;
+  return blocks;
 }
 
 } // namespace
@@ -252,7 +252,7 @@ bool MakeBoundaryTiles(const WalkMesh& mesh, const WalkTables& tables, const Ray
           [&](int tile)
           {
             tiles.Faces[begins[tile * threads + thread]++] = { static_cast<std::int32_t>(b),
-              FindPackets(bounds[b], tiles.Grid, tile) };
+              FindBlocks(bounds[b], tiles.Grid, tile) };
           });
       }
     }

@@ -5,12 +5,11 @@
 // The boundary of a mesh as a picture's tiles see it, made for each frame.
 //
 // Where a ray crosses the boundary is decided by the exact tests of RayCastCrossings.h alone. What
-// is here only tells which faces a packet has to test: all that any of its rays may cross or come
-// close to. So a picture has the same bits by tiles and by the hierarchy over the boundary.
+// is here only tells which faces the rays of a block have to test: all that any of them may cross
+// or come close to. So a picture has the same bits by tiles and by the hierarchy over the boundary.
 
 #include "Base/RawVector.h"
 #include "Base/Tile.h"
-#include "Simd/LaneCount.h"
 #include "View/RayGrid.h"
 #include "Walk/WalkMesh.h"
 
@@ -20,30 +19,28 @@
 namespace tetralux
 {
 
-/// Pixels of a packet, whose rays are cast together, one in each lane. Nearly square, so that the
-/// rays stay in the same cells for long.
+/// Pixels of a block: of the smallest packet of rays that kernels cast together.
 ///@{
-constexpr int PacketWidth = 4;
-constexpr int PacketHeight = LaneCount / PacketWidth;
+constexpr int BlockWidth = 4;
+constexpr int BlockHeight = 2;
 ///@}
-static_assert(PacketWidth * PacketHeight == LaneCount, "a ray for each lane");
 
 /// Pixels along a tile's edge: rays of a tile share cells in the first-level cache, and there are
 /// enough tiles to balance threads.
 constexpr int RayTileSize = 16;
 
-/// Packets of a tile, row by row.
+/// Blocks of a tile, row by row.
 ///@{
-constexpr int PacketsAcrossTile = RayTileSize / PacketWidth;
-constexpr int PacketsOfTile = PacketsAcrossTile * (RayTileSize / PacketHeight);
+constexpr int BlocksAcrossTile = RayTileSize / BlockWidth;
+constexpr int BlocksOfTile = BlocksAcrossTile * (RayTileSize / BlockHeight);
 ///@}
-static_assert(PacketsOfTile <= 32, "a bit for each packet");
+static_assert(BlocksOfTile <= 32, "a bit for each block");
 
-/// A boundary face, and the packets of one tile that have to test it.
+/// A boundary face, and the blocks of one tile whose rays have to test it.
 struct TileFace
 {
   std::int32_t Entry; ///< index into WalkTables::Entries
-  std::uint32_t Packets;
+  std::uint32_t Blocks;
 };
 
 struct BoundaryTiles

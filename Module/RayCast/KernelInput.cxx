@@ -31,11 +31,35 @@ void FillMesh(const WalkMesh& mesh, const WalkTables& tables, KernelInput& in)
   in.Radius = mesh.GetRadius();
 }
 
-void FillIntervals(const IntervalTable& table, KernelInput& in)
+void FillColumns(const std::vector<IntervalTable::Interval>& intervals, IntervalColumns& columns)
+{
+  for (std::size_t i = 0; i < intervals.size(); ++i)
+  {
+    const IntervalTable::Interval& t = intervals[i];
+    columns.Lo[i] = t.Lo;
+    columns.Hi[i] = t.Hi;
+    columns.Reference[i] = t.Reference;
+    columns.Attenuation[i] = t.Attenuation;
+    columns.AttenuationSlope[i] = t.AttenuationSlope;
+    for (int c = 0; c < 3; ++c)
+    {
+      columns.Color[c][i] = t.Color[c];
+      columns.ColorSlope[c][i] = t.ColorSlope[c];
+      columns.ColorBend[c][i] = t.ColorBend[c];
+    }
+  }
+}
+
+void FillIntervals(const IntervalTable& table, OwningKernelInput& in)
 {
   in.Intervals = table.Intervals.data();
   in.NumberOfIntervals = static_cast<int>(table.Intervals.size());
   in.Curved = table.Curved;
+  if (in.NumberOfIntervals <= IntervalColumns::Most)
+  {
+    FillColumns(table.Intervals, in.FewIntervals);
+    in.Columns = &in.FewIntervals;
+  }
 }
 
 void FillSurfaces(

@@ -38,6 +38,7 @@ struct OwningKernelInput : KernelInput
   KernelLighting Light{};
   std::vector<KernelLight> Lights;
   KernelTable Lookup{};
+  IntervalColumns FewIntervals{};
   KernelComponents SeveralScalars{};
 
   OwningKernelInput()

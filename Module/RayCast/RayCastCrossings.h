@@ -312,12 +312,13 @@ inline bool FindCrossingsByHierarchy(const KernelInput& in, const Rays<Real>& ra
   return true;
 }
 
-/// Faces of the boundary that a packet has to test: those of its tile with its bit.
+/// Faces of the boundary that a packet has to test: those of its tile with the bit of one of its
+/// blocks.
 struct PacketFaces
 {
   const TileFace* Begin;
   const TileFace* End;
-  std::uint32_t Packet;
+  std::uint32_t Blocks;
 };
 
 /// Finds where rays cross the boundary. False where the buffer was too small; it is larger then.
@@ -343,7 +344,7 @@ inline bool FindCrossings(const KernelInput& in, const PacketFaces& faces, const
   }
   for (const TileFace* face = faces.Begin; face != faces.End; ++face)
   {
-    if ((face->Packets & faces.Packet) != 0 &&
+    if ((face->Blocks & faces.Blocks) != 0 &&
       !AddCrossings(in, rays, active, beginOfEdges, face->Entry, buffer, crossings))
     {
       return false;

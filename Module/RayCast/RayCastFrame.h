@@ -71,8 +71,13 @@ TETRALUX_INLINE Corner<Real> Project(const Rays<Real>& rays, typename LanesOf<Re
   const V smallest = SmallestProjection<Real>();
   c.X = Fma(rays.U[0], x, Fma(rays.U[1], y, Fma(rays.U[2], z, rays.U[3])));
   c.Y = Fma(rays.V_[0], x, Fma(rays.V_[1], y, Fma(rays.V_[2], z, rays.V_[3])));
-  c.X = Keep(smallest <= Abs(c.X), c.X);
-  c.Y = Keep(smallest <= Abs(c.Y), c.Y);
+  const Mask8 largeX = smallest <= Abs(c.X);
+  const Mask8 largeY = smallest <= Abs(c.Y);
+  if (Bits(largeX & largeY) != AllLanes)
+  {
+    c.X = Keep(largeX, c.X);
+    c.Y = Keep(largeY, c.Y);
+  }
   c.Z = Dot(rays.W, x, y, z);
   c.S = s;
   c.Id = id;
@@ -128,6 +133,23 @@ template <class V>
 TETRALUX_INLINE V Blend(V wb, V wc, V a, V b, V c)
 {
   return Fma(wb, b - a, Fma(wc, c - a, a));
+}
+
+/// Pixels of a packet, whose rays are cast together, one in each lane. Nearly square, so that the
+/// rays stay in the same cells for long. As wide as a block, so that lanes are blocks one above the
+/// other.
+///@{
+constexpr int PacketWidth = BlockWidth;
+constexpr int PacketHeight = LaneCount / PacketWidth;
+constexpr int BlocksOfPacket = PacketHeight / BlockHeight;
+constexpr int LanesOfBlock = BlockWidth * BlockHeight;
+///@}
+static_assert(BlocksOfPacket * LanesOfBlock == LaneCount && LaneCount <= MostLanes);
+
+/// The lanes of a block of a packet.
+constexpr unsigned GetLanesOfBlock(int block)
+{
+  return ((1u << LanesOfBlock) - 1) << (block * LanesOfBlock);
 }
 
 /// Where a lane's pixel is in its packet: row by row.

@@ -13,7 +13,6 @@
 #include "Optics/OpticalModel.h"
 #include "PreIntegration/PreIntegrationTable.h"
 #include "RayCast/BoundaryTiles.h"
-#include "Simd/LaneCount.h"
 #include "View/RayAcross.h"
 #include "View/RayGrid.h"
 #include "View/RayLimits.h"
@@ -36,6 +35,16 @@ struct KernelTable
   bool Logarithmic;
   int StepsPerDoubling;
   float InverseDelta;
+};
+
+/// Intervals of a transfer function, column by column: lanes look them up in registers.
+struct alignas(64) IntervalColumns
+{
+  static constexpr int Few = 16; ///< in one register or two
+  static constexpr int Most = 64;
+  using Column = float[Most];
+  Column Lo, Hi, Reference, Attenuation, AttenuationSlope;
+  Column Color[3], ColorSlope[3], ColorBend[3];
 };
 
 /// Several scalars at points.
@@ -75,7 +84,8 @@ struct KernelInput
   // largest scalar these hold the scalar, as the intervals map it, for an attenuation.
   const IntervalTable::Interval* Intervals;
   int NumberOfIntervals;
-  bool Curved; ///< IntervalTable::Curved
+  const IntervalColumns* Columns; ///< the same; nullptr where there are more than it holds
+  bool Curved;                    ///< IntervalTable::Curved
   const CellValue* CellValues;
   float Color[3]; ///< OpticalDepth: where the colour is constant
   /// Values of surfaces i - 1 and i, for i from 0 up to their number.
@@ -92,10 +102,9 @@ struct KernelInput
   /// projections, where the attenuation is largest; 0: none is found.
   float ShiftFactor;
   float LargestAttenuation;
-  float LargestShiftError; ///< of a ray whose packet is not marked
-  std::uint8_t*
-    InexactPackets; ///< packets row by row; those that are marked are not cast. nullptr:
-                    ///< all are cast
+  float LargestShiftError;     ///< of a ray whose block is not marked
+  std::uint8_t* InexactBlocks; ///< blocks row by row; those that are marked are not cast. nullptr:
+                               ///< all are cast
 
   // The scene.
   const RayGrid* Grid;
@@ -129,10 +138,13 @@ struct Crossing
   std::int32_t Entry; ///< index into KernelInput::Entries, or -1 once it was walked from or to
 };
 
+/// Lanes of the largest packet that kernels cast.
+constexpr int MostLanes = 16;
+
 /// Room for the crossings of a packet's rays, owned by one thread and grown on demand.
 struct CrossingBuffer
 {
-  Crossing* Crossings; ///< Capacity for each lane, lane after lane
+  Crossing* Crossings; ///< Capacity for each of MostLanes, lane after lane
   int Capacity;
   void (*Grow)(CrossingBuffer&); ///< at least doubles Capacity; contents are lost
 };
@@ -140,20 +152,20 @@ struct CrossingBuffer
 struct KernelCounts
 {
   std::int64_t Segments = 0; ///< cells walked through, over all rays
-  std::int64_t Steps = 0;    ///< steps of packets, each of LaneCount lanes
+  std::int64_t Lanes = 0;    ///< lanes of packets, over all their steps
   std::int64_t Paths = 0;    ///< entries into the mesh
   double ShiftError = 0;     ///< largest of a ray, see KernelInput::ShiftFactor
 };
 
-/// Place of the packet with a pixel in KernelInput::InexactPackets.
-constexpr std::int64_t GetPacketPlace(int width, int x, int y)
+/// Place of the block with a pixel in KernelInput::InexactBlocks.
+constexpr std::int64_t GetBlockPlace(int width, int x, int y)
 {
-  return static_cast<std::int64_t>(y / PacketHeight) * ((width + PacketWidth - 1) / PacketWidth) +
-    x / PacketWidth;
+  return static_cast<std::int64_t>(y / BlockHeight) * ((width + BlockWidth - 1) / BlockWidth) +
+    x / BlockWidth;
 }
 
 /// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1): of one tile of
-/// RayTileSize, from the first pixel of a packet.
+/// RayTileSize, or of a block of it.
 using RayCastKernel = void (*)(
   const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
 
@@ -173,6 +185,7 @@ RayCastKernels GetRayCastKernelsGeneric();
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
 RayCastKernels GetRayCastKernelsAvx2();
 RayCastKernels GetRayCastKernelsAvx512();
+RayCastKernels GetRayCastKernelsAvx512Wide(); ///< of 16 lanes, of single precision alone
 #endif
 
 } // namespace tetralux

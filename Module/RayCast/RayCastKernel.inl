@@ -38,6 +38,7 @@
 #include "RayCast/RayCastVaryingLight.h"
 
 #include <limits>
+#include <type_traits>
 
 namespace tetralux
 {
@@ -45,11 +46,44 @@ namespace TETRALUX_ISA
 {
 namespace
 {
-/// Bits of the packets of a tile.
-constexpr std::uint32_t AllPackets = ~0u;
+/// Bits of the blocks of a tile.
+constexpr std::uint32_t AllBlocks = ~0u;
 
 /// The depth of a pixel whose ray meets nothing.
 constexpr float NoDepth = -1;
+
+/// In place of what a model does not need.
+struct Nothing
+{
+};
+
+/// What rays have of the cells of one step.
+template <class Real, class Model>
+struct PartsOfCells
+{
+  using V = typename LanesOf<Real>::Type;
+  Mask8 Valid; ///< rays that have a part of their cell
+  Int8 Cell;
+  V Z0, S0; ///< distance and scalar where that begins
+  V Z1, S1; ///< and where it ends
+
+  // On the cell's faces, nearer first, for models that need it.
+  struct Faces
+  {
+    V Z0, Z1;
+  };
+  struct Gradients
+  {
+    LaneVector G0, G1;
+  };
+  struct Components
+  {
+    ComponentLanes C0, C1;
+  };
+  std::conditional_t<Model::NeedsGradients || Model::NeedsComponents, Faces, Nothing> OfFaces;
+  std::conditional_t<Model::NeedsGradients, Gradients, Nothing> OfGradients;
+  std::conditional_t<Model::NeedsComponents, Components, Nothing> OfComponents;
+};
 
 /// Rays of neighbouring pixels on their way through the mesh.
 ///
@@ -83,19 +117,31 @@ public:
 
   void Cast()
   {
-    this->BeginPart();
-    while (this->Running)
+    for (this->BeginPart(); this->Running; ++this->Part, this->BeginPart())
     {
-      this->Walk();
-      this->Integrate();
+      // Cells are integrated one step late: while the next step waits for what it loads, and so
+      // that it is on its way where a branch of the integral was not predicted.
+      CellParts parts{};
+      for (bool walking = true; walking;)
+      {
+        const CellParts last = parts;
+        walking = this->Running != 0;
+        if (walking)
+        {
+          this->Walk();
+          this->Step(parts);
+        }
+        this->Integrate(last);
+      }
     }
-    if (!this->Inexact)
-    {
-      this->WritePixels();
-    }
+    this->Counts.Lanes += LaneCount * this->Steps;
+    this->Counts.Segments += this->Segments;
+    this->WritePixels();
   }
 
 private:
+  using CellParts = PartsOfCells<Real, Model>;
+
   /// Moves each ray from the face a b c of its cell to the face through which it leaves the cell.
   TETRALUX_INLINE void Walk()
   {
@@ -123,26 +169,25 @@ private:
     this->A.Id = Select(dropA, p.Id, this->A.Id);
     this->B.Id = Select(dropB, p.Id, this->B.Id);
     this->C.Id = Select(keepC, this->C.Id, p.Id);
-    const Int8 face =
-      Ones(dropped > this->A.Id) + Ones(dropped > this->B.Id) + Ones(dropped > this->C.Id);
+    const Int8 face = (ShiftLeft(this->Cell, 2) + IsSmaller(this->A.Id, dropped)) +
+      (IsSmaller(this->B.Id, dropped) + IsSmaller(this->C.Id, dropped));
     this->CellBefore = this->Cell;
-    GatherPairs(reinterpret_cast<const std::int32_t*>(this->In.Faces),
-      ShiftLeft(this->Cell, 2) + face, this->Cell, this->Point);
+    GatherPairs(
+      reinterpret_cast<const std::int32_t*>(this->In.Faces), face, this->Cell, this->Point);
     TETRALUX_CHECK(this->IsOnItsWay());
 
     // det(p, x) is the weight of the corner across; the replaced corner keeps its weight for p.
-    const V wa = Select(dropA, this->WA, Abs(Select(dropB, pc, pb)));
-    const V wb = Select(dropB, this->WB, Abs(Select(dropA, pc, pa)));
+    this->WA = Select(dropA, this->WA, Abs(Select(dropB, pc, pb)));
+    this->WB = Select(dropB, this->WB, Abs(Select(dropA, pc, pa)));
     this->WC = Select(keepC, Abs(Select(dropA, pb, pa)), this->WC);
-    this->WA = wa;
-    this->WB = wb;
     Replace(this->A, dropA, p);
     Replace(this->B, dropB, p);
     Replace(this->C, AndNot(MaskFromBits(AllLanes), keepC), p);
   }
 
-  /// Integrates over the cells of the last Walk. Ends rays, or lets them enter the mesh again.
-  TETRALUX_INLINE void Integrate()
+  /// Tells what rays have of the cells of the last Walk. Ends rays that are past their end or left
+  /// the mesh, or lets them enter it again.
+  TETRALUX_INLINE void Step(CellParts& parts)
   {
     const V z0 = this->Z;
     const V s0 = this->S;
@@ -151,7 +196,11 @@ private:
     const V z1 = this->Z;
     const V s1 = this->S;
     const Mask8 running = MaskFromBits(this->Running);
-    Mask8 valid = running & this->IsReal();
+    Mask8 valid = running;
+    if (this->In.NumberOfWalkCells != this->In.NumberOfCells)
+    {
+      valid = valid & this->IsReal();
+    }
     if constexpr (Model::NeedsLength)
     {
       valid = AndNot(valid, z0 == z1);
@@ -161,7 +210,12 @@ private:
     V sFrom = s0;
     V sTo = s1;
     const Mask8 backward = z1 < z0;
-    if (Any(running & (backward | (z0 < this->Near) | (this->Far < z1))))
+    Mask8 cut = backward;
+    if (this->Limited)
+    {
+      cut = cut | (z0 < this->Near) | (this->Far < z1);
+    }
+    if (Any(running & cut))
     {
       // A ray passes an inverted cell from its far side to its near side. It is drawn as any other.
       const V zNear = Min(z0, z1);
@@ -180,57 +234,86 @@ private:
         sTo = Select(this->Far < zFar, Fma((zTo - zNear) / dz, ds, sNear), sFar);
       }
     }
+    parts.Valid = valid;
+    parts.Cell = this->CellBefore;
+    parts.Z0 = zFrom;
+    parts.S0 = sFrom;
+    parts.Z1 = zTo;
+    parts.S1 = sTo;
     if constexpr (Model::NeedsGradients)
     {
       if (this->In.Lighting)
       {
-        this->EnterCell(z0, z1, backward);
+        this->TellGradients(z0, z1, backward, parts);
       }
     }
     if constexpr (Model::NeedsComponents)
     {
-      const ComponentLanes before = this->Scalars;
+      parts.OfFaces = { z0, z1 };
+      parts.OfComponents.C0 = this->Scalars;
       this->InterpolateComponents();
-      this->Gathered.EnterComponents(z0, z1, before, this->Scalars);
+      parts.OfComponents.C1 = this->Scalars;
+    }
+    ++this->Steps;
+    this->Segments += __builtin_popcount(this->Running);
+
+    const Mask8 outside = Int8(0) > this->Cell;
+    const unsigned pastBits = this->Limited ? Bits(this->Far <= z1) & this->Running : 0;
+    const unsigned outsideBits = Bits(outside) & this->Running;
+    const Int8 exits = this->Cell;
+    // Lanes at rest go on from cell to cell without effect. What they load must exist.
+    this->Cell = Select(outside, Int8(0), this->Cell);
+    if ((pastBits | outsideBits) != 0)
+    {
+      this->Leave(exits, outsideBits, this->KeepDone(pastBits));
+    }
+  }
+
+  /// Integrates over what Step told. Ends rays that are opaque.
+  TETRALUX_INLINE void Integrate(const CellParts& parts)
+  {
+    if constexpr (Model::NeedsGradients)
+    {
+      if (this->In.Lighting)
+      {
+        this->Gathered.EnterCell(
+          parts.OfFaces.Z0, parts.OfFaces.Z1, parts.OfGradients.G0, parts.OfGradients.G1);
+      }
+    }
+    if constexpr (Model::NeedsComponents)
+    {
+      this->Gathered.EnterComponents(
+        parts.OfFaces.Z0, parts.OfFaces.Z1, parts.OfComponents.C0, parts.OfComponents.C1);
     }
     if constexpr (CellData)
     {
       // Imaginary cells have no values. Every lane loads some.
-      const Int8 cell = Select(this->IsReal(), this->CellBefore, Int8(0));
-      this->Gathered.AddCell(this->In, valid, cell, zFrom, zTo);
+      const Int8 cell = Select(parts.Valid, parts.Cell, Int8(0));
+      this->Gathered.AddCell(this->In, parts.Valid, cell, parts.Z0, parts.Z1);
     }
     else
     {
-      this->Gathered.AddPoints(this->In, valid, this->CellBefore, zFrom, sFrom, zTo, sTo);
+      this->Gathered.AddPoints(
+        this->In, parts.Valid, parts.Cell, parts.Z0, parts.S0, parts.Z1, parts.S1);
     }
-    ++this->Counts.Steps;
-    this->Counts.Segments += __builtin_popcount(this->Running);
-
-    // Rays that are opaque or past their end are done; rays that left the mesh may enter again.
-    const Mask8 outside = Int8(0) > this->Cell;
-    const unsigned opaqueBits = Bits(this->Gathered.IsDone(this->In)) & this->Running;
-    const unsigned pastBits = Bits(this->Far <= z1) & this->Running;
-    const unsigned outsideBits = Bits(outside);
-    if ((opaqueBits | pastBits | outsideBits) != 0)
-    {
-      this->Leave(outside, outsideBits, opaqueBits | this->KeepDone(pastBits));
-    }
+    this->Running &= ~Bits(this->Gathered.IsDone(this->In));
   }
 
   /// Tells the gradients on the faces of the cells of the last Walk.
-  TETRALUX_INLINE void EnterCell(V z0, V z1, Mask8 backward)
+  TETRALUX_INLINE void TellGradients(V z0, V z1, Mask8 backward, CellParts& parts)
   {
+    parts.OfFaces = { Min(z0, z1), Max(z0, z1) };
     const KernelLighting& lighting = *this->In.Lighting;
     if (!lighting.OfPoints)
     {
-      const LaneVector gradient = LoadGradient(lighting, this->CellBefore);
-      this->Gathered.EnterCell(Min(z0, z1), Max(z0, z1), gradient, gradient);
+      parts.OfGradients.G0 = LoadGradient(lighting, this->CellBefore);
+      parts.OfGradients.G1 = parts.OfGradients.G0;
       return;
     }
     const LaneVector gradient0 = this->Gradient;
     this->InterpolateGradient();
-    this->Gathered.EnterCell(Min(z0, z1), Max(z0, z1), Select(backward, this->Gradient, gradient0),
-      Select(backward, gradient0, this->Gradient));
+    parts.OfGradients.G0 = Select(backward, this->Gradient, gradient0);
+    parts.OfGradients.G1 = Select(backward, gradient0, this->Gradient);
   }
 
   /// The gradient where each ray goes through its triangle.
@@ -341,16 +424,12 @@ private:
     {
       const Double8 begin = this->Limits.Begin[this->Part];
       const Double8 end = this->Limits.End[this->Part];
-      const unsigned active =
-        this->Inside & Bits(begin < end) & ~Bits(this->Gathered.IsDone(this->In));
+      unsigned active = this->Inside & Bits(begin < end) & ~Bits(this->Gathered.IsDone(this->In));
       // Walking strikes crossings off, so each part of the rays finds them anew.
       FindClearCrossings(
         this->In, this->Faces, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings);
       this->Running = 0;
-      if (this->IsInexact(active))
-      {
-        return;
-      }
+      active &= ~this->LeaveOutInexact(active);
       unsigned hit = 0;
       for (int i = 0; i < LaneCount; ++i)
       {
@@ -368,6 +447,9 @@ private:
         this->Near = begin;
         this->Far = end;
       }
+      constexpr double Infinity = std::numeric_limits<double>::infinity();
+      this->Limited =
+        Any(MaskFromBits(active) & ((Double8(-Infinity) < begin) | (end < Double8(Infinity))));
       // Lanes without a ray rest in any cell; lanes with one are put where they start.
       this->Cell = 0;
       this->Point = 0;
@@ -385,28 +467,36 @@ private:
     }
   }
 
-  /// Whether rounding may change rays by more than is allowed; their packet is marked then.
-  bool IsInexact(unsigned rays)
+  /// Marks the blocks in which rounding may change rays by more than is allowed, and returns their
+  /// lanes: they are not cast here.
+  unsigned LeaveOutInexact(unsigned rays)
   {
-    double largest = 0;
-    for (int lane = 0; lane < LaneCount; ++lane)
+    unsigned left = 0;
+    for (int block = 0; block < BlocksOfPacket; ++block)
     {
-      const double error = this->Crossings.ShiftError[lane];
-      if (((rays >> lane) & 1u) && error > largest)
+      const unsigned lanes = GetLanesOfBlock(block);
+      double largest = 0;
+      for (int lane = block * LanesOfBlock; lane < (block + 1) * LanesOfBlock; ++lane)
       {
-        largest = error;
+        const double error = this->Crossings.ShiftError[lane];
+        if (((rays >> lane) & 1u) && error > largest)
+        {
+          largest = error;
+        }
+      }
+      if (this->In.InexactBlocks && largest > this->In.LargestShiftError)
+      {
+        const int y = this->PixelY + block * BlockHeight;
+        this->In.InexactBlocks[GetBlockPlace(this->In.Grid->Width, this->PixelX, y)] = 1;
+        left |= lanes;
+      }
+      else if (largest > this->Counts.ShiftError)
+      {
+        this->Counts.ShiftError = largest;
       }
     }
-    this->Inexact = this->In.InexactPackets && largest > this->In.LargestShiftError;
-    if (this->Inexact)
-    {
-      this->In.InexactPackets[GetPacketPlace(this->In.Grid->Width, this->PixelX, this->PixelY)] = 1;
-    }
-    else if (largest > this->Counts.ShiftError)
-    {
-      this->Counts.ShiftError = largest;
-    }
-    return this->Inexact;
+    this->Inside &= ~left;
+    return left;
   }
 
   /// Takes a ray's nearest crossing that no walk began or ended at; -1 if there is none.
@@ -432,12 +522,9 @@ private:
   void Enter(unsigned lanes)
   {
     std::int32_t cells[LaneCount] = {}, opposites[LaneCount] = {}, corners[3][LaneCount] = {};
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (unsigned left = lanes; left != 0; left &= left - 1)
     {
-      if (!((lanes >> lane) & 1u))
-      {
-        continue;
-      }
+      const int lane = FindFirstLane(left);
       const std::int32_t entryId = this->TakeEntry(lane);
       if (entryId < 0)
       {
@@ -488,21 +575,15 @@ private:
   }
 
   /// Ends or re-enters the rays that left the mesh, ends those that are done.
-  void Leave(Mask8 outside, unsigned outsideBits, unsigned doneBits)
+  void Leave(Int8 faces, unsigned outsideBits, unsigned doneBits)
   {
-    const unsigned leaving = this->Running & outsideBits & ~doneBits;
+    const unsigned leaving = outsideBits & ~doneBits;
     this->Running &= ~(doneBits | outsideBits);
     std::int32_t exits[LaneCount];
-    Store(exits, this->Cell);
-    // Lanes at rest go on from cell to cell without effect. What they load must exist.
-    this->Cell = Select(outside, Int8(0), this->Cell);
-    this->Point = Select(outside, Int8(0), this->Point);
-    for (int lane = 0; lane < LaneCount; ++lane)
+    Store(exits, faces);
+    for (unsigned left = leaving; left != 0; left &= left - 1)
     {
-      if (!((leaving >> lane) & 1u))
-      {
-        continue;
-      }
+      const int lane = FindFirstLane(left);
       Crossing* list = this->GetCrossings(lane);
       for (int k = this->Cursor[lane]; k < this->Crossings.Count[lane]; ++k)
       {
@@ -516,11 +597,6 @@ private:
     if (leaving)
     {
       this->Enter(leaving);
-    }
-    if (this->Running == 0)
-    {
-      ++this->Part;
-      this->BeginPart();
     }
   }
 
@@ -559,19 +635,21 @@ private:
 
   // The rays and what is left to do for them.
   int PixelX, PixelY;
-  unsigned Inside = 0;  ///< lanes with a pixel
-  unsigned Running = 0; ///< lanes whose ray is in the mesh
+  unsigned Inside = 0;       ///< lanes with a pixel that is not left to double precision
+  unsigned Running = 0;      ///< lanes whose ray is in the mesh
+  std::int64_t Steps = 0;    ///< taken by the packet
+  std::int64_t Segments = 0; ///< cells walked through, over all rays
   WorldRays World;
   Rays<Real> Ray;
   Intervals Limits;
-  int Part = 0;         ///< of the limits
-  bool Inexact = false; ///< the packet is left to double precision
+  int Part = 0; ///< of the limits
   double FarOf[LaneCount];
   PacketCrossings Crossings;
   int Cursor[LaneCount]; ///< first crossing of each ray that may still be an entry
 
   // Where the rays are: in a cell, on the triangle A B C through which they entered it.
-  V Near, Far; ///< ends of the part
+  V Near, Far;  ///< ends of the part
+  bool Limited; ///< whether any ray's part has an end
   Corner<Real> A, B, C;
   V WA, WB, WC; ///< weights of the corners at the ray, twice the areas across; not normalised
   V Z, S;       ///< distance and scalar there
@@ -600,12 +678,24 @@ inline void ClearPixels(const KernelInput& in, int x, int y, int x1, int y1)
   }
 }
 
+/// Bits of the blocks of a packet in its tile.
+constexpr std::uint32_t FindBlocks(int x, int y)
+{
+  const int first = y % RayTileSize / BlockHeight * BlocksAcrossTile + x % RayTileSize / BlockWidth;
+  std::uint32_t blocks = 0;
+  for (int block = 0; block < BlocksOfPacket; ++block)
+  {
+    blocks |= 1u << (first + block * BlocksAcrossTile);
+  }
+  return blocks;
+}
+
 template <class Real, class Model, bool CellData>
 void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuffer& buffer,
   KernelCounts& counts)
 {
   PacketFaces faces{};
-  std::uint32_t met = AllPackets;
+  std::uint32_t met = AllBlocks;
   if (in.TileFaces)
   {
     const int tile = y0 / RayTileSize * in.TileColumns + x0 / RayTileSize;
@@ -614,17 +704,15 @@ void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuf
     met = 0;
     for (const TileFace* face = faces.Begin; face != faces.End; ++face)
     {
-      met |= face->Packets;
+      met |= face->Blocks;
     }
   }
   for (int y = y0; y < y1; y += PacketHeight)
   {
     for (int x = x0; x < x1; x += PacketWidth)
     {
-      const int packet =
-        y % RayTileSize / PacketHeight * PacketsAcrossTile + x % RayTileSize / PacketWidth;
-      faces.Packet = 1u << packet;
-      if ((met & faces.Packet) == 0)
+      faces.Blocks = FindBlocks(x, y);
+      if ((met & faces.Blocks) == 0)
       {
         ClearPixels(in, x, y, x1, y1);
         continue;
@@ -637,7 +725,14 @@ void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuf
 template <template <class Real> class Model, bool CellData>
 constexpr RayCastKernels::Pair MakePair()
 {
-  return { &CastRays<float, Model<float>, CellData>, &CastRays<double, Model<double>, CellData> };
+  if constexpr (LaneCount == MostLanes)
+  {
+    return { &CastRays<float, Model<float>, CellData>, nullptr };
+  }
+  else
+  {
+    return { &CastRays<float, Model<float>, CellData>, &CastRays<double, Model<double>, CellData> };
+  }
 }
 
 RayCastKernels MakeRayCastKernels()
@@ -658,7 +753,10 @@ RayCastKernels MakeRayCastKernels()
   set(Integrator::Emission, MakePair<Emission, false>(), MakePair<Emission, true>());
   set(Integrator::Maximum, MakePair<Maximum, false>(), MakePair<Maximum, true>());
   set(Integrator::Isosurfaces, MakePair<Isosurfaces, false>(), {});
-  set(Integrator::Components, { nullptr, &CastRays<double, Components, false> }, {});
+  if constexpr (LaneCount < MostLanes)
+  {
+    set(Integrator::Components, { nullptr, &CastRays<double, Components, false> }, {});
+  }
   return kernels;
 }
 

@@ -64,6 +64,10 @@ struct RayCastOptions
   /// widest. Pictures of those for any processor differ by rounding.
   std::optional<InstructionSet> Kernels;
 
+  /// Cast packets of 16 rays where HasFastWideLanes() (InstructionSet.h), in single precision and
+  /// without Kernels. The pictures are the same bits. For tests of the others.
+  bool WideKernels = true;
+
   /// Called every few milliseconds, by the calling thread only, with the share that is done, 0..1.
   /// Returns false to abort. The last call is with 1, when nothing is left to abort. May be empty.
   std::function<bool(double)> Progress;

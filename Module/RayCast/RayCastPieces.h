@@ -43,6 +43,102 @@ struct Piece
   }
 };
 
+/// An interval of the transfer function in each lane.
+struct IntervalLanes
+{
+  Float8 Lo, Hi, Reference, Attenuation, AttenuationSlope;
+  Float8 Color[3], ColorSlope[3], ColorBend[3];
+};
+
+/// Looks intervals up in the first Size ones of the table.
+template <int Size>
+TETRALUX_INLINE IntervalLanes LookUpInterval(const KernelInput& in, Int8 interval)
+{
+  const IntervalColumns& columns = *in.Columns;
+  const auto find = [&](const IntervalColumns::Column& column)
+  { return LookUp(reinterpret_cast<const float(&)[Size]>(column), interval); };
+  IntervalLanes t;
+  t.Lo = find(columns.Lo);
+  t.Hi = find(columns.Hi);
+  t.Reference = find(columns.Reference);
+  t.Attenuation = find(columns.Attenuation);
+  t.AttenuationSlope = find(columns.AttenuationSlope);
+  for (int c = 0; c < 3; ++c)
+  {
+    t.Color[c] = find(columns.Color[c]);
+    t.ColorSlope[c] = find(columns.ColorSlope[c]);
+    t.ColorBend[c] = 0.f;
+  }
+  if (in.Curved)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      t.ColorBend[c] = find(columns.ColorBend[c]);
+    }
+  }
+  return t;
+}
+
+/// The same interval in all lanes.
+TETRALUX_INLINE IntervalLanes RepeatInterval(const IntervalTable::Interval& interval)
+{
+  IntervalLanes t;
+  t.Lo = interval.Lo;
+  t.Hi = interval.Hi;
+  t.Reference = interval.Reference;
+  t.Attenuation = interval.Attenuation;
+  t.AttenuationSlope = interval.AttenuationSlope;
+  for (int c = 0; c < 3; ++c)
+  {
+    t.Color[c] = interval.Color[c];
+    t.ColorSlope[c] = interval.ColorSlope[c];
+    t.ColorBend[c] = interval.ColorBend[c];
+  }
+  return t;
+}
+
+TETRALUX_INLINE IntervalLanes GatherInterval(const KernelInput& in, Int8 interval)
+{
+  const Int8 row = FindIntervalRow(interval);
+  const auto* rows = reinterpret_cast<const float*>(in.Intervals);
+  IntervalLanes t;
+  t.ColorBend[0] = t.ColorBend[1] = t.ColorBend[2] = 0.f;
+  Float8 unused;
+  GatherRows(rows, row, t.Lo, t.Hi, t.Reference, t.Attenuation);
+  GatherRows(rows, row + Int8(1), t.AttenuationSlope, t.Color[0], t.Color[1], t.Color[2]);
+  GatherRows(rows, row + Int8(2), t.ColorSlope[0], t.ColorSlope[1], t.ColorSlope[2], unused);
+  if (in.Curved)
+  {
+    GatherRows(rows, row + Int8(3), t.ColorBend[0], t.ColorBend[1], t.ColorBend[2], unused);
+  }
+  return t;
+}
+
+/// valid: at least one lane, those in which the interval matters.
+TETRALUX_INLINE IntervalLanes LoadInterval(const KernelInput& in, Int8 interval, Mask8 valid)
+{
+  if (in.NumberOfIntervals <= IntervalColumns::Few)
+  {
+    return LookUpInterval<IntervalColumns::Few>(in, interval);
+  }
+  // Neighbouring rays are mostly in the same interval: one load for all of them.
+  std::int32_t indices[LaneCount];
+  Store(indices, interval);
+  const std::int32_t one = indices[FindFirstLane(Bits(valid))];
+  if (!Any(AndNot(valid, interval == Int8(one))))
+  {
+    return RepeatInterval(in.Intervals[one]);
+  }
+  if constexpr (IntervalColumns::Most == 4 * LaneCount)
+  {
+    if (in.NumberOfIntervals <= IntervalColumns::Most)
+    {
+      return LookUpInterval<IntervalColumns::Most>(in, interval);
+    }
+  }
+  return GatherInterval(in, interval);
+}
+
 /// Cuts a cell where an interval ends. The scalar runs linearly from s0 at z0 to s1 at z1. Calls
 /// add(contributes, piece, from, to) for each piece that attenuates any ray, between two distances
 /// z. interval: of the transfer function, where each ray's last scalar is; updated.
@@ -50,75 +146,42 @@ template <class Real, class V, class AddT>
 TETRALUX_INLINE void CutAtNodes(
   const KernelInput& in, Int8& interval, Mask8 valid, V z0, V s0, V z1, V s1, AddT add)
 {
-  const auto* table = in.Intervals;
   while (Any(valid))
   {
-    // Neighbouring rays are mostly in the same interval: one load for all of them.
-    const unsigned bits = Bits(valid);
     TETRALUX_CHECK(AreBelow(valid, interval, in.NumberOfIntervals));
-    std::int32_t indices[LaneCount];
-    Store(indices, interval);
-    int leader = 0;
-    while (!((bits >> leader) & 1u))
-    {
-      ++leader;
-    }
-    const bool uniform = !Any(AndNot(valid, interval == Int8(indices[leader])));
     Piece piece;
-    piece.Bend[0] = piece.Bend[1] = piece.Bend[2] = 0.f;
-    Float8 lo, hi, reference, attenuation, attenuationSlope;
-    if (uniform)
+    const IntervalLanes t = LoadInterval(in, interval, valid);
+    for (int c = 0; c < 3; ++c)
     {
-      const IntervalTable::Interval& t = table[indices[leader]];
-      lo = t.Lo;
-      hi = t.Hi;
-      reference = t.Reference;
-      attenuation = t.Attenuation;
-      attenuationSlope = t.AttenuationSlope;
-      for (int c = 0; c < 3; ++c)
-      {
-        piece.Color[c] = t.Color[c];
-        piece.Slope[c] = t.ColorSlope[c];
-        piece.Bend[c] = t.ColorBend[c];
-      }
+      piece.Color[c] = t.Color[c];
+      piece.Slope[c] = t.ColorSlope[c];
+      piece.Bend[c] = t.ColorBend[c];
     }
-    else
-    {
-      const Int8 row = FindIntervalRow(interval);
-      const auto* rows = reinterpret_cast<const float*>(table);
-      Float8 unused;
-      GatherRows(rows, row, lo, hi, reference, attenuation);
-      GatherRows(
-        rows, row + Int8(1), attenuationSlope, piece.Color[0], piece.Color[1], piece.Color[2]);
-      GatherRows(rows, row + Int8(2), piece.Slope[0], piece.Slope[1], piece.Slope[2], unused);
-      if (in.Curved)
-      {
-        GatherRows(rows, row + Int8(3), piece.Bend[0], piece.Bend[1], piece.Bend[2], unused);
-      }
-    }
-    const V bottom = ToPrecision<V>(lo);
-    const V head = ToPrecision<V>(hi);
-    const V origin = ToPrecision<V>(reference);
+    const V bottom = ToPrecision<V>(t.Lo);
+    const V head = ToPrecision<V>(t.Hi);
+    const V origin = ToPrecision<V>(t.Reference);
 
     // The interval of the last cell is mostly still right, or a neighbour is. A constant scalar at
     // a node belongs to the interval above it, whichever came before. Scalars are compared in
     // single precision, to which the nodes were rounded.
     const Float8 f0 = ToFloat(s0);
     const Float8 f1 = ToFloat(s1);
-    const Mask8 below = valid & (f0 < lo);
-    const Mask8 above = valid & ((hi < f0) | ((hi == f0) & (f0 <= f1)));
-    if (Any(below | above))
-    {
-      interval = interval + Ones(above) - Ones(below);
-      continue;
-    }
-
-    const Mask8 last = (lo <= f1) & (f1 <= hi);
-    const Mask8 more = AndNot(valid, last);
+    const Mask8 inside = (t.Lo <= Min(f0, f1)) & (Max(f0, f1) < t.Hi);
     V z = z1;
     V s = s1;
-    if (Any(more))
+    Mask8 more = AndNot(valid, inside);
+    const bool cut = Any(more);
+    if (cut)
     {
+      const Mask8 below = valid & (f0 < t.Lo);
+      const Mask8 above = valid & ((t.Hi < f0) | ((t.Hi == f0) & (f0 <= f1)));
+      if (Any(below | above))
+      {
+        interval = interval + Ones(above) - Ones(below);
+        continue;
+      }
+      const Mask8 last = (t.Lo <= f1) & (f1 <= t.Hi);
+      more = AndNot(valid, last);
       s = Min(Max(s1, bottom), head);
       z = Select(last, z1, Fma((s - s0) / (s1 - s0), z1 - z0, z0));
     }
@@ -136,14 +199,14 @@ TETRALUX_INLINE void CutAtNodes(
     const Float8 zero = 0.f;
     const Float8 largest = static_cast<float>(LargestSingleDepth);
     // Rounding may leave an attenuation just below zero where the function comes down to it.
-    piece.D0 = Max(zero, Min(Fma(attenuationSlope, piece.X0, attenuation) * length, largest));
-    piece.D1 = Max(zero, Min(Fma(attenuationSlope, piece.X1, attenuation) * length, largest));
+    piece.D0 = Max(zero, Min(Fma(t.AttenuationSlope, piece.X0, t.Attenuation) * length, largest));
+    piece.D1 = Max(zero, Min(Fma(t.AttenuationSlope, piece.X1, t.Attenuation) * length, largest));
     const Mask8 contributes = valid & (zero < piece.D0 + piece.D1);
     if (Any(contributes))
     {
       add(contributes, piece, z0, z);
     }
-    if (!Any(more))
+    if (!cut || !Any(more))
     {
       return;
     }

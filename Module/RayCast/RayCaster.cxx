@@ -29,13 +29,14 @@ constexpr double RaysPerFace = 0.5;
 
 constexpr int InitialCrossings = 32;
 
-RayCastKernels GetKernels(InstructionSet set)
+/// wide: of AVX-512, those of 16 lanes.
+RayCastKernels GetKernels(InstructionSet set, bool wide)
 {
 #ifdef TETRALUX_HAVE_AVX2_KERNEL
   switch (set)
   {
     case InstructionSet::Avx512:
-      return GetRayCastKernelsAvx512();
+      return wide ? GetRayCastKernelsAvx512Wide() : GetRayCastKernelsAvx512();
     case InstructionSet::Avx2:
       return GetRayCastKernelsAvx2();
     default:
@@ -43,6 +44,7 @@ RayCastKernels GetKernels(InstructionSet set)
   }
 #else
   static_cast<void>(set);
+  static_cast<void>(wide);
 #endif
   return GetRayCastKernelsGeneric();
 }
@@ -66,7 +68,7 @@ struct OwningCrossingBuffer : CrossingBuffer
   {
     auto& self = static_cast<OwningCrossingBuffer&>(buffer);
     self.Capacity *= 2;
-    self.Storage.resize(LaneCount * static_cast<std::size_t>(self.Capacity));
+    self.Storage.resize(MostLanes * static_cast<std::size_t>(self.Capacity));
     self.Crossings = self.Storage.data();
   }
 };
@@ -158,9 +160,15 @@ CastChoices ChooseCast(VolumeScene& scene, const RayGrid& grid, const RayCastOpt
   return choices;
 }
 
-RayCastKernel ChooseKernel(InstructionSet set, const CastChoices& choices)
+/// Whether rays are cast in packets of 16.
+bool IsWide(const RayCastOptions& options, const CastChoices& choices)
 {
-  const RayCastKernels all = GetKernels(set);
+  return !options.Kernels && options.WideKernels && !choices.DoublePrecision && HasFastWideLanes();
+}
+
+RayCastKernel ChooseKernel(InstructionSet set, bool wide, const CastChoices& choices)
+{
+  const RayCastKernels all = GetKernels(set, wide);
   const RayCastKernels::Pair& pair = choices.CellData
     ? all.Cells[static_cast<int>(choices.Method)]
     : all.Points[static_cast<int>(choices.Method)];
@@ -210,7 +218,7 @@ void Summarize(const std::vector<ThreadMemory>& threads, RayCastStatistics& stat
   for (const ThreadMemory& thread : threads)
   {
     counts.Segments += thread.Counts.Segments;
-    counts.Steps += thread.Counts.Steps;
+    counts.Lanes += thread.Counts.Lanes;
     counts.Paths += thread.Counts.Paths;
     counts.ShiftError = std::max(counts.ShiftError, thread.Counts.ShiftError);
   }
@@ -224,10 +232,9 @@ void Summarize(const std::vector<ThreadMemory>& threads, RayCastStatistics& stat
     const double segments = static_cast<double>(counts.Segments) / counts.Paths;
     statistics.SummationError = segments * std::numeric_limits<float>::epsilon() / 2;
   }
-  if (counts.Steps > 0)
+  if (counts.Lanes > 0)
   {
-    statistics.LaneUse =
-      static_cast<double>(counts.Segments) / (LaneCount * static_cast<double>(counts.Steps));
+    statistics.LaneUse = static_cast<double>(counts.Segments) / static_cast<double>(counts.Lanes);
   }
 }
 
@@ -262,12 +269,13 @@ public:
     if (mixed)
     {
       marks.assign(
-        static_cast<std::size_t>(GetPacketPlace(this->Grid.Width, 0, this->Grid.Height - 1) +
-          GetPacketPlace(this->Grid.Width, 0, PacketHeight)),
+        static_cast<std::size_t>(GetBlockPlace(this->Grid.Width, 0, this->Grid.Height - 1) +
+          GetBlockPlace(this->Grid.Width, 0, BlockHeight)),
         0);
-      in.InexactPackets = marks.data();
+      in.InexactBlocks = marks.data();
     }
-    const RayCastKernel kernel = ChooseKernel(this->Set, this->Choices);
+    const RayCastKernel kernel =
+      ChooseKernel(this->Set, IsWide(this->Options, this->Choices), this->Choices);
     const TileGrid tiles{ this->Grid.Width, this->Grid.Height, RayTileSize };
     statistics.Aborted =
       !ForEachTile(tiles, this->GetNumberOfThreads(), this->MakeProgress(0, mixed ? FirstShare : 1),
@@ -312,23 +320,23 @@ private:
     kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, memory.Crossings, memory.Counts);
   }
 
-  /// Casts the packets that single precision left out.
+  /// Casts the blocks that single precision left out.
   void CastMarked(
     const KernelInput& single, const RawVector<std::uint8_t>& marks, RayCastStatistics& statistics)
   {
-    std::vector<Tile> packets;
-    for (int y = 0; y < this->Grid.Height; y += PacketHeight)
+    std::vector<Tile> blocks;
+    for (int y = 0; y < this->Grid.Height; y += BlockHeight)
     {
-      for (int x = 0; x < this->Grid.Width; x += PacketWidth)
+      for (int x = 0; x < this->Grid.Width; x += BlockWidth)
       {
-        if (marks[GetPacketPlace(this->Grid.Width, x, y)] != 0)
+        if (marks[GetBlockPlace(this->Grid.Width, x, y)] != 0)
         {
-          packets.push_back({ x, y, std::min(x + PacketWidth, this->Grid.Width),
-            std::min(y + PacketHeight, this->Grid.Height) });
+          blocks.push_back({ x, y, std::min(x + BlockWidth, this->Grid.Width),
+            std::min(y + BlockHeight, this->Grid.Height) });
         }
       }
     }
-    if (packets.empty())
+    if (blocks.empty())
     {
       if (this->Options.Progress)
       {
@@ -346,17 +354,16 @@ private:
     in.TileFaces = single.TileFaces;
     in.TileBegins = single.TileBegins;
     in.TileColumns = single.TileColumns;
-    const RayCastKernel kernel = ChooseKernel(this->Set, choices);
-    // A row of packets, each a tile of one.
-    const TileGrid row{ static_cast<int>(packets.size()), 1, 1 };
-    statistics.Aborted =
-      !ForEachTile(row, this->GetNumberOfThreads(), this->MakeProgress(FirstShare, 1),
-        [&](const Tile& packet, int thread)
-        { this->CastTile(in, kernel, packets[packet.X0], thread); });
-    for (const Tile& packet : packets)
+    const RayCastKernel kernel = ChooseKernel(this->Set, IsWide(this->Options, choices), choices);
+    // A row of blocks, each a tile of one.
+    const TileGrid row{ static_cast<int>(blocks.size()), 1, 1 };
+    statistics.Aborted = !ForEachTile(row, this->GetNumberOfThreads(),
+      this->MakeProgress(FirstShare, 1),
+      [&](const Tile& block, int thread) { this->CastTile(in, kernel, blocks[block.X0], thread); });
+    for (const Tile& block : blocks)
     {
       statistics.DoubleRays +=
-        static_cast<std::int64_t>(packet.X1 - packet.X0) * (packet.Y1 - packet.Y0);
+        static_cast<std::int64_t>(block.X1 - block.X0) * (block.Y1 - block.Y0);
     }
   }
 

@@ -11,11 +11,23 @@ namespace tetralux
 namespace TETRALUX_ISA
 {
 
-/// exp(-x) for x >= 0, relative error 2e-7; 0 from x = 87 (below the normal numbers).
-TETRALUX_INLINE Float8 ExpMinus(Float8 x)
+/// 1 where a < b, else 0, of numbers that are not negative.
+TETRALUX_INLINE Int8 IsSmaller(Int8 a, Int8 b) { return ShiftRight(a - b, 31); }
+
+/// Up to this, a function of exp(-x) has no power of 2 to split off.
+constexpr float MostOfShortExp = 0.346f; // ln(2) / 2
+
+/// The same bits as those of ExpMinus, for x from 0 to MostOfShortExp.
+TETRALUX_INLINE Float8 ShortExpMinus(Float8 x)
 {
   static constexpr float c[] = { 1.f, -1.f, 1.f / 2, -1.f / 6, 1.f / 24, -1.f / 120, 1.f / 720,
     -1.f / 5040 };
+  return Polynomial(x, c);
+}
+
+/// exp(-x) for x >= 0, relative error 2e-7; 0 from x = 87 (below the normal numbers).
+TETRALUX_INLINE Float8 ExpMinus(Float8 x)
+{
   const Float8 bounded = Min(x, Float8(87.f));
   const Int8 n = RoundToInt(bounded * Float8(1.44269504f)); // 1 / ln 2
   const Float8 nf = ToFloat(n);
@@ -23,7 +35,7 @@ TETRALUX_INLINE Float8 ExpMinus(Float8 x)
   Float8 r = Fma(nf, Float8(-0.693359375f), bounded);
   r = Fma(nf, Float8(2.12194440e-4f), r);
   const Float8 power = FromBits(ShiftLeft(Int8(127) - n, 23)); // 2^-n
-  return Keep(x < Float8(87.f), Polynomial(r, c) * power);
+  return Keep(x < Float8(87.f), ShortExpMinus(r) * power);
 }
 
 /// -ln(x) for normal numbers in 0..1, relative error 2e-7, near 1 too; 0 above 1.
@@ -87,7 +99,6 @@ TETRALUX_INLINE Float8 ShortMinusLogOfRest(Float8 x)
   const Float8 s = x / ((one - x) + one);
   return s * Polynomial(s * s, c);
 }
-constexpr float MostOfShortExp = 0.346f; // ln(2) / 2
 TETRALUX_INLINE Float8 ShortOneMinusExp(Float8 x)
 {
   static constexpr float q[] = { 1.f, -1.f / 2, 1.f / 6, -1.f / 24, 1.f / 120, -1.f / 720,

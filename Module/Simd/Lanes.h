@@ -66,8 +66,9 @@
 //   GatherWords        32 bits from base + index of each lane, which counts bytes, at any alignment
 //   GatherNeighbors    two consecutive floats from base + index of each lane. Indices are at least
 //                      0.
-//   LookUp(t, index)   t[index] of each lane, of a table of LaneCount or of two times as many.
-//                      Unspecified where an index is not in the table.
+//   LookUp(t, index)   t[index] of each lane, of a table of LaneCount or of two times as many, of
+//                      LanesAvx512Wide.h also of four times. Unspecified where an index is not in
+//                      the table.
 //   Lane(a, i)         one lane
 //   Polynomial(x, c)   Horner's scheme, with Fma
 
@@ -129,6 +130,9 @@ struct LanesOf<double>
 {
   using Type = Double8;
 };
+
+/// The first lane of some, of at least one.
+TETRALUX_INLINE int FindFirstLane(unsigned bits) { return __builtin_ctz(bits); }
 
 TETRALUX_INLINE Float8 ToFloat(Float8 a) { return a; }
 TETRALUX_INLINE float Lane(Float8 a, int i)

@@ -63,7 +63,7 @@ void ExpectDoublePrecisionWhereItIsNeeded(const RayScene& scene)
   EXPECT_LE(mixed.Statistics.GeometryError, mixed.Statistics.Budget.Geometry);
   EXPECT_LE(mixed.Statistics.ErrorEstimate, options.MaximumError);
 
-  // Whatever finds the boundary, and however many threads cast.
+  // Whatever finds the boundary, and however many threads and lanes cast.
   for (const BoundarySearch search : { BoundarySearch::Hierarchy, BoundarySearch::Tiles })
   {
     options.Boundary = search;
@@ -72,6 +72,7 @@ void ExpectDoublePrecisionWhereItIsNeeded(const RayScene& scene)
     EXPECT_EQ(other.Colors, mixed.Colors);
     EXPECT_EQ(other.Depths, mixed.Depths);
     EXPECT_EQ(other.Statistics.DoubleRays, mixed.Statistics.DoubleRays);
+    options.WideKernels = !options.WideKernels;
   }
 }
 

@@ -305,6 +305,33 @@ TEST_P(Models, VectorKernelsGiveTheSameBits)
   }
 }
 
+// Packets of 16 rays, also where some of their blocks are left to double precision.
+TEST_P(Models, WideKernelsGiveTheSameBits)
+{
+  if (!HasFastWideLanes())
+  {
+    GTEST_SKIP() << "this processor has no fast lanes of 16";
+  }
+  const RayScene scene = this->GetParam().Make();
+  VolumeScene volume = scene.MakeVolumeScene();
+  for (const Precision precision : { Precision::Single, Precision::Automatic })
+  {
+    RayCastOptions options;
+    options.Arithmetic = precision;
+    const RayPicture picture = Cast(volume, scene, options);
+    options.WideKernels = false;
+    const RayPicture expected = Cast(volume, scene, options);
+    EXPECT_EQ(picture.Statistics.InstructionSet, "AVX-512");
+    EXPECT_TRUE(picture.Colors == expected.Colors);
+    EXPECT_TRUE(picture.Depths == expected.Depths);
+    EXPECT_EQ(picture.Statistics.Segments, expected.Statistics.Segments);
+    EXPECT_EQ(picture.Statistics.Paths, expected.Statistics.Paths);
+    EXPECT_EQ(picture.Statistics.DoubleRays, expected.Statistics.DoubleRays);
+    EXPECT_EQ(picture.Statistics.ErrorEstimate, expected.Statistics.ErrorEstimate);
+    EXPECT_LE(picture.Statistics.LaneUse, 1);
+  }
+}
+
 constexpr auto Emission = OpticalModel::EmissionOnly;
 constexpr auto Absorption = OpticalModel::AbsorptionOnly;
 constexpr auto Largest = OpticalModel::MaximumIntensity;
