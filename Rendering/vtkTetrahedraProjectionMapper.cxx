@@ -576,6 +576,7 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(
   }
   section["tetrahedra_in_order"] = static_cast<std::int64_t>(scene.Order.size());
   section["tetrahedra_drawn"] = drawn.Cells;
+  section["parts_drawn"] = drawn.Parts;
   section["triangles"] = drawn.Triangles;
   section["order"] = this->Sorted ? GetMethodName(this->Method) : "none";
   if (this->Sorted)

@@ -159,6 +159,10 @@ int CellProjector::Project(const ScreenPoint* const (&points)[4], ProjectedCell&
   const double scalars[4] = { a.Scalar, b.Scalar, c.Scalar, d.Scalar };
   cell.FindField(scalars, this->Base, scalar, slope);
   Store(scalar, 1, result.Third.Scalar);
+  // z rises towards the eye.
+  this->EyeScalar = frame.IsPerspective() && settings.Interpolate
+    ? slope
+    : std::copysign(std::numeric_limits<double>::infinity(), slope);
   result.Third.ScalarSlope = static_cast<float>(this->Sign * slope);
   result.Third.ScalarRange[0] = static_cast<float>(scalarLo);
   result.Third.ScalarRange[1] = static_cast<float>(scalarHi);

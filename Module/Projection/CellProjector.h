@@ -29,6 +29,10 @@ public:
   /// The faces that are the base, Face0, Face1 and Face2, each by the point opposite to it.
   const std::array<int, 4>& GetFaces() const { return this->Faces; }
 
+  /// The scalar at the eye, of the field in the cell; infinite in a parallel view: the end that
+  /// rays come from.
+  double GetEyeScalar() const { return this->EyeScalar; }
+
   /// From gradients at its points.
   ProjectedGradient Project(const double gradients[4][3]) const;
 
@@ -37,6 +41,7 @@ private:
   const ProjectionSettings& Settings;
   std::optional<LocalCell> Cell;
   Linear Base = { 0, 0, 0 };
+  double EyeScalar = 0;
   double Sign = 1; ///< 1 where the base is a front face, else -1
   std::array<int, 4> Faces = { 0, 1, 2, 3 };
 };

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace tetralux
 {
@@ -34,6 +35,15 @@ std::uint32_t MakeKey(std::int32_t cell)
   key *= 0x27d4eb2du;
   key ^= key >> 15;
   return key & LargestCellKey;
+}
+
+/// Own of a slice, see CellData::Division.
+void SetSlice(const CellDivision::Slice& slice, ProjectedCell& result)
+{
+  const CellDivision::Part& part = slice.Of;
+  result.Fourth.Own[0] = static_cast<float>(part.Interval);
+  result.Fourth.Own[1] = static_cast<float>(part.OpenBelow + 2 * part.OpenAbove);
+  result.Fourth.Own[2] = static_cast<float>(slice.Index + SliceBase * part.Slices);
 }
 
 /// The values of a projected cell's functions at its corners.
@@ -146,32 +156,71 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
   constexpr std::int64_t BlockSize = 512;
   const auto n = static_cast<std::int64_t>(order.size());
   const std::int64_t blocks = (n + BlockSize - 1) / BlockSize;
-  std::vector<std::int64_t> counts(blocks); // of the cells that are seen
-  std::vector<std::uint8_t> corners(n);
-  const bool interpolated = frame.IsPerspective() && !settings.Interpolate;
-  result.Cells.resize(interpolated ? 0 : n + 1); // with the one behind all others
-  result.InterpolatedCells.resize(interpolated ? n + 1 : 0);
-  const bool withGradients = data.Gradients != CellData::Gradient::None;
-  result.Gradients.resize(withGradients ? n + 1 : 0);
-  result.FaceScalars.resize(data.FaceScalars ? 4 * n : 0);
-#pragma omp parallel for schedule(dynamic)
+  const CellDivision* division = data.Division;
+  // Where there is room for each block, and how much of it is taken by what is seen.
+  std::vector<std::int64_t> begins(blocks + 1, 0);
+  std::vector<std::int64_t> counts(blocks);
+#pragma omp parallel for schedule(static)
   for (std::int64_t block = 0; block < blocks; ++block)
   {
     const std::int64_t begin = block * BlockSize;
     const std::int64_t end = std::min(begin + BlockSize, n);
-    std::int64_t last = begin;
+    begins[block + 1] = division ? 0 : end - begin;
+    for (std::int64_t i = begin; division && i < end; ++i)
+    {
+      begins[block + 1] += division->GetNumberOfSlices(order[i]);
+    }
+  }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  const std::int64_t room = begins[blocks];
+  std::vector<std::uint8_t> corners(room);
+  const bool interpolated = frame.IsPerspective() && !settings.Interpolate;
+  result.Cells.resize(interpolated ? 0 : room + 1); // with the one behind all others
+  result.InterpolatedCells.resize(interpolated ? room + 1 : 0);
+  const bool withGradients = data.Gradients != CellData::Gradient::None;
+  result.Gradients.resize(withGradients ? room + 1 : 0);
+  result.FaceScalars.resize(data.FaceScalars ? 4 * room : 0);
+  std::int64_t tetrahedra = 0;
+#pragma omp parallel for schedule(dynamic) reduction(+ : tetrahedra)
+  for (std::int64_t block = 0; block < blocks; ++block)
+  {
+    const std::int64_t begin = block * BlockSize;
+    const std::int64_t end = std::min(begin + BlockSize, n);
+    std::int64_t last = begins[block];
     CellProjector projector(frame, settings);
+    std::vector<CellDivision::Slice> slices;
     for (std::int64_t i = begin; i < end; ++i)
     {
       const std::int32_t cell = order[i];
       const std::int32_t* p = &cells[4 * static_cast<std::size_t>(cell)];
       ProjectedCell own;
+      if (division && division->GetParts(cell).empty())
+      {
+        continue;
+      }
       ProjectedCell& projected = interpolated ? own : result.Cells[last];
       const ScreenPoint* const cellPoints[4] = { &points[p[0]], &points[p[1]], &points[p[2]],
         &points[p[3]] };
       const int count = projector.Project(cellPoints, projected);
       if (count == 0)
       {
+        continue;
+      }
+      ++tetrahedra;
+      if (data.Keys)
+      {
+        projected.Fourth.Code += static_cast<float>(8 * MakeKey(cell));
+      }
+      if (division)
+      {
+        division->FindOrder(cell, projector.GetEyeScalar(), data.FrontToBack, slices);
+        for (const CellDivision::Slice& slice : slices)
+        {
+          ProjectedCell& part = result.Cells[last];
+          part = projected;
+          SetSlice(slice, part);
+          corners[last++] = static_cast<std::uint8_t>(count);
+        }
         continue;
       }
       if (withGradients)
@@ -185,10 +234,6 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
         FindFaceScalars(
           frame, settings, points, p, projector.GetFaces(), &result.FaceScalars[4 * last]);
       }
-      if (data.Keys)
-      {
-        projected.Fourth.Code += static_cast<float>(8 * MakeKey(cell));
-      }
       if (data.Ids)
       {
         const std::int32_t high = cell / CellIdBase;
@@ -201,14 +246,15 @@ void ProjectCells(const ScreenFrame& frame, const ProjectionSettings& settings,
       }
       corners[last++] = static_cast<std::uint8_t>(count);
     }
-    counts[block] = last - begin;
+    counts[block] = last - begins[block];
   }
+  result.NumberOfTetrahedra = tetrahedra;
   result.Triangles.clear();
   result.PartBegins.clear();
   std::int64_t seen = 0;
   for (std::int64_t block = 0; block < blocks; ++block)
   {
-    const std::int64_t begin = block * BlockSize;
+    const std::int64_t begin = begins[block];
     const std::int64_t end = begin + counts[block];
     const auto push = [&](auto& values, int perCell)
     {

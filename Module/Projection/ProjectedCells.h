@@ -7,6 +7,7 @@
 
 #include "Base/Span.h"
 #include "Mesh/Gradients.h"
+#include "Projection/CellDivision.h"
 #include "Projection/CellProjection.h"
 #include "Projection/FaceScalar.h"
 #include "Projection/ProjectionSettings.h"
@@ -48,7 +49,8 @@ static_assert(sizeof(InterpolatedCell) == 4 * 36, "corners are 36 bytes apart");
 struct ProjectedCells
 {
   /// One more than are drawn: what the last corner's attributes reach into. In a perspective
-  /// without perspective interpolation InterpolatedCells in their place; the others are empty.
+  /// without perspective interpolation InterpolatedCells in their place; the others are empty. A
+  /// cell that is divided is there once for each slice of its parts.
   std::vector<ProjectedCell> Cells;
   std::vector<InterpolatedCell> InterpolatedCells;
   std::int64_t GetNumberOfCells() const
@@ -66,6 +68,8 @@ struct ProjectedCells
   /// Cells are sent and drawn in parts of so many, the last one smaller: some megabytes for a
   /// driver to keep, and corners that are numbered in 16 bits.
   static constexpr std::int64_t PartSize = 1 << 13;
+
+  std::int64_t NumberOfTetrahedra = 0; ///< that are drawn, as a whole or in parts
 
   /// Three for each triangle, of corners: corner k of the i-th cell of a part is 4 i + k. The last
   /// one is the cell's first corner, which has the data of the cell with it.
@@ -100,6 +104,12 @@ struct CellData
   /// ProjectedCells::FaceScalars.
   bool FaceScalars = false;
 
+  /// Draws the slices of each cell's parts, without face scalars, gradients and ids, and with
+  /// perspective interpolation. Own[0] is a slice's interval; Own[1] 1 where that is open below,
+  /// and 2 more where it is open above; Own[2] its index, and SliceBase times how many there are.
+  const CellDivision* Division = nullptr;
+  bool FrontToBack = true; ///< order of the slices of a cell
+
   /// Gradients in the coordinates of the mesh, of any length.
   enum class Gradient
   {
@@ -114,6 +124,7 @@ struct CellData
 
 constexpr int LargestCellKey = (1 << 12) - 1;
 constexpr std::int32_t CellIdBase = 1 << 12;
+constexpr int SliceBase = CellDivision::MostSlices;
 
 /// Projects cells in an order. points: of the whole mesh. cells: four point ids each. order: the
 /// cells to be projected; those that are not seen are missing from the result. Parallel; the same

@@ -15,6 +15,8 @@
 #include "IntegrateShadedSegmentDec.h"
 #include "IntegrateVaryingLightDec.h"
 #include "IsosurfacesDec.h"
+#include "OneIntervalDec.h"
+#include "PiecesDec.h"
 #include "ScalarBucketsDec.h"
 #include "Scene/IntegratorChoice.h"
 #include "Scene/VolumeScene.h"
@@ -199,11 +201,11 @@ std::string GpuSegmentIntegral::GetFlatDeclarations() const
   {
     code += this->OnlyThin ? "#define ONLY_THIN_SEGMENTS\n" : "";
     code += this->Curved ? "#define CURVED_COLORS\n" : "";
-    code += std::string(SegmentWeightsDec) + ScalarBucketsDec + TransferIntervalsDec;
+    code += std::string(SegmentWeightsDec) + PiecesDec + ScalarBucketsDec + TransferIntervalsDec;
   }
   if (this->Integrator == Integrator::Maximum)
   {
-    code += this->OfCells ? std::string(ScalarBucketsDec) + TransferIntervalsDec : "";
+    code += this->OfCells ? std::string(PiecesDec) + ScalarBucketsDec + TransferIntervalsDec : "";
     return code + ClassifyLargestDec;
   }
   if (this->Integrator == Integrator::VaryingLight)
@@ -219,6 +221,30 @@ std::string GpuSegmentIntegral::GetFlatDeclarations() const
     return code + (this->OfCells ? IntegrateCellEmissionDec : IntegrateEmissionDec);
   }
   return code + (this->OfCells ? IntegrateCellClosedFormDec : IntegrateClosedFormDec);
+}
+
+bool GpuSegmentIntegral::HasPartDeclarations() const
+{
+  return !this->OfCells &&
+    (this->Integrator == Integrator::ClosedForm || this->Integrator == Integrator::OpticalDepth ||
+      this->Integrator == Integrator::Emission);
+}
+
+double GpuSegmentIntegral::GetLargestPartDepth() const
+{
+  return this->Integrator == Integrator::ClosedForm ? ThinDepth
+                                                    : std::numeric_limits<double>::infinity();
+}
+
+std::string GpuSegmentIntegral::GetPartDeclarations() const
+{
+  std::string code = this->Integrator == Integrator::ClosedForm ? "#define ONLY_THIN_SEGMENTS\n" : "";
+  code += this->Curved ? "#define CURVED_COLORS\n" : "";
+  code += std::string(SegmentWeightsDec) + PiecesDec + OneIntervalDec;
+  return code +
+    (this->Integrator == Integrator::OpticalDepth   ? IntegrateOpticalDepthDec
+        : this->Integrator == Integrator::Emission ? IntegrateEmissionDec
+                                                   : IntegrateClosedFormDec);
 }
 
 void GpuSegmentIntegral::Activate(vtkShaderProgram* program)

@@ -119,6 +119,17 @@ public:
   /// The functions, to be put into a shader before its own; they change only where the name does.
   std::string GetDeclarations() const;
 
+  /// The same functions for cells that are drawn once for each interval that they have part in, see
+  /// CellDivision.h, where there are such functions. The numbers of the interval are those of
+  /// OneIntervalDec.glsl, from a vertex shader that reads transferIntervals. No part is thicker
+  /// than GetLargestPartDepth.
+  ///@{
+  bool HasPartDeclarations() const;
+  double GetLargestPartDepth() const;
+  std::string GetPartDeclarations() const;
+  bool IsCurved() const { return this->Curved; }
+  ///@}
+
   /// How segments are integrated: that of the last source.
   tetralux::Integrator GetIntegrator() const { return this->Integrator; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts a segment, along which the scalar runs linearly, where intervals of the transfer function
-// end, and walks over the pieces, front to back. Needs ScalarBucketsDec.glsl. To be used as
+// end, and walks over the pieces, front to back. Needs PiecesDec.glsl and
+// ScalarBucketsDec.glsl. To be used as
 //
 //   SegmentWalk walk = StartWalk(front, back, len);
 //   do
@@ -24,27 +25,6 @@ const float SmallestScalar = 1e-30;
 
 // Larger ones count as this, as in the mesh: all are inside of an interval.
 const float LargestScalar = 1e30;
-
-// A part of a segment on which attenuation is linear, and colour linear or a parabola; of no length
-// at times.
-struct Piece
-{
-  float FrontDepth, BackDepth; // attenuation at its ends times its length, 0..LargestDepth
-  vec3 FrontColor, BackColor;
-#ifdef CURVED_COLORS
-  vec3 Bulge; // in the middle, from the line between both ends
-#endif
-};
-
-// The colour of a piece at a share of it.
-vec3 GetPieceColor(Piece piece, float share)
-{
-  vec3 color = mix(piece.FrontColor, piece.BackColor, share);
-#ifdef CURVED_COLORS
-  color += 4.0 * share * (1.0 - share) * piece.Bulge;
-#endif
-  return color;
-}
 
 // What of a segment is left.
 struct SegmentWalk

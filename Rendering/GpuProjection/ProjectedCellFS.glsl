@@ -17,6 +17,7 @@
 //   KEYS              each cell's code has a key with it
 //   SURFACES          of constant scalar
 //   SHADED            lit: gradients are interpolated, too
+//   ONE_INTERVAL      of the transfer function, see OneIntervalDec.glsl
 //   FIRST             the distance of the first contribution instead of what is contributed
 
 //VTK::Projection::Dec
@@ -24,15 +25,6 @@
 out vec4 fragOutput0; // gl_FragData[0]
 
 //VTK::Varyings::Dec
-
-#ifndef LINEAR
-uniform float depthUnit; // world length of rayDirection where it has length 1
-#ifdef PERSPECTIVE
-uniform vec3 rayDirection; // of the pixel in the lower left, and its change from pixel to pixel
-uniform vec3 rayStepX;
-uniform vec3 rayStepY;
-#endif
-#endif
 
 //VTK::Segment::Dec
 
@@ -194,9 +186,10 @@ vec4 AddPart(View view, float near, float far)
   // Kraus et al. 2004, section 2.1: what was interpolated is divided by 1 / depth.
   float zNear = view.Z + view.Sign * near;
   float zFar = view.Z + view.Sign * far;
-  len /= zNear * zFar;
-  sNear /= zNear;
-  sFar /= zFar;
+  float inverse = 1.0 / (zNear * zFar);
+  len *= inverse;
+  sNear *= zFar * inverse;
+  sFar *= zNear * inverse;
 #endif
   sNear = clamp(sNear, view.ScalarRange.x, view.ScalarRange.y);
   sFar = clamp(sFar, view.ScalarRange.x, view.ScalarRange.y);
@@ -259,16 +252,17 @@ void main()
   float code = place.z;
   float e0 = At(face0.xyz, d);
   float e1 = At(face1.xyz, d);
-  float e2 = At(face2, d);
+  float e2 = At(face2.xyz, d);
   view.Z = At(base.xyz, d);
   view.Scalar = At(scalar, d);
   view.ScalarSlope = base.w;
   view.ScalarRange = vec2(face0.w, face1.w);
-  view.RayLength = depthUnit;
+  view.RayLength = face2.w;
 #endif
 #ifdef PERSPECTIVE
-  view.RayLength *=
-    length(rayDirection + (gl_FragCoord.x - 0.5) * rayStepX + (gl_FragCoord.y - 0.5) * rayStepY);
+  view.RayLength *= sqrt(rayLength.x +
+    d.x * (rayLength.y + d.x * rayLengthBend.x + d.y * rayLengthBend.y) +
+    d.y * (rayLength.z + d.y * rayLengthBend.z));
 #endif
 #ifdef KEYS
   float key = floor(code / 8.0);

@@ -36,12 +36,21 @@ in vec3 cellGradient3;
 
 uniform vec2 pictureSize; // pixels
 
-#ifdef LINEAR
+#ifdef ONE_INTERVAL
+uniform samplerBuffer transferIntervals; // four texels each, see TransferIntervalsDec.glsl
+
+// Beyond all scalars.
+const float LargestScalar = 1e30;
+#endif
+
+// Fragments get what they need of these as numbers of their cell: a software renderer puts each
+// uniform together anew, one pixel after the other.
+#if defined(PERSPECTIVE) || defined(LINEAR)
 uniform vec3 rayDirection; // of the pixel in the lower left, and its change from pixel to pixel
 uniform vec3 rayStepX;
 uniform vec3 rayStepY;
-uniform float depthUnit; // world length of rayDirection where it has length 1
 #endif
+uniform float depthUnit; // world length of rayDirection where it has length 1
 
 void main()
 {
@@ -56,10 +65,37 @@ void main()
   base = vec4(cellBase, cellScalars.x);
   face0 = vec4(cellFace0, cellScalars.y);
   face1 = vec4(cellFace1, cellScalars.z);
-  face2 = cellFace2;
+  face2 = vec4(cellFace2, depthUnit);
   scalar = cellScalar;
   place = cellPlace;
+#ifdef ONE_INTERVAL
+  // What other corners than the first have here is anything.
+  int intervals = textureSize(transferIntervals) / 4;
+  int texel = 4 * clamp(int(clamp(cellOwn.x, 0.0, float(intervals))), 0, intervals - 1);
+  intervalBounds = texelFetch(transferIntervals, texel);
+  bool openAbove = cellOwn.y >= 2.0;
+  bool openBelow = (openAbove ? cellOwn.y - 2.0 : cellOwn.y) >= 1.0;
+  intervalBounds.x = openBelow ? -LargestScalar : intervalBounds.x;
+  intervalBounds.y = openAbove ? LargestScalar : intervalBounds.y;
+  intervalSlopeColor = texelFetch(transferIntervals, texel + 1);
+  intervalColorSlope = texelFetch(transferIntervals, texel + 2).xyz;
+#ifdef CURVED_COLORS
+  intervalColorBend = texelFetch(transferIntervals, texel + 3).xyz;
+#endif
+#ifdef SLICES
+  float slices = floor(cellOwn.z / float(SLICES));
+  float index = cellOwn.z - float(SLICES) * slices;
+  slice = vec2(index, index + 1.0) / slices;
+#endif
+#else
   cellData = cellOwn;
+#endif
+#ifdef PERSPECTIVE
+  vec3 ray = rayDirection + (place.x - 0.5) * rayStepX + (place.y - 0.5) * rayStepY;
+  rayLength = vec3(dot(ray, ray), 2.0 * dot(ray, rayStepX), 2.0 * dot(ray, rayStepY));
+  rayLengthBend =
+    vec3(dot(rayStepX, rayStepX), 2.0 * dot(rayStepX, rayStepY), dot(rayStepY, rayStepY));
+#endif
 #endif
 #ifdef SHADED
   gradient0 = cellGradient0;

@@ -12,10 +12,28 @@ flat VARYING vec2 cellData;
 flat VARYING vec4 base;   // on the least steep face, and the slope of the scalar behind it
 flat VARYING vec4 face0;  // the three others, and the smallest and largest scalar
 flat VARYING vec4 face1;
-flat VARYING vec3 face2;
+flat VARYING vec4 face2;  // the last one, and the world length of a unit of depth
 flat VARYING vec3 scalar;
-flat VARYING vec3 place;  // reference, code
+flat VARYING vec3 place; // reference, code
+#ifdef ONE_INTERVAL
+flat VARYING vec4 intervalBounds; // see OneIntervalDec.glsl
+flat VARYING vec4 intervalSlopeColor;
+flat VARYING vec3 intervalColorSlope;
+#ifdef CURVED_COLORS
+flat VARYING vec3 intervalColorBend;
+#endif
+#ifdef SLICES
+flat VARYING vec2 slice; // shares of a segment's length where it begins and ends
+#endif
+#else
 flat VARYING vec3 cellData;
+#endif
+#ifdef PERSPECTIVE
+// Rays' squared length at a unit of depth: at the reference, its changes for a pixel right and up,
+// and those of the second degree: right twice, right and up, up twice.
+flat VARYING vec3 rayLength;
+flat VARYING vec3 rayLengthBend;
+#endif
 #endif
 #ifdef SHADED
 flat VARYING vec3 gradient0; // ProjectedGradient

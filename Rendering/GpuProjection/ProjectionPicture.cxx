@@ -32,6 +32,10 @@ namespace
 /// other, and few enough that whoever wants to abort is heard soon.
 constexpr std::size_t BatchSize = 65536;
 
+/// Cells are drawn in parts where they have no more on the average: a part costs about half of a
+/// cell that looks its intervals up.
+constexpr double MostPartsPerCell = 2;
+
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.
 constexpr float Beyond = 1e38f;
 
@@ -191,6 +195,7 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
       scene.Lights, scene.Surface, scene.Steps, scene.Grid, mesh.GetCenter(), mesh.GetRadius());
     this->Rays.emplace(scene.Grid, RayLimits(), mesh.GetCenter(), mesh.GetRadius());
   }
+  this->DivideCells(scene);
   const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
   Targets& targets = scene.Hides ? this->Apart : this->Whole;
   targets.Colors.Prepare(window, MakeSettings(scene.Grid, 4, scene.Format, scene.Hides));
@@ -202,6 +207,36 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
     return result;
   }
   return this->DrawCells(Pass::Colors, targets.Colors, scene, progress);
+}
+
+void ProjectionPicture::DivideCells(const ProjectionScene& scene)
+{
+  const VolumeScene& volume = *scene.Volume;
+  const bool linear = scene.Frame->IsPerspective() && !scene.Interpolate;
+  if (!this->Integral.HasPartDeclarations() || scene.Lighting != Lighting::None || linear ||
+    scene.Format != ChannelFormat::Float)
+  {
+    this->Division.Clear();
+    this->DivisionStamp.Reset();
+    return;
+  }
+  DivisionSource source;
+  const TetrahedralMesh& mesh = volume.Mesh.GetMesh()->GetMesh();
+  source.Intervals = volume.Optics.GetIntervalTable().Intervals;
+  source.Points = scene.Points;
+  source.Coordinates = mesh.Points;
+  source.Cells = mesh.Cells;
+  source.LengthScale = MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest;
+  source.LargestDepth = this->Integral.GetLargestPartDepth();
+  source.MostParts = MostPartsPerCell;
+  const CacheKey key = CacheKey::Of(volume.Mesh.GetCellsVersion(), volume.Mesh.GetPointsVersion(),
+    volume.Mesh.GetScalarsVersion(), volume.Optics.GetFunctionVersion(), source.LengthScale,
+    source.LargestDepth);
+  if (!this->DivisionStamp.Has(key))
+  {
+    this->Division.Make(source);
+    this->DivisionStamp.Set(key);
+  }
 }
 
 ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& target,
@@ -292,6 +327,10 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
     data.Coordinates = scene.Volume->Mesh.GetMesh()->GetMesh().Points;
   }
 
+  const bool divided = pass == Pass::Colors && !this->Division.IsEmpty();
+  data.Division = divided ? &this->Division : nullptr;
+  data.FrontToBack = scene.FrontToBack;
+
   Result result;
   PartQueue queue;
   const std::size_t size = scene.Order.size();
@@ -302,7 +341,8 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
       Span<const std::int32_t>(scene.Order.data() + begin, std::min(BatchSize, size - begin)), data,
       this->Cells);
     result.ProjectSeconds += stopwatch.GetSeconds();
-    result.Cells += this->Cells.GetNumberOfCells();
+    result.Cells += this->Cells.NumberOfTetrahedra;
+    result.Parts += this->Cells.GetNumberOfCells();
     result.Triangles += static_cast<std::int64_t>(this->Cells.Triangles.size() / 3);
     for (std::int64_t part = 0; part < this->Cells.GetNumberOfParts(); ++part)
     {
@@ -373,6 +413,15 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
       }
       else
       {
+        if (!this->Division.IsEmpty())
+        {
+          defines += "#define ONE_INTERVAL\n";
+          defines += this->Integral.IsCurved() ? "#define CURVED_COLORS\n" : "";
+          defines += this->Division.HasSlices()
+            ? "#define SLICES " + std::to_string(SliceBase) + "\n"
+            : "";
+          shader.Segment = this->Integral.GetPartDeclarations();
+        }
         shader.Output = ofCells ? "return IntegrateCell(" + cell + ", len);"
                                 : "return IntegrateSegment(front, back, len);";
       }

@@ -78,6 +78,7 @@ public:
   {
     bool Aborted = false;
     std::int64_t Cells = 0; ///< that cover any pixel's centre
+    std::int64_t Parts = 0; ///< of these cells, as they are drawn
     std::int64_t Triangles = 0;
     double ProjectSeconds = 0; ///< projecting cells, on the processor
   };
@@ -125,6 +126,7 @@ private:
   Result DrawCells(Pass pass, FloatTarget& target, const ProjectionScene& scene,
     const std::function<bool(double)>& progress);
   ProjectedCellDrawer::Shader MakeShader(Pass pass, const ProjectionScene& scene) const;
+  void DivideCells(const ProjectionScene& scene);
   void SetUniforms(vtkShaderProgram* program, const ProjectionScene& scene) const;
   /// What is drawn into.
   struct Targets
@@ -145,6 +147,8 @@ private:
   std::optional<RayGridUniforms> Rays; ///< where there is light
   ScreenProgram Classifier, Hidden;
   ProjectedCells Cells;
+  CellDivision Division; ///< empty: cells are drawn as they are
+  CacheStamp DivisionStamp;
   ContextResources Context;
 };
 
