@@ -133,8 +133,7 @@ bool CellDivision::Make(const DivisionSource& source)
     begins[cell + 1] = count;
     cells += count > 0;
   }
-  const double perCell =
-    cells > 0 ? static_cast<double>(slices) / static_cast<double>(cells) : 1;
+  const double perCell = cells > 0 ? static_cast<double>(slices) / static_cast<double>(cells) : 1;
   if (!possible || perCell > source.MostParts)
   {
     return false;

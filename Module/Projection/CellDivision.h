@@ -80,8 +80,8 @@ public:
   /// All slices of a cell in the order in which rays go through them. eyeScalar: of the field of
   /// the cell at the eye, infinite in a parallel view; rays come from there, and beyond each plane
   /// of constant scalar they stay on its other side.
-  void FindOrder(std::int32_t cell, double eyeScalar, bool frontToBack, std::vector<Slice>& result)
-    const;
+  void FindOrder(
+    std::int32_t cell, double eyeScalar, bool frontToBack, std::vector<Slice>& result) const;
 
   std::int64_t GetNumberOfSlices(std::int32_t cell) const;
 

@@ -238,11 +238,12 @@ double GpuSegmentIntegral::GetLargestPartDepth() const
 
 std::string GpuSegmentIntegral::GetPartDeclarations() const
 {
-  std::string code = this->Integrator == Integrator::ClosedForm ? "#define ONLY_THIN_SEGMENTS\n" : "";
+  std::string code =
+    this->Integrator == Integrator::ClosedForm ? "#define ONLY_THIN_SEGMENTS\n" : "";
   code += this->Curved ? "#define CURVED_COLORS\n" : "";
   code += std::string(SegmentWeightsDec) + PiecesDec + OneIntervalDec;
   return code +
-    (this->Integrator == Integrator::OpticalDepth   ? IntegrateOpticalDepthDec
+    (this->Integrator == Integrator::OpticalDepth  ? IntegrateOpticalDepthDec
         : this->Integrator == Integrator::Emission ? IntegrateEmissionDec
                                                    : IntegrateClosedFormDec);
 }

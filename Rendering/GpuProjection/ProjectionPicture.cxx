@@ -34,7 +34,7 @@ constexpr std::size_t BatchSize = 65536;
 
 /// Cells are drawn in parts where they have no more on the average: a part costs about half of a
 /// cell that looks its intervals up.
-constexpr double MostPartsPerCell = 2;
+constexpr double MostPartsPerCell = 1.6;
 
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.
 constexpr float Beyond = 1e38f;
@@ -417,9 +417,8 @@ ProjectedCellDrawer::Shader ProjectionPicture::MakeShader(
         {
           defines += "#define ONE_INTERVAL\n";
           defines += this->Integral.IsCurved() ? "#define CURVED_COLORS\n" : "";
-          defines += this->Division.HasSlices()
-            ? "#define SLICES " + std::to_string(SliceBase) + "\n"
-            : "";
+          defines +=
+            this->Division.HasSlices() ? "#define SLICES " + std::to_string(SliceBase) + "\n" : "";
           shader.Segment = this->Integral.GetPartDeclarations();
         }
         shader.Output = ofCells ? "return IntegrateCell(" + cell + ", len);"

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells that are drawn once for each interval that they have part in, beside cells that are drawn
+// whole and look intervals up: the same function with so many more nodes that parts do not pay.
+#include "RayCastScene.h"
+#include "Statistics.h"
+
+#include "vtkImageData.h"
+#include "vtkPlane.h"
+#include "vtkTetrahedraProjectionMapper.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+/// Of a channel: roundings of single precision, of a hundred pieces that a ray may cross.
+constexpr double Rounding = 1e-5;
+
+class PartsScene : public RayCastScene
+{
+public:
+  PartsScene()
+  {
+    this->Use(this->Projection);
+    this->Projection->SetMaximumError(0); // or nodes on a line would be left out
+    this->Projection->AutoAdjustSampleDistancesOff();
+  }
+
+  /// Draws the same picture both ways.
+  void Expect(const char* name)
+  {
+    SCOPED_TRACE(name);
+    const std::vector<float> parts = this->Render(1);
+    const int cells = this->Count("tetrahedra_drawn");
+    EXPECT_GT(this->Count("parts_drawn"), cells);
+    const std::vector<float> whole = this->Render(100);
+    EXPECT_EQ(this->Count("tetrahedra_drawn"), cells);
+    EXPECT_EQ(this->Count("parts_drawn"), cells);
+    ExpectSamePicture(parts, whole, Rounding, name);
+  }
+
+  /// steps: from each node to the next.
+  std::vector<float> Render(int steps)
+  {
+    constexpr int Size = 6; // scalar, red, green, blue, opacity, and none
+    const std::vector<std::array<double, Size>> nodes = { { -0.6, 0.1, 0.2, 0.9, 0.1 },
+      { 2, 1, 0.8, 0.5, 0.9 } };
+    this->Color->RemoveAllPoints();
+    this->Opacity->RemoveAllPoints();
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
+    {
+      for (int step = 0; step <= steps; ++step)
+      {
+        double at[Size];
+        for (int c = 0; c < Size; ++c)
+        {
+          at[c] = nodes[k][c] + (nodes[k + 1][c] - nodes[k][c]) * step / steps;
+        }
+        this->Color->AddRGBPoint(at[0], at[1], at[2], at[3]);
+        this->Opacity->AddPoint(at[0], at[4]);
+      }
+    }
+    this->Window->Render();
+    const vtkIdType size = 4 * this->Projection->GetOutputImage()->GetNumberOfPoints();
+    return { this->GetColors(), this->GetColors() + size };
+  }
+
+  int Count(const char* name) { return std::stoi(GetStatistic(this->Projection, name)); }
+
+  void SetUnitDistance(double distance)
+  {
+    this->Volume->GetProperty()->SetScalarOpacityUnitDistance(distance);
+  }
+
+  vtkNew<vtkTetrahedraProjectionMapper> Projection;
+};
+
+TEST(ProjectionMapperParts, Views)
+{
+  PartsScene scene;
+  scene.Expect("perspective");
+  scene.SetCamera({ 0.5, 0.45, 0.55 }, { 0.9, 0.3, 0.1 }, { 0, 1, 0 });
+  scene.ViewAngle = 90;
+  scene.Expect("from inside");
+  scene.SetCamera({ -2, 0.6, 0.3 }, { 0.5, 0.5, 0.5 }, { 0, 0, 1 });
+  scene.ViewAngle = 30;
+  scene.Expect("along an axis");
+}
+
+TEST(ProjectionMapperParts, ParallelView)
+{
+  PartsScene scene;
+  scene.Parallel = true;
+  scene.SetCamera({ 2, 1.5, 3 }, { 0.5, 0.5, 0.5 }, { 0, 1, 0 });
+  scene.Expect("parallel");
+}
+
+TEST(ProjectionMapperParts, ThickCellsAreSliced)
+{
+  PartsScene scene;
+  scene.Render(1);
+  const int thin = scene.Count("parts_drawn");
+  scene.SetUnitDistance(0.17);
+  scene.Expect("thick");
+  scene.Render(1);
+  EXPECT_GT(scene.Count("parts_drawn"), thin);
+  // Slices of cells as thick as this would be too many: they are drawn whole.
+  scene.SetUnitDistance(1e-4);
+  scene.Render(1);
+  EXPECT_EQ(scene.Count("parts_drawn"), scene.Count("tetrahedra_drawn"));
+}
+
+TEST(ProjectionMapperParts, OpticalModels)
+{
+  PartsScene scene;
+  scene.Projection->SetBlendModeToAdditive();
+  scene.Expect("emission alone");
+  scene.Projection->SetBlendModeToComposite();
+  scene.SetUnitDistance(2);
+  scene.Expect("thin");
+}
+
+TEST(ProjectionMapperParts, LimitedRays)
+{
+  PartsScene scene;
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0.5, 0.5, 0.5);
+  plane->SetNormal(0.3, -0.2, -1);
+  scene.Projection->AddClippingPlane(plane);
+  scene.Expect("clipped");
+  scene.Projection->CroppingOn();
+  scene.Projection->SetCroppingRegionPlanes(0.2, 0.7, 0.3, 0.6, 0.25, 0.8);
+  scene.Projection->SetCroppingRegionFlagsToCross();
+  scene.Expect("cropped");
+}
+
+} // namespace
