@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <future>
 #include <stdexcept>
 
 namespace tetralux
@@ -28,9 +29,9 @@ namespace tetralux
 namespace
 {
 
-/// Cells that are projected at once, 8 MB: enough for all threads, which wait busily for each
-/// other, and few enough that whoever wants to abort is heard soon.
-constexpr std::size_t BatchSize = 65536;
+/// Cells that are projected at once, 4 MB: enough for all threads, and few enough that the first
+/// of them, which nothing is drawn beside, take little of a frame.
+constexpr std::size_t BatchSize = 32768;
 
 /// Cells are drawn in parts where they have no more on the average: a part costs about half of a
 /// cell that looks its intervals up.
@@ -331,15 +332,31 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
   data.Division = divided ? &this->Division : nullptr;
   data.FrontToBack = scene.FrontToBack;
 
-  Result result;
-  PartQueue queue;
   const std::size_t size = scene.Order.size();
-  for (std::size_t begin = 0; begin < size && !result.Aborted; begin += BatchSize)
+  const auto project = [&](std::size_t begin)
   {
-    const Stopwatch stopwatch;
     ProjectCells(*scene.Frame, settings, scene.Points, cells,
       Span<const std::int32_t>(scene.Order.data() + begin, std::min(BatchSize, size - begin)), data,
-      this->Cells);
+      this->NextCells);
+  };
+  // One batch is projected while the last one is drawn.
+  std::future<void> next;
+  const auto begin = [&](std::size_t first)
+  {
+    if (first < size)
+    {
+      next = std::async(std::launch::async, project, first);
+    }
+  };
+  Result result;
+  PartQueue queue;
+  begin(0);
+  for (std::size_t first = 0; first < size && !result.Aborted; first += BatchSize)
+  {
+    const Stopwatch stopwatch;
+    next.get();
+    std::swap(this->Cells, this->NextCells);
+    begin(first + BatchSize);
     result.ProjectSeconds += stopwatch.GetSeconds();
     result.Cells += this->Cells.NumberOfTetrahedra;
     result.Parts += this->Cells.GetNumberOfCells();
@@ -351,7 +368,7 @@ ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& t
       queue.Add();
     }
     result.Aborted = progress &&
-      !progress(static_cast<double>(std::min(begin + BatchSize, size)) / static_cast<double>(size));
+      !progress(static_cast<double>(std::min(first + BatchSize, size)) / static_cast<double>(size));
   }
 
   queue.Finish();

@@ -80,7 +80,7 @@ public:
     std::int64_t Cells = 0; ///< that cover any pixel's centre
     std::int64_t Parts = 0; ///< of these cells, as they are drawn
     std::int64_t Triangles = 0;
-    double ProjectSeconds = 0; ///< projecting cells, on the processor
+    double ProjectSeconds = 0; ///< waiting for cells to be projected, on the processor
   };
 
   /// Draws the colours, the cells in batches, and waits until they are drawn. progress: told the
@@ -104,10 +104,15 @@ public:
   void ReadDistances(const ProjectionScene& scene, Span<float> depths);
   ///@}
 
-  /// Bytes: of the cells that were projected last, for reuse; and on the graphics card of the
-  /// largest part of them, of the functions of the integral, and of the pictures.
+  /// Bytes: of the cells that were projected last, for reuse, and how cells are divided; and on the
+  /// graphics card of the largest part of them, of the functions of the integral, and of the
+  /// pictures.
   ///@{
-  std::size_t GetNumberOfCellBytes() const { return this->Cells.GetNumberOfBytes(); }
+  std::size_t GetNumberOfCellBytes() const
+  {
+    return this->Cells.GetNumberOfBytes() + this->NextCells.GetNumberOfBytes() +
+      this->Division.GetNumberOfBytes();
+  }
   std::size_t GetNumberOfPartBytes() const { return this->Drawer.GetNumberOfBytes(); }
   std::size_t GetNumberOfIntegralBytes() const;
   std::size_t GetNumberOfPictureBytes() const;
@@ -146,8 +151,9 @@ private:
   GpuLighting Lighting;
   std::optional<RayGridUniforms> Rays; ///< where there is light
   ScreenProgram Classifier, Hidden;
-  ProjectedCells Cells;
-  CellDivision Division; ///< empty: cells are drawn as they are
+  ProjectedCells Cells;     ///< that are drawn
+  ProjectedCells NextCells; ///< that are projected meanwhile
+  CellDivision Division;    ///< empty: cells are drawn as they are
   CacheStamp DivisionStamp;
   ContextResources Context;
 };
