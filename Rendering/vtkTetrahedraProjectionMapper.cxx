@@ -342,7 +342,8 @@ void vtkTetrahedraProjectionMapper::Internals::Draw(MapperFrame& frame, const Vi
   const tetralux::Stopwatch stopwatch;
   const tetralux::ProjectionPicture::Result result = this->Picture.Draw(frame.Window, this->Scene,
     [&frame](double fraction) { return frame.ReportProgress(fraction); });
-  frame.RaySeconds = stopwatch.GetSeconds() - result.ProjectSeconds;
+  frame.RaySeconds = stopwatch.GetSeconds() - result.ProjectSeconds - result.DivideSeconds;
+  frame.Seconds.emplace_back("divide", result.DivideSeconds);
   frame.Seconds.emplace_back("project", result.ProjectSeconds);
   for (const auto& [stage, seconds] : frame.Seconds)
   {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace tetralux
 {
@@ -15,6 +16,9 @@ using Part = CellDivision::Part;
 
 /// Scalars beyond this are not in intervals as shaders compare them.
 constexpr double LargestScalar = 1e30;
+
+/// More are not counted in 32 bits.
+constexpr std::int64_t MostSlicesOfAll = std::numeric_limits<std::uint32_t>::max();
 
 float Evaluate(const Interval& interval, float scalar)
 {
@@ -115,14 +119,14 @@ bool CellDivision::Make(const DivisionSource& source)
   std::transform(source.Intervals.begin(), source.Intervals.end(), ends.begin(),
     [](const Interval& interval) { return interval.Hi; });
   const auto n = static_cast<std::int64_t>(source.Cells.size() / 4);
-  std::vector<std::int64_t> begins(n + 1, 0);
+  std::vector<std::uint32_t> begins(n + 1, 0);
   bool possible = true;
   std::int64_t cells = 0;
   std::int64_t slices = 0;
 #pragma omp parallel for schedule(static) reduction(&& : possible) reduction(+ : cells, slices)
   for (std::int64_t cell = 0; cell < n; ++cell)
   {
-    std::int64_t count = 0;
+    std::uint32_t count = 0;
     possible = Divide(source, ends, cell,
                  [&](const Part& part)
                  {
@@ -134,16 +138,12 @@ bool CellDivision::Make(const DivisionSource& source)
     cells += count > 0;
   }
   const double perCell = cells > 0 ? static_cast<double>(slices) / static_cast<double>(cells) : 1;
-  if (!possible || perCell > source.MostParts)
+  if (!possible || perCell > source.MostParts || slices > MostSlicesOfAll)
   {
     return false;
   }
-  std::int64_t sum = 0;
-  for (std::int64_t& begin : begins)
-  {
-    sum += begin;
-    begin = sum;
-  }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  const std::int64_t sum = begins.back();
   this->Parts.resize(sum);
 #pragma omp parallel for schedule(static)
   for (std::int64_t cell = 0; cell < n; ++cell)

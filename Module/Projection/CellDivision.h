@@ -73,8 +73,8 @@ public:
   /// Of a cell, ascending in scalar.
   Span<const Part> GetParts(std::int32_t cell) const
   {
-    const std::int64_t begin = this->Begins[cell];
-    return { this->Parts.data() + begin, static_cast<std::size_t>(this->Begins[cell + 1] - begin) };
+    const std::uint32_t begin = this->Begins[cell];
+    return { this->Parts.data() + begin, this->Begins[cell + 1] - begin };
   }
 
   /// All slices of a cell in the order in which rays go through them. eyeScalar: of the field of
@@ -87,13 +87,13 @@ public:
 
   std::size_t GetNumberOfBytes() const
   {
-    return this->Parts.capacity() * sizeof(Part) + this->Begins.capacity() * sizeof(std::int64_t);
+    return this->Parts.capacity() * sizeof(Part) + this->Begins.capacity() * sizeof(std::uint32_t);
   }
 
 private:
   std::vector<Part> Parts;
-  std::vector<std::int64_t> Begins; ///< of each cell's parts, and the end
-  std::vector<float> Ends;          ///< of intervals, above
+  std::vector<std::uint32_t> Begins; ///< of each cell's parts, and the end
+  std::vector<float> Ends;           ///< of intervals, above
   bool Sliced = false;
   double PartsPerCell = 1;
 };

@@ -196,7 +196,18 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
       scene.Lights, scene.Surface, scene.Steps, scene.Grid, mesh.GetCenter(), mesh.GetRadius());
     this->Rays.emplace(scene.Grid, RayLimits(), mesh.GetCenter(), mesh.GetRadius());
   }
+  const Stopwatch stopwatch;
   this->DivideCells(scene);
+  const double divideSeconds = stopwatch.GetSeconds();
+  Result result = this->DrawPicture(scene, progress);
+  result.DivideSeconds = divideSeconds;
+  return result;
+}
+
+ProjectionPicture::Result ProjectionPicture::DrawPicture(
+  const ProjectionScene& scene, const std::function<bool(double)>& progress)
+{
+  vtkOpenGLRenderWindow* window = this->Context.Get();
   const vtkOpenGLState::ScopedglActiveTexture unit(window->GetState());
   Targets& targets = scene.Hides ? this->Apart : this->Whole;
   targets.Colors.Prepare(window, MakeSettings(scene.Grid, 4, scene.Format, scene.Hides));

@@ -80,6 +80,7 @@ public:
     std::int64_t Cells = 0; ///< that cover any pixel's centre
     std::int64_t Parts = 0; ///< of these cells, as they are drawn
     std::int64_t Triangles = 0;
+    double DivideSeconds = 0;  ///< dividing cells by a new function
     double ProjectSeconds = 0; ///< waiting for cells to be projected, on the processor
   };
 
@@ -128,6 +129,7 @@ private:
     LargestScalars,
     FirstDistances
   };
+  Result DrawPicture(const ProjectionScene& scene, const std::function<bool(double)>& progress);
   Result DrawCells(Pass pass, FloatTarget& target, const ProjectionScene& scene,
     const std::function<bool(double)>& progress);
   ProjectedCellDrawer::Shader MakeShader(Pass pass, const ProjectionScene& scene) const;
