@@ -67,7 +67,8 @@ struct ProjectedCells
 
   /// Cells are sent and drawn in parts of so many, the last one smaller: some megabytes for a
   /// driver to keep, and corners that are numbered in 16 bits.
-  static constexpr std::int64_t PartSize = 1 << 13;
+  static constexpr std::int64_t PartSize = 1 << 14;
+  static_assert(4 * PartSize <= 1 << 16, "corners are numbered in 16 bits");
 
   std::int64_t NumberOfTetrahedra = 0; ///< that are drawn, as a whole or in parts
 

@@ -35,7 +35,7 @@ constexpr std::size_t BatchSize = 32768;
 
 /// Cells are drawn in parts where they have no more on the average: a part costs about half of a
 /// cell that looks its intervals up.
-constexpr double MostPartsPerCell = 1.6;
+constexpr double MostPartsPerCell = 1.8;
 
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.
 constexpr float Beyond = 1e38f;
