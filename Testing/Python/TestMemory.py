@@ -21,7 +21,7 @@ VOXELS = 48  # along an edge, each of five tetrahedra
 
 # Bytes that a process may grow by beside what is named: what Mesa makes of two parts of cells, a
 # picture, and memory that the C library keeps though it was freed.
-UNNAMED = 25e6
+UNNAMED = 30e6
 
 # The share of what is named that may not be in memory: pages that nothing was written to yet.
 UNUSED = 0.15
