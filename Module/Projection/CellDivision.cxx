@@ -154,7 +154,6 @@ bool CellDivision::Make(const DivisionSource& source)
   this->Begins = std::move(begins);
   this->Ends = std::move(ends);
   this->Sliced = slices > sum;
-  this->PartsPerCell = perCell;
   return true;
 }
 

@@ -31,7 +31,7 @@ struct DivisionSource
   /// there are no slices.
   double LargestDepth = 0;
 
-  /// Divisions that have more parts than this for each cell that has any are not made.
+  /// Divisions that have more slices than this for each cell that has any are not made.
   double MostParts = 0;
 };
 
@@ -67,9 +67,6 @@ public:
   bool IsEmpty() const { return this->Begins.empty(); }
   bool HasSlices() const { return this->Sliced; } ///< any part has more than one
 
-  /// Parts for each cell that has any.
-  double GetPartsPerCell() const { return this->PartsPerCell; }
-
   /// Of a cell, ascending in scalar.
   Span<const Part> GetParts(std::int32_t cell) const
   {
@@ -95,7 +92,6 @@ private:
   std::vector<std::uint32_t> Begins; ///< of each cell's parts, and the end
   std::vector<float> Ends;           ///< of intervals, above
   bool Sliced = false;
-  double PartsPerCell = 1;
 };
 
 } // namespace tetralux

@@ -255,8 +255,17 @@ TEST_F(CellDivisionTest, IsNotMadeOfTooManyParts)
   CellDivision division;
   DivisionSource source = this->MakeSource(table, Infinity);
   ASSERT_TRUE(division.Make(source));
-  const double perCell = division.GetPartsPerCell();
+  std::int64_t parts = 0;
+  int cells = 0;
+  for (int cell = 0; cell < NumberOfCells; ++cell)
+  {
+    parts += division.GetNumberOfSlices(cell);
+    cells += division.GetParts(cell).empty() ? 0 : 1;
+  }
+  const double perCell = static_cast<double>(parts) / cells;
   EXPECT_GT(perCell, 1);
+  source.MostParts = 1.01 * perCell;
+  EXPECT_TRUE(division.Make(source));
   source.MostParts = 0.99 * perCell;
   EXPECT_FALSE(division.Make(source));
   EXPECT_TRUE(division.IsEmpty());
