@@ -238,8 +238,8 @@ TETRALUX_INLINE Double8 DifferenceOfProducts(Double8 a, Double8 b, Double8 c, Do
   return difference + error;
 }
 
-// Gathers. Rows and pairs come by one load each, which takes a third less of a ray caster's step than
-// the processor's own instructions; those gather what is left.
+// Gathers. A row or pair comes by one load: by the processor's own instructions a step of the ray
+// caster takes a third longer. Those gather what is left.
 
 TETRALUX_INLINE __m256i GetLow(Int8 a) { return _mm512_castsi512_si256(a.v); }
 TETRALUX_INLINE __m256i GetHigh(Int8 a) { return _mm512_extracti32x8_epi32(a.v, 1); }
