@@ -127,12 +127,7 @@ BenchSceneResult MeasureScene(const BenchScene& scene, const BenchOptions& optio
   result.Height = options.Scene.Height;
   std::cout << scene.Name << ": " << scene.Description << std::endl;
 
-  BenchMeasurement reference =
-    scene.IsOfImages() ? MeasureIntegral(run) : Measure(run, GetReferenceSetting(scene));
-  if (!reference.Row.Failure.empty())
-  {
-    throw WorkError("'" + scene.Name + "': " + reference.Row.Failure);
-  }
+  BenchMeasurement reference = MeasureIntegral(run);
   Compare(run, reference.Picture, reference);
   if (reference.Row.Errors.NumberOfPixels == 0)
   {

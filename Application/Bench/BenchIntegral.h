@@ -5,7 +5,8 @@
 struct BenchMeasurement;
 struct BenchRun;
 
-/// Integrates the rays of a scene of image data, once: the reference of such a scene.
+/// Integrates the rays of a scene, once, in double precision: the reference. Throws
+/// WorkError, with one line, if the scene can't be prepared.
 BenchMeasurement MeasureIntegral(const BenchRun& run);
 
 #endif

@@ -12,8 +12,8 @@ struct BenchSetting
   std::string Group;
   std::string Description; ///< what it is, or what is switched off
 
-  /// A method of this project, as --method takes it, "integral" for the reference of image data, or
-  /// a mapper of VTK:
+  /// A method of this project, as --method takes it, "integral" for the reference, or a mapper of
+  /// VTK:
   /// "vtk-projected-tetrahedra",
   /// "vtk-bunyk" (vtkUnstructuredGridVolumeRayCastMapper with its defaults),
   /// "vtk-bunyk-preintegration" (with vtkUnstructuredGridPreIntegration),

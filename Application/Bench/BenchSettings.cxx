@@ -326,8 +326,8 @@ BenchSetting GetReferenceSetting(const BenchScene& scene)
     return { ReferenceSettingName, group,
       "integral of the trilinear field along each ray, in double precision", "integral", {} };
   }
-  return { ReferenceSettingName, group, "closed form, double precision, rays to their ends",
-    "ray-cast", { ClosedForm, DoublePrecision, ToTheEnd } };
+  return { ReferenceSettingName, group, "each cell's integral along each ray, in double precision",
+    "integral", {} };
 }
 
 BenchData FindBenchData(const BenchOptions& options)

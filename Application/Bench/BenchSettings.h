@@ -15,8 +15,7 @@ constexpr const char* DefaultSettingName = "default";
 /// Name of the setting that counts as right.
 constexpr const char* ReferenceSettingName = "reference";
 
-/// The most exact setting of a scene: of cells the closed form, in double precision, with rays to
-/// their ends; of image data the integral, which is no mapper's.
+/// What a scene's settings are measured against: the integral along rays, which is no mapper's.
 BenchSetting GetReferenceSetting(const BenchScene& scene);
 
 /// What the user's settings render.
