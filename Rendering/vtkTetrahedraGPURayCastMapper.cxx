@@ -374,9 +374,8 @@ void vtkTetrahedraGPURayCastMapper::Internals::UpdateOrientation(const tetralux:
   this->Positive.Update(tetralux::CacheKey::Of(scene.Mesh.GetPointsVersion()),
     [&mesh]
     {
-      const auto& faces = mesh.GetTables().Faces;
       return tetralux::OrientCells(
-        mesh.GetMesh().Points, mesh.GetMesh().Cells, { faces.data(), faces.size() });
+        mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces);
     });
 }
 

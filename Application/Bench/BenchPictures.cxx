@@ -46,9 +46,7 @@ vtkSmartPointer<vtkImageData> Shrink(vtkImageShrink3D* shrinker, vtkImageData* i
 tetralux::ImageErrors MeasureErrors(const BenchPicture& picture, const BenchPicture& reference)
 {
   const std::vector<double> expected(reference.Rgba.begin(), reference.Rgba.end());
-  return tetralux::CompareWithReference(
-    { picture.Rgba.data(), picture.Rgba.size() }, { expected.data(), expected.size() })
-    .Covered;
+  return tetralux::CompareWithReference(picture.Rgba, expected).Covered;
 }
 
 vtkSmartPointer<vtkImageData> MakeImage(const BenchPicture& picture)

@@ -21,13 +21,14 @@ public:
     , Size(size)
   {
   }
-  Span(std::vector<std::remove_const_t<T>>& v)
+  template <class Allocator>
+  Span(std::vector<std::remove_const_t<T>, Allocator>& v)
     : Data(v.data())
     , Size(v.size())
   {
   }
-  template <class U = T, class = std::enable_if_t<std::is_const_v<U>>>
-  Span(const std::vector<std::remove_const_t<T>>& v)
+  template <class Allocator, class U = T, class = std::enable_if_t<std::is_const_v<U>>>
+  Span(const std::vector<std::remove_const_t<T>, Allocator>& v)
     : Data(v.data())
     , Size(v.size())
   {

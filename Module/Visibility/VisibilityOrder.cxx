@@ -169,7 +169,7 @@ VisibilityGeometry MakeGeometry(const WalkMesh& mesh, Span<const std::int32_t> i
   std::copy_n(mesh.GetCenter(), 3, geometry.Center.begin());
   geometry.Radius = mesh.GetRadius();
   const WalkTables& tables = imaginaryCells.empty() ? mesh.GetTables() : mesh.GetConvexTables();
-  geometry.Faces = { tables.Faces.data(), tables.Faces.size() };
+  geometry.Faces = tables.Faces;
   if (!imaginaryCells.empty())
   {
     geometry.SteinerPoints = mesh.GetConvexification()->SteinerPoints;

@@ -51,8 +51,7 @@ struct Scene
   {
     this->Geometry.Points = this->Mesh.GetMesh().Points;
     this->Geometry.Cells = this->Mesh.GetMesh().Cells;
-    const auto& faces = this->Mesh.GetTables().Faces;
-    this->Geometry.Faces = { faces.data(), faces.size() };
+    this->Geometry.Faces = this->Mesh.GetTables().Faces;
     this->Geometry.Boundary = &this->Mesh.GetTables();
     this->Geometry.RelativePoints = this->Mesh.GetPoints<float>();
     std::copy_n(this->Mesh.GetCenter(), 3, this->Geometry.Center.begin());

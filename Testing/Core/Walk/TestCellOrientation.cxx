@@ -17,9 +17,7 @@ using tetralux::WalkMesh;
 
 std::vector<std::uint8_t> Orient(const WalkMesh& mesh)
 {
-  const auto& faces = mesh.GetTables().Faces;
-  return tetralux::OrientCells(
-    mesh.GetMesh().Points, mesh.GetMesh().Cells, { faces.data(), faces.size() });
+  return tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces);
 }
 
 double GetSignedVolume(const tetralux::TetrahedralMesh& mesh, std::size_t cell)

@@ -27,8 +27,7 @@ WalkMesh MakeRing()
 WalkTexels MakeTexels(const WalkMesh& mesh)
 {
   return tetralux::MakeWalkTexels(mesh.GetTables(),
-    tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells,
-      { mesh.GetTables().Faces.data(), mesh.GetTables().Faces.size() }));
+    tetralux::OrientCells(mesh.GetMesh().Points, mesh.GetMesh().Cells, mesh.GetTables().Faces));
 }
 
 // Each boundary face once, with the face's own index, and seen from outside: a ray that comes in
