@@ -8,6 +8,7 @@
 #include "Intake/ScalarExtraction.h"
 #include "Intake/TetrahedraIntake.h"
 #include "RayCast/RayCaster.h"
+#include "ReferenceGrazing.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 #include "Walk/WalkMesh.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayScene.h"
+#include "ReferenceGrazing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests of the tests' own oracle: its integral against quadrature with fifty digits, its pictures
 // against scenes whose radiance is known in closed form.
+#include "ReferenceGrazing.h"
 #include "ReferenceIntegral.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"

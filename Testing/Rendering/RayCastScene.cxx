@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastScene.h"
 
+#include "ReferenceGrazing.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 

@@ -5,6 +5,7 @@
 #include "Frame/RendererLights.h"
 #include "Generate/GeneratedMeshes.h"
 #include "RayCastScene.h"
+#include "ReferenceGrazing.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 

@@ -4,6 +4,7 @@
 // mapper, against the brute-force renderer of the same tetrahedra. The environment variable
 // TETRALUX_PARTS_ROUNDS sets how many scenes are tried, TETRALUX_PARTS_FIRST the first one.
 #include "RayCastScene.h"
+#include "ReferenceGrazing.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"
 

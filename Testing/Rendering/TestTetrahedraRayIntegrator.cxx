@@ -2,6 +2,7 @@
 #include "vtkTetrahedraRayIntegrator.h"
 
 #include "Observer.h"
+#include "ReferenceGrazing.h"
 #include "ReferenceIntegral.h"
 #include "ReferenceRenderer.h"
 #include "ReferenceScenes.h"

@@ -6,6 +6,7 @@
 
 #include "Generate/GeneratedMeshes.h"
 #include "MeshParts.h"
+#include "ReferenceGrazing.h"
 #include "View/RayDisplacements.h"
 
 #include <gtest/gtest.h>

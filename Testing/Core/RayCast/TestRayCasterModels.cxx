@@ -3,6 +3,7 @@
 // The optical models of the ray caster against the reference renderer.
 
 #include "RayScene.h"
+#include "ReferenceGrazing.h"
 
 #include <gtest/gtest.h>
 
