@@ -28,7 +28,7 @@ struct ComponentSum
   Float8 Color[3] = { 0.f, 0.f, 0.f };
 };
 
-/// N components. Gradients: as of CompositeModel.
+/// N components. Gradients: as of LitBuffer.
 template <class Value, int N, class Gradients>
 class ComponentsModel : public CompositingBuffer
 {

@@ -5,15 +5,14 @@
 // What emits and absorbs, looked up at each sample.
 
 #include "Simd/LaneFunctions.h"
-#include "TriangleCaster/CompositingBuffer.h"
 #include "TriangleCaster/GradientModel.h"
 #include "TriangleCaster/ImageSample.h"
+#include "TriangleCaster/LitBuffer.h"
 #include "TriangleCaster/TransferLanes.h"
 #include "TriangleCaster/TransferTableLanes.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <type_traits>
 
 namespace tetralux
 {
@@ -22,18 +21,14 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// Samples at the middle of stretches. Gradients: NoGradients, or GradientModel where lights shine,
-/// or opacity depends on gradients.
+/// Samples at the middle of stretches. Gradients: as of LitBuffer.
 template <class Value, class Intervals, class Gradients>
-class CompositeModel : public CompositingBuffer
+class CompositeModel : public LitBuffer<Gradients>
 {
 public:
-  static constexpr bool AtEnds = false;
-
   CompositeModel(const ImageKernelInput& in, const ImageRays& rays)
-    : CompositingBuffer(in, rays)
+    : LitBuffer<Gradients>(in, rays)
     , Short(!Any(Float8(MostOfShortStep) < LoadFloat8(rays.StepLength)))
-    , Gradient(in, rays)
   {
   }
 
@@ -54,7 +49,7 @@ public:
 
 private:
   using Field = typename Gradients::template Field<Value>;
-  static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
+  using LitBuffer<Gradients>::UsesGradients;
 
   TETRALUX_INLINE void AddScalar(
     const ImageKernelInput& in, const ImageSample& sample, Field& field, Float8 scalar)
@@ -98,17 +93,8 @@ private:
       {
         std::copy(entry.C, entry.C + 3, color);
       }
-      if (in.Lighting)
-      {
-        this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
-      }
     }
-    Cue(in, sample, color);
-    for (Float8& channel : color)
-    {
-      channel = Keep(visible, channel);
-    }
-    this->AddSample(sample, opacity, color);
+    this->AddLit(in, sample, visible, gradient, opacity, color);
   }
 
   /// Of a stretch.
@@ -130,7 +116,6 @@ private:
   static_assert(0.2877f * MostOfShortStep < MostOfShortExp, "steps are too long");
 
   bool Short; ///< all steps are
-  Gradients Gradient;
 };
 
 template <class Value, class Intervals>

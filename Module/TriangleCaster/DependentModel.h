@@ -7,11 +7,10 @@
 #include "Simd/LaneFunctions.h"
 #include "TriangleCaster/ClassifiedLanes.h"
 #include "TriangleCaster/ComponentLanes.h"
-#include "TriangleCaster/CompositingBuffer.h"
 #include "TriangleCaster/GradientModel.h"
+#include "TriangleCaster/LitBuffer.h"
 
 #include <algorithm>
-#include <type_traits>
 
 namespace tetralux
 {
@@ -20,18 +19,12 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// N, 2 or 4, components; ImageComponents::Dependent. Gradients: as of CompositeModel.
+/// N, 2 or 4, components; ImageComponents::Dependent. Gradients: as of LitBuffer.
 template <class Value, int N, class Gradients>
-class DependentModel : public CompositingBuffer
+class DependentModel : public LitBuffer<Gradients>
 {
 public:
-  static constexpr bool AtEnds = false;
-
-  DependentModel(const ImageKernelInput& in, const ImageRays& rays)
-    : CompositingBuffer(in, rays)
-    , Gradient(in, rays)
-  {
-  }
+  using LitBuffer<Gradients>::LitBuffer;
 
   TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample)
   {
@@ -78,30 +71,16 @@ public:
         color[c] = Fma(value[c], Float8(in.ColorScale[c]), Float8(in.ColorOffset[c]));
       }
     }
-    if constexpr (UsesGradients)
-    {
-      if (in.Lighting)
-      {
-        this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
-      }
-    }
-    Cue(in, sample, color);
-    for (Float8& channel : color)
-    {
-      channel = Keep(visible, channel);
-    }
-    this->AddSample(sample, opacity, color);
+    this->AddLit(in, sample, visible, gradient, opacity, color);
   }
 
 private:
-  static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
+  using LitBuffer<Gradients>::UsesGradients;
 
   static TETRALUX_INLINE Float8 GetScalar(const ImageKernelInput& in, Float8 value)
   {
     return Fma(value, Float8(in.ValueScale), Float8(in.ValueOffset));
   }
-
-  Gradients Gradient;
 };
 
 } // namespace

@@ -5,12 +5,10 @@
 // Labels that choose among functions, composited front to back.
 
 #include "Simd/LaneFunctions.h"
-#include "TriangleCaster/CompositingBuffer.h"
 #include "TriangleCaster/GradientModel.h"
+#include "TriangleCaster/LitBuffer.h"
 #include "TriangleCaster/MaskLanes.h"
 #include "TriangleCaster/TransferLanes.h"
-
-#include <type_traits>
 
 namespace tetralux
 {
@@ -19,18 +17,12 @@ namespace TETRALUX_ISA
 namespace
 {
 
-/// ImageOptics::Labels. Gradients: as of CompositeModel.
+/// ImageOptics::Labels. Gradients: as of LitBuffer.
 template <class Value, class Gradients>
-class LabelModel : public CompositingBuffer
+class LabelModel : public LitBuffer<Gradients>
 {
 public:
-  static constexpr bool AtEnds = false;
-
-  LabelModel(const ImageKernelInput& in, const ImageRays& rays)
-    : CompositingBuffer(in, rays)
-    , Gradient(in, rays)
-  {
-  }
+  using LitBuffer<Gradients>::LitBuffer;
 
   TETRALUX_INLINE void Add(const ImageKernelInput& in, const ImageSample& sample)
   {
@@ -78,23 +70,11 @@ public:
     {
       return;
     }
-    if constexpr (UsesGradients)
-    {
-      if (in.Lighting)
-      {
-        this->Gradient.Light(in, *in.Lighting, sample, gradient, color);
-      }
-    }
-    Cue(in, sample, color);
-    for (Float8& channel : color)
-    {
-      channel = Keep(visible, channel);
-    }
-    this->AddSample(sample, opacity, color);
+    this->AddLit(in, sample, visible, gradient, opacity, color);
   }
 
 private:
-  static constexpr bool UsesGradients = !std::is_same_v<Gradients, NoGradients>;
+  using LitBuffer<Gradients>::UsesGradients;
 
   /// The opacity of a step, of one function of each lane.
   static TETRALUX_INLINE Float8 FindOpacity(const ImageKernelInput& in, const ImageSample& sample,
@@ -111,8 +91,6 @@ private:
     const Float8 depth = (in.Power ? MinusLogOfRest(scalarOpacity) : scalarOpacity) * sample.Length;
     return Keep(visible, OneMinusExp(depth));
   }
-
-  Gradients Gradient;
 };
 
 } // namespace
