@@ -183,7 +183,14 @@ TETRALUX_INLINE void CutAtNodes(
       const Mask8 last = (t.Lo <= f1) & (f1 <= t.Hi);
       more = AndNot(valid, last);
       s = Min(Max(s1, bottom), head);
-      z = Select(last, z1, Fma((s - s0) / (s1 - s0), z1 - z0, z0));
+      V share = (s - s0) / (s1 - s0);
+      if constexpr (sizeof(Real) > sizeof(float))
+      {
+        // What was compared as rounded may lie just outside of the interval, on the side of s1.
+        // Its end then is in front of z0.
+        share = Max(V(Real(0)), share);
+      }
+      z = Select(last, z1, Fma(share, z1 - z0, z0));
     }
     V x[2] = { s0, s };
     if constexpr (sizeof(Real) > sizeof(float))
