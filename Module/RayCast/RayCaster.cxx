@@ -211,8 +211,16 @@ struct alignas(64) ThreadMemory
   KernelCounts Counts;
 };
 
-/// Adds to statistics what the rays met, and the errors that follow from it.
-void Summarize(const std::vector<ThreadMemory>& threads, RayCastStatistics& statistics)
+/// Whether a segment adds each piece on which the function is linear.
+bool AddsPieces(Integrator integrator)
+{
+  return HasWeights(integrator) && !IsTabulated(integrator);
+}
+
+/// Adds to statistics what the rays met, and the errors that follow from it. pieces: that a segment
+/// adds.
+void Summarize(
+  const std::vector<ThreadMemory>& threads, double pieces, RayCastStatistics& statistics)
 {
   KernelCounts counts;
   for (const ThreadMemory& thread : threads)
@@ -228,9 +236,10 @@ void Summarize(const std::vector<ThreadMemory>& threads, RayCastStatistics& stat
   statistics.GeometryError = std::max(statistics.GeometryError, std::min(1., counts.ShiftError));
   if (counts.Paths > 0)
   {
-    // A sum is rounded once for each segment.
+    // A sum is rounded once for each piece.
     const double segments = static_cast<double>(counts.Segments) / counts.Paths;
-    statistics.SummationError = segments * std::numeric_limits<float>::epsilon() / 2;
+    statistics.SummationError =
+      std::min(1., segments * pieces * std::numeric_limits<float>::epsilon() / 2);
   }
   if (counts.Lanes > 0)
   {
@@ -287,7 +296,8 @@ public:
     statistics.InstructionSet = GetName(this->Set);
     statistics.Rays = static_cast<std::int64_t>(this->Grid.Width) * this->Grid.Height;
     statistics.DoubleRays += this->Choices.DoublePrecision ? statistics.Rays : 0;
-    Summarize(this->Threads, statistics);
+    Summarize(this->Threads, AddsPieces(this->Choices.Method) ? this->Scene.EstimatePieces() : 1.,
+      statistics);
   }
 
 private:

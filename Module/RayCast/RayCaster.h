@@ -37,7 +37,7 @@ struct RayCastStatistics
   double TerminationError = 0;       ///< at most, by ending rays early
   double Brightness = 1;             ///< FindLargestBrightness of what is lit
   double IntegralError = 0;          ///< at most, by the weights of segments
-  double SummationError = 0;         ///< estimated, by adding segments up; of a path of mean length
+  double SummationError = 0;         ///< estimated, by adding pieces up; of a path of mean length
   double TableError = 0;             ///< estimated, by interpolation in a table
   double GeometryError = 0; ///< estimated, by rounding coordinates and scalars, also of rays that
                             ///< graze the boundary; not of those that graze cells in it whose

@@ -43,6 +43,30 @@ CellValue MakeMappedValue(const ScalarMap& map, double scalar)
   return value;
 }
 
+/// The mean number of intervals that a segment of the rays touches.
+double CountPieces(const RaySample& sample, const IntervalTable& table, const ScalarMap& map)
+{
+  const auto find = [&](double scalar)
+  {
+    const auto& intervals = table.Intervals;
+    return std::partition_point(intervals.begin(), intervals.end(),
+      [x = map.Map(scalar)](const IntervalTable::Interval& t) { return t.Hi < x; });
+  };
+  double pieces = 0;
+  double segments = 0;
+  for (std::size_t k = 0; k < sample.Rays.size(); ++k)
+  {
+    const double weight = sample.Weights[k];
+    for (const RaySegment& segment : sample.Rays[k])
+    {
+      pieces +=
+        weight * (1 + std::abs(static_cast<double>(find(segment.Back) - find(segment.Front))));
+      segments += weight;
+    }
+  }
+  return segments > 0 ? pieces / segments : 1;
+}
+
 /// What a place has whose scalars have these values of their functions.
 TransferFunction::Value Mix(const std::vector<TransferFunction::Value>& values, bool dependent)
 {
@@ -473,6 +497,18 @@ EightBitErrors VolumeScene::EstimateEightBitErrors(double worldRadius)
         radius / this->Mesh.GetMesh()->GetRadius(), this->Optics.GetTransferFunction(), model);
     });
   return this->EightBits.Get();
+}
+
+double VolumeScene::EstimatePieces()
+{
+  this->Pieces.Update(CacheKey::Of(this->Mesh.GetPointsVersion(), this->Mesh.GetScalarsVersion(),
+                        this->Optics.GetFunctionVersion()),
+    [&]
+    {
+      return CountPieces(
+        *this->Mesh.DrawRays(1), this->Optics.GetIntervalTable(), this->GetScalarMap());
+    });
+  return this->Pieces.Get();
 }
 
 } // namespace tetralux
