@@ -579,6 +579,7 @@ void vtkTetrahedraProjectionMapper::Internals::Describe(
   section["tetrahedra_drawn"] = drawn.Cells;
   section["parts_drawn"] = drawn.Parts;
   section["triangles"] = drawn.Triangles;
+  frame.ReportOmission(drawn.WhyWhole, "cells in parts", drawn.WhyWhole);
   section["order"] = this->Sorted ? GetMethodName(this->Method) : "none";
   if (this->Sorted)
   {

@@ -138,7 +138,7 @@ bool CellDivision::Make(const DivisionSource& source)
     cells += count > 0;
   }
   const double perCell = cells > 0 ? static_cast<double>(slices) / static_cast<double>(cells) : 1;
-  if (!possible || perCell > source.MostParts || slices > MostSlicesOfAll)
+  if (!possible || perCell > source.MostSlices || slices > MostSlicesOfAll)
   {
     return false;
   }

@@ -31,16 +31,17 @@ struct DivisionSource
   /// there are no slices.
   double LargestDepth = 0;
 
-  /// Divisions that have more slices than this for each cell that has any are not made.
-  double MostParts = 0;
+  /// Divisions that have more slices than this for each cell that has any, or more than can be
+  /// counted, are not made.
+  double MostSlices = 0;
 };
 
 /// The parts of all cells that attenuate. The same for any number of threads.
 class TETRALUXCORE_EXPORT CellDivision
 {
 public:
-  /// The part of a cell in an interval. Ends of the interval beyond which nothing of the cell is
-  /// are open, so that a scalar at a node is in one part exactly.
+  /// The part of a cell in an interval. An end of the interval is open if nothing of the cell is
+  /// beyond it, so that a scalar at a node is in one part exactly.
   struct Part
   {
     std::uint32_t Interval : 24;

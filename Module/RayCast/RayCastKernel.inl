@@ -575,19 +575,19 @@ private:
   }
 
   /// Ends or re-enters the rays that left the mesh, ends those that are done.
-  void Leave(Int8 faces, unsigned outsideBits, unsigned doneBits)
+  void Leave(Int8 exits, unsigned outsideBits, unsigned doneBits)
   {
     const unsigned leaving = outsideBits & ~doneBits;
     this->Running &= ~(doneBits | outsideBits);
-    std::int32_t exits[LaneCount];
-    Store(exits, faces);
+    std::int32_t exitOf[LaneCount];
+    Store(exitOf, exits);
     for (unsigned left = leaving; left != 0; left &= left - 1)
     {
       const int lane = FindFirstLane(left);
       Crossing* list = this->GetCrossings(lane);
       for (int k = this->Cursor[lane]; k < this->Crossings.Count[lane]; ++k)
       {
-        if (list[k].Entry == ~exits[lane])
+        if (list[k].Entry == ~exitOf[lane])
         {
           list[k].Entry = -1;
           break;

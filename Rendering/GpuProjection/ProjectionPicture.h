@@ -3,6 +3,7 @@
 #define tetralux_ProjectionPicture_h
 
 #include "Base/Span.h"
+#include "Base/TaskThread.h"
 #include "GpuIntegral/GpuLighting.h"
 #include "GpuIntegral/GpuSegmentIntegral.h"
 #include "GpuIntegral/RayGridUniforms.h"
@@ -80,8 +81,9 @@ public:
     std::int64_t Cells = 0; ///< that cover any pixel's centre
     std::int64_t Parts = 0; ///< of these cells, as they are drawn
     std::int64_t Triangles = 0;
-    double DivideSeconds = 0;  ///< dividing cells by a new function
-    double ProjectSeconds = 0; ///< waiting for cells to be projected, on the processor
+    const char* WhyWhole = nullptr; ///< why cells were drawn as they are; nullptr: in parts
+    double DivideSeconds = 0;       ///< dividing cells by a new function
+    double ProjectSeconds = 0;      ///< waiting for cells to be projected, on the processor
   };
 
   /// Draws the colours, the cells in batches, and waits until they are drawn. progress: told the
@@ -133,7 +135,9 @@ private:
   Result DrawCells(Pass pass, FloatTarget& target, const ProjectionScene& scene,
     const std::function<bool(double)>& progress);
   ProjectedCellDrawer::Shader MakeShader(Pass pass, const ProjectionScene& scene) const;
-  void DivideCells(const ProjectionScene& scene);
+  /// Divides cells. Returns why they are drawn as they are, in plain words; nullptr: they are not.
+  const char* DivideCells(const ProjectionScene& scene);
+  const char* WhyCellsAreWhole(const ProjectionScene& scene) const;
   void SetUniforms(vtkShaderProgram* program, const ProjectionScene& scene) const;
   /// What is drawn into.
   struct Targets
@@ -155,6 +159,7 @@ private:
   ScreenProgram Classifier, Hidden;
   ProjectedCells Cells;     ///< that are drawn
   ProjectedCells NextCells; ///< that are projected meanwhile
+  TaskThread Projecting;    ///< for NextCells
   CellDivision Division;    ///< empty: cells are drawn as they are
   CacheStamp DivisionStamp;
   ContextResources Context;

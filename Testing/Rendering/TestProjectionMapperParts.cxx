@@ -114,6 +114,23 @@ TEST(ProjectionMapperParts, ThickCellsAreSliced)
   EXPECT_EQ(scene.Count("parts_drawn"), scene.Count("tetrahedra_drawn"));
 }
 
+// Cropping leaves several stretches of a ray in a cell, and slices would be those of each.
+TEST(ProjectionMapperParts, ThickCellsAreNotSlicedWhereTheyAreCropped)
+{
+  PartsScene scene;
+  scene.SetUnitDistance(0.17);
+  scene.Projection->CroppingOn();
+  scene.Projection->SetCroppingRegionPlanes(-10, 10, -10, 10, 0.4, 0.6);
+  scene.Projection->SetCroppingRegionFlags(0x7FFFFFF & ~(1 << 13)); // all but the middle
+  scene.Render(1);
+  EXPECT_EQ(scene.Count("parts_drawn"), scene.Count("tetrahedra_drawn"));
+  EXPECT_NE(GetStatistic(scene.Projection, "cells in parts").find("cropped"), std::string::npos);
+  scene.SetUnitDistance(2);
+  scene.Expect("thin and cropped");
+  scene.Render(1);
+  EXPECT_EQ(GetStatistic(scene.Projection, "cells in parts"), "no statistic cells in parts");
+}
+
 TEST(ProjectionMapperParts, OpticalModels)
 {
   PartsScene scene;

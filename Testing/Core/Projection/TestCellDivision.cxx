@@ -79,7 +79,7 @@ public:
     source.Coordinates = this->Coordinates;
     source.Cells = this->Cells;
     source.LargestDepth = largestDepth;
-    source.MostParts = Infinity;
+    source.MostSlices = Infinity;
     return source;
   }
 
@@ -264,14 +264,14 @@ TEST_F(CellDivisionTest, IsNotMadeOfTooManyParts)
   }
   const double perCell = static_cast<double>(parts) / cells;
   EXPECT_GT(perCell, 1);
-  source.MostParts = 1.01 * perCell;
+  source.MostSlices = 1.01 * perCell;
   EXPECT_TRUE(division.Make(source));
-  source.MostParts = 0.99 * perCell;
+  source.MostSlices = 0.99 * perCell;
   EXPECT_FALSE(division.Make(source));
   EXPECT_TRUE(division.IsEmpty());
 
   // A cell that is too thick, or whose scalars shaders can't hold.
-  source.MostParts = Infinity;
+  source.MostSlices = Infinity;
   source.LargestDepth = 1e-3;
   EXPECT_FALSE(division.Make(source));
   source.LargestDepth = Infinity;
