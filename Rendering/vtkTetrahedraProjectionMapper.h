@@ -16,11 +16,11 @@
  * - compositing (section 4): ColorBuffer, and AlphaDithering for the 8-bit buffer.
  *
  * Cells are drawn in parts, one for each interval of the transfer function that they have a part
- * in, which is the same picture in less time. They are drawn as they are where they would have more
- * than 1.8 parts on the average, where a part would be cut into more than 32 slices since it is
- * thick, where thick parts are cropped, with lights, with scalars of cells, with a table, and with a
+ * in: the same picture in less time. They are drawn as they are where they would have more than 1.8
+ * parts on the average, where a part is so thick that it would be cut into more than 32 slices,
+ * where thick parts are cropped, with lights, with scalars of cells, with a table, and with a
  * ColorBuffer that is not of 32-bit floats. GetStatistics() says why, and has the time of dividing
- * cells after a new function ("divide") and of waiting for cells to be projected ("project").
+ * cells for a new function ("divide") and of waiting for cells to be projected ("project").
  *
  * Order is the visibility order; models whose contributions commute need none. Cells that can't be
  * seen are neither ordered nor drawn. See vtkTetrahedraVolumeMapper for the input, the optical
