@@ -218,24 +218,4 @@ TransferFunction::Value Evaluate(const TransferFunction& function, double scalar
   return value;
 }
 
-double FindSteepestColor(const IntervalTable& table)
-{
-  double steepest = 0;
-  for (const IntervalTable::Interval& t : table.Intervals)
-  {
-    const bool unbounded = !std::isfinite(t.Lo) || !std::isfinite(t.Hi); // and constant
-    const double reach =
-      unbounded ? 0 : std::max(std::abs(t.Hi - t.Reference), std::abs(t.Lo - t.Reference));
-    const double attenuation = std::abs(t.Attenuation) + std::abs(t.AttenuationSlope) * reach;
-    steepest = std::max<double>(steepest, std::abs(t.AttenuationSlope));
-    for (int c = 0; c < 3; ++c)
-    {
-      const double color = std::abs(t.Color[c]) + std::abs(t.ColorSlope[c]) * reach;
-      steepest = std::max(
-        steepest, std::abs(t.AttenuationSlope) * color + attenuation * std::abs(t.ColorSlope[c]));
-    }
-  }
-  return steepest;
-}
-
 } // namespace tetralux

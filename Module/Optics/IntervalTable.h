@@ -59,10 +59,6 @@ TETRALUXCORE_EXPORT IntervalTable MakeIntervalTable(
 TETRALUXCORE_EXPORT TransferFunction::Value Evaluate(
   const TransferFunction& function, double scalar);
 
-/// Largest change of a premultiplied colour channel or of the attenuation per unit of x, between
-/// the steps. Of a table without bends.
-TETRALUXCORE_EXPORT double FindSteepestColor(const IntervalTable& table);
-
 } // namespace tetralux
 
 #endif

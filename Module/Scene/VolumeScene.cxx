@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/VolumeScene.h"
 
+#include "Scene/LargestScalarError.h"
 #include "Scene/OrderError.h"
 #include "Scene/VisibleCells.h"
 
@@ -412,20 +413,9 @@ double VolumeScene::EstimateGeometryError(double worldRadius, const GeometryRoun
   {
     return std::numeric_limits<double>::infinity();
   }
-  switch (this->Optics.GetModel())
-  {
-    case OpticalModel::Isosurfaces:
-      return 0;
-    case OpticalModel::MaximumIntensity:
-    {
-      // Between three corners a scalar is interpolated with a few roundings.
-      constexpr double ScalarRounding = 1. / (1 << 22);
-      return ScalarRounding * this->GetLargestMappedScalar() *
-        FindSteepestColor(this->Optics.GetIntervalTable());
-    }
-    default:
-      return this->EstimateRounding(worldRadius, rounding, this->GeometryError);
-  }
+  return this->Optics.GetModel() == OpticalModel::Isosurfaces
+    ? 0
+    : this->EstimateRounding(worldRadius, rounding, this->GeometryError);
 }
 
 double VolumeScene::EstimateShiftError(double worldRadius, double shift)
@@ -449,16 +439,20 @@ double VolumeScene::EstimateRounding(
 {
   // Rounded, so that a volume which is only turned keeps its estimate.
   const double radius = static_cast<float>(worldRadius);
-  const bool absorbs = this->Optics.GetModel() != OpticalModel::EmissionOnly;
+  const OpticalModel model = this->Optics.GetModel();
   result.Update(
     CacheKey::Of(this->Mesh.GetPointsVersion(), this->Mesh.GetScalarsVersion(),
-      this->Optics.GetFunctionVersion(), absorbs, radius, rounding.Across, rounding.Scalar),
+      this->Optics.GetFunctionVersion(), model, radius, rounding.Across, rounding.Scalar),
     [&]
     {
       const RayUnits units{ radius / this->Mesh.GetMesh()->GetRadius(), radius,
         this->GetLargestMappedScalar() * this->GetScalarMap().Scale };
-      return EstimateRoundingError(
-        *this->Mesh.DrawRays(1), units, this->Optics.GetTransferFunction(), absorbs, rounding);
+      const RaySample& rays = *this->Mesh.DrawRays(1);
+      const TransferFunction& function = this->Optics.GetTransferFunction();
+      return model == OpticalModel::MaximumIntensity
+        ? EstimateLargestScalarError(rays, units, function, this->Mesh.HasCellScalars(), rounding)
+        : EstimateRoundingError(
+            rays, units, function, model != OpticalModel::EmissionOnly, rounding);
     });
   return result.Get();
 }
