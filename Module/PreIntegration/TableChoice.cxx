@@ -18,8 +18,32 @@ namespace tetralux
 namespace
 {
 
-/// Ends of intervals between two scalars, on average over all segments of the rays, plus one.
-double CountPieces(const IntervalTable& table, const RaySample& sample)
+/// What measuring a table costs, and is found by: pieces that are integrated in about a second of
+/// one thread.
+constexpr double MostPieces = 2e7;
+
+/// Rays that rule most tables out; each of their lookups integrates eight texels.
+constexpr std::size_t FewRays = 32;
+constexpr std::size_t TexelsOfLookup = 8;
+
+/// Pieces of all segments of the rays: ends between their two scalars, plus one each. rank(scalar):
+/// how many ends are not above it.
+template <class Rank>
+double CountPieces(const RaySample& sample, const Rank& rank)
+{
+  double pieces = 0;
+  for (const std::vector<RaySegment>& ray : sample.Rays)
+  {
+    for (const RaySegment& segment : ray)
+    {
+      pieces += 1 + static_cast<double>(std::abs(rank(segment.Front) - rank(segment.Back)));
+    }
+  }
+  return pieces;
+}
+
+/// Of the closed form, for each segment.
+double CountPiecesPerSegment(const IntervalTable& table, const RaySample& sample)
 {
   const std::vector<IntervalTable::Interval>& intervals = table.Intervals;
   const auto rank = [&](double s)
@@ -30,27 +54,35 @@ double CountPieces(const IntervalTable& table, const RaySample& sample)
              { return scalar < interval.Lo; }) -
       intervals.begin();
   };
-  double pieces = 0;
   double segments = 0;
   for (const std::vector<RaySegment>& ray : sample.Rays)
   {
-    for (const RaySegment& segment : ray)
-    {
-      pieces += 1 + static_cast<double>(std::abs(rank(segment.Front) - rank(segment.Back)));
-    }
     segments += static_cast<double>(ray.size());
   }
-  return segments > 0 ? pieces / segments : 1;
+  return segments > 0 ? CountPieces(sample, rank) / segments : 1;
 }
 
 /// The first rays of a sample, which are as random as all of them.
-RaySample TakeFew(const RaySample& sample)
+RaySample TakeFirst(const RaySample& sample, std::size_t count)
 {
-  constexpr std::size_t FewRays = 32;
   RaySample few;
   few.Rays.assign(sample.Rays.begin(),
-    sample.Rays.begin() + static_cast<std::ptrdiff_t>(std::min(FewRays, sample.Rays.size())));
+    sample.Rays.begin() + static_cast<std::ptrdiff_t>(std::min(count, sample.Rays.size())));
   return few;
+}
+
+/// How many rays like those of a sample have MostPieces.
+std::size_t CountAffordableRays(const TransferFunction& function, const RaySample& sample)
+{
+  const auto rank = [&](double s)
+  {
+    return std::upper_bound(function.Nodes.begin(), function.Nodes.end(), s,
+             [](double scalar, const TransferFunction::Node& node)
+             { return scalar < node.Scalar; }) -
+      function.Nodes.begin();
+  };
+  const auto rays = static_cast<double>(sample.Rays.size());
+  return static_cast<std::size_t>(MostPieces * rays / std::max(CountPieces(sample, rank), 1.));
 }
 
 /// Sizes and scales in the order of their costs: scalars, lengths, steps for each doubling (0:
@@ -196,7 +228,7 @@ bool IsWorthTrying(const TransferFunction& function, const TableGoal& goal,
 {
   // The last steps of the ladder, some of each scale.
   constexpr std::size_t MostTried = 12;
-  const TableRays rays(function, TakeFew(*goal.Rays));
+  const TableRays rays(function, TakeFirst(*goal.Rays, FewRays));
   std::size_t tried = 0;
   for (std::size_t k = candidates.size(); k-- > 0 && tried < MostTried;)
   {
@@ -221,11 +253,17 @@ bool IsWorthTrying(const TransferFunction& function, const TableGoal& goal,
 TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const TableGoal& goal)
 {
   TableChoice choice;
-  choice.PiecesPerSegment =
-    CountPieces(goal.Intervals ? *goal.Intervals : MakeIntervalTable(function), *goal.Rays);
+  choice.PiecesPerSegment = CountPiecesPerSegment(
+    goal.Intervals ? *goal.Intervals : MakeIntervalTable(function), *goal.Rays);
   if (choice.PiecesPerSegment <= goal.LookupCost && !goal.AlwaysTable)
   {
     choice.Reason = "closed form: a segment has few pieces, a lookup takes longer";
+    return choice;
+  }
+  const std::size_t affordable = CountAffordableRays(function, *goal.Rays);
+  if (affordable < TexelsOfLookup * FewRays && !goal.AlwaysTable)
+  {
+    choice.Reason = "closed form: a segment has too many pieces to find a table that is right";
     return choice;
   }
 
@@ -236,7 +274,8 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
     choice.IsNoneRight = true;
     return choice;
   }
-  const TableRays rays(function, *goal.Rays);
+  choice.MeasuredRays = std::min(std::max(affordable, FewRays), goal.Rays->Rays.size());
+  const TableRays rays(function, TakeFirst(*goal.Rays, choice.MeasuredRays));
   const bool integersHold = HasColorsUpToOne(function);
   // A few rays tell most tables that are not right, for much less than it takes to fill them.
   const auto mayBeRight = [&](const PreIntegrationSettings& settings, double allowed)

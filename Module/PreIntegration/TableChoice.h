@@ -59,18 +59,21 @@ struct TableChoice
 {
   /// nullptr, no table: the closed form is as fast, or no table within the limits is right enough.
   std::shared_ptr<PreIntegrationTable> Table;
-  bool IsNoneRight = false;    ///< tables were tried
-  double PictureError = 0;     ///< EstimatePictureError of the table; 0 without one
-  double PiecesPerSegment = 1; ///< of the rays, on average
-  std::string Reason;          ///< one line
+  bool IsNoneRight = false;     ///< tables were tried
+  double PictureError = 0;      ///< EstimatePictureError of the table; 0 without one
+  double PiecesPerSegment = 1;  ///< of the rays, on average
+  std::size_t MeasuredRays = 0; ///< those of the goal that tables were measured on, the first ones
+  std::string Reason;           ///< one line
 };
 
 /// The smallest table whose EstimatePictureError is at most what is asked for; else none, or with
 /// AlwaysTable the one of the least error.
 /// Tables of growing size are tried until one is right. A few rays rule most of them out, for which
 /// only the texels they look up are computed; what is left is built and measured on all rays. Some
-/// 100 milliseconds of one thread, and up to a second where no table is right. Throws as
-/// BuildPreIntegrationTable does.
+/// 100 milliseconds of one thread, and up to a second where no table is right. Where functions have
+/// so many nodes that integrating the rays would take longer, fewer are measured; where these would
+/// be too few to tell, no table is tried unless AlwaysTable. Throws as BuildPreIntegrationTable
+/// does.
 TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(
   const TransferFunction& function, const TableGoal& goal);
 

@@ -10,11 +10,15 @@
 #include <cstddef>
 #include <memory>
 #include <random>
+#include <vector>
 
 namespace tetralux
 {
 namespace
 {
+
+/// Of which a segment may have so many that few rays are integrated in a moment.
+constexpr int ManyNodes = 20000;
 
 TEST(TableChoice, ChosenTablesMeetTheirGoal)
 {
@@ -53,6 +57,43 @@ TEST(TableChoice, ChosenTablesMeetTheirGoal)
     }
   }
   EXPECT_GE(tables, 3);
+}
+
+/// What tables are measured by does not grow with the function without a bound.
+TEST(TableChoice, MeasuresFewRaysWhereThereAreManyNodes)
+{
+  std::mt19937_64 generator(3);
+  TableGoal goal;
+  goal.MaximumError = 1; // any table is right enough
+  goal.ScalarSize = 32;
+  goal.LengthSize = 8;
+  constexpr std::size_t NumberOfRays = 512;
+  constexpr int SegmentsPerRay = 10;
+  RaySample sample;
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (std::size_t i = 0; i < NumberOfRays; ++i)
+  {
+    std::vector<RaySegment> ray;
+    for (int k = 0; k < SegmentsPerRay; ++k)
+    {
+      ray.push_back({ unit(generator), unit(generator), 0.1 });
+    }
+    sample.Rays.push_back(ray);
+  }
+  goal.Rays = std::make_shared<RaySample>(sample);
+  EXPECT_EQ(
+    ChoosePreIntegrationTable(MakeRandomFunction(generator, 100, 2, false), goal).MeasuredRays,
+    NumberOfRays);
+  const TransferFunction many = MakeRandomFunction(generator, ManyNodes, 2, false);
+  const TableChoice some = ChoosePreIntegrationTable(many, goal);
+  EXPECT_LT(some.MeasuredRays, NumberOfRays);
+  EXPECT_GE(some.MeasuredRays, NumberOfRays / 2);
+  EXPECT_TRUE(some.Table);
+  const TransferFunction most = MakeRandomFunction(generator, 20 * ManyNodes, 2, false);
+  const TableChoice none = ChoosePreIntegrationTable(most, goal);
+  EXPECT_EQ(none.MeasuredRays, 0);
+  EXPECT_FALSE(none.Table);
+  EXPECT_FALSE(none.IsNoneRight) << "none was tried";
 }
 
 TEST(TableChoice, KeepsToWhatIsGiven)
