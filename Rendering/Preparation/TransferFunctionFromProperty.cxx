@@ -40,6 +40,10 @@ constexpr int MaximumHalvings = 24;
 /// curves meet that line in the middle.
 constexpr int TestsPerInterval = 7;
 
+/// Those after a few halvings, when a curve has no more of a shape than that it bends.
+constexpr int SmoothHalvings = 3;
+constexpr int TestsPerSmoothInterval = 3;
+
 /// Whether VTK interpolates between the logarithms of scalars.
 bool IsLogarithmic(vtkColorTransferFunction* function)
 {
@@ -306,19 +310,25 @@ Value Interpolate(const Value& a, const Value& b, double t)
 bool Subdivide(const PropertyFunctions& functions, const Tolerance& tolerance, double x0,
   const Value& value0, double x1, const Value& value1, int halvings, TransferFunction& result)
 {
-  bool linear = true;
-  for (int i = 1; i <= TestsPerInterval && linear; ++i)
-  {
-    const double x = x0 + (x1 - x0) * i / (TestsPerInterval + 1);
-    linear = x <= x0 || x1 <= x ||
-      tolerance.Accepts(functions.Evaluate(x), Interpolate(value0, value1, (x - x0) / (x1 - x0)));
-  }
   const double middle = x0 + 0.5 * (x1 - x0);
-  if (linear || halvings == MaximumHalvings || middle <= x0 || x1 <= middle)
+  if (halvings == MaximumHalvings || middle <= x0 || x1 <= middle)
   {
     return false;
   }
+  // In the middle first: there most are too far off, and are halved.
   const Value value = functions.Evaluate(middle);
+  bool linear = tolerance.Accepts(value, Interpolate(value0, value1, (middle - x0) / (x1 - x0)));
+  const int tests = halvings < SmoothHalvings ? TestsPerInterval : TestsPerSmoothInterval;
+  for (int i = 1; i <= tests && linear; ++i)
+  {
+    const double x = x0 + (x1 - x0) * i / (tests + 1);
+    linear = 2 * i == tests + 1 || x <= x0 || x1 <= x ||
+      tolerance.Accepts(functions.Evaluate(x), Interpolate(value0, value1, (x - x0) / (x1 - x0)));
+  }
+  if (linear)
+  {
+    return false;
+  }
   Subdivide(functions, tolerance, x0, value0, middle, value, halvings + 1, result);
   result.Nodes.push_back({ middle, value, value });
   Subdivide(functions, tolerance, middle, value, x1, value1, halvings + 1, result);
