@@ -111,10 +111,11 @@ public:
   /// small or so large that attenuations which make it visible leave the range of single precision.
   static void CheckWorldRadius(double worldRadius);
 
-  /// Estimated error of a channel by rounding coordinates and scalars, see GeometryError.h; of
-  /// isosurfaces 0. Infinite if the mesh is so small or so large that distances in it leave the
-  /// range of single precision. worldRadius: of the mesh, world units. Measured once for what it
-  /// depends on, on a sample of the mesh's rays. After Prepare.
+  /// Estimated error of a channel by rounding coordinates and scalars, see GeometryError.h and, of
+  /// the largest scalar, LargestScalarError.h; of isosurfaces 0. Infinite if the mesh is so small
+  /// or so large that distances in it leave the range of single precision. worldRadius: of the
+  /// mesh, world units. Measured once for what it depends on, on a sample of the mesh's rays. After
+  /// Prepare.
   double EstimateGeometryError(double worldRadius, const GeometryRounding& rounding);
 
   /// The same where values are taken from up to shift radii beside the ray, instead of by rounding;
