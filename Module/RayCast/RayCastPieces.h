@@ -121,6 +121,17 @@ TETRALUX_INLINE IntervalLanes LoadInterval(const KernelInput& in, Int8 interval,
   {
     return LookUpInterval<IntervalColumns::Few>(in, interval);
   }
+  if constexpr (IntervalColumns::Most == 4 * LaneCount)
+  {
+    if (in.NumberOfIntervals <= 2 * LaneCount)
+    {
+      return LookUpInterval<2 * LaneCount>(in, interval);
+    }
+    if (in.NumberOfIntervals <= IntervalColumns::Most)
+    {
+      return LookUpInterval<IntervalColumns::Most>(in, interval);
+    }
+  }
   // Neighbouring rays are mostly in the same interval: one load for all of them.
   std::int32_t indices[LaneCount];
   Store(indices, interval);
@@ -128,13 +139,6 @@ TETRALUX_INLINE IntervalLanes LoadInterval(const KernelInput& in, Int8 interval,
   if (!Any(AndNot(valid, interval == Int8(one))))
   {
     return RepeatInterval(in.Intervals[one]);
-  }
-  if constexpr (IntervalColumns::Most == 4 * LaneCount)
-  {
-    if (in.NumberOfIntervals <= IntervalColumns::Most)
-    {
-      return LookUpInterval<IntervalColumns::Most>(in, interval);
-    }
   }
   return GatherInterval(in, interval);
 }

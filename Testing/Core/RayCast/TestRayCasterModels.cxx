@@ -369,6 +369,34 @@ INSTANTIATE_TEST_SUITE_P(RayCaster, Models,
     NamedScene{ "CellsShineByThemselves", [] { return Cells(Shaded(MakeScene(Emitter))); } }),
   [](const auto& info) { return info.param.Name; });
 
+// Intervals are looked up in registers, as many as these are needed for, or gathered.
+TEST(RayCasterModels, WideKernelsGiveTheSameBitsOfAnyNumberOfIntervals)
+{
+  if (!HasFastWideLanes())
+  {
+    GTEST_SKIP() << "this processor has no fast lanes of 16";
+  }
+  RayScene scene = MakeScene(Emitter);
+  for (const int nodes : { 15, 16, 31, 32, 63, 64, 200 })
+  {
+    scene.Function.Nodes.clear();
+    for (int k = 0; k < nodes; ++k)
+    {
+      // Bends that no run of intervals leaves out.
+      const TransferFunction::Value value = { { k % 3 / 2., k % 5 / 4., k % 7 / 6. },
+        1. + k % 2 * 3 };
+      scene.Function.Nodes.push_back({ k / (nodes - 1.), value, value });
+    }
+    VolumeScene volume = scene.MakeVolumeScene();
+    RayCastOptions options;
+    options.Arithmetic = Precision::Single;
+    const RayPicture picture = Cast(volume, scene, options);
+    EXPECT_EQ(volume.Optics.GetIntervalTable().Intervals.size(), nodes + 1u);
+    options.WideKernels = false;
+    EXPECT_TRUE(picture.Colors == Cast(volume, scene, options).Colors) << nodes << " nodes";
+  }
+}
+
 TEST(RayCasterModels, ConstantColorIsIntegratedByOpticalDepth)
 {
   const auto getIntegration = [](const RayScene& scene)
