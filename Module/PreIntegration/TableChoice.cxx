@@ -42,26 +42,6 @@ double CountPieces(const RaySample& sample, const Rank& rank)
   return pieces;
 }
 
-/// Of the closed form, for each segment.
-double CountPiecesPerSegment(const IntervalTable& table, const RaySample& sample)
-{
-  const std::vector<IntervalTable::Interval>& intervals = table.Intervals;
-  const auto rank = [&](double s)
-  {
-    const auto x = static_cast<float>((s - table.Offset) / table.Scale);
-    return std::upper_bound(intervals.begin(), intervals.end(), x,
-             [](float scalar, const IntervalTable::Interval& interval)
-             { return scalar < interval.Lo; }) -
-      intervals.begin();
-  };
-  double segments = 0;
-  for (const std::vector<RaySegment>& ray : sample.Rays)
-  {
-    segments += static_cast<double>(ray.size());
-  }
-  return segments > 0 ? CountPieces(sample, rank) / segments : 1;
-}
-
 /// The first rays of a sample, which are as random as all of them.
 RaySample TakeFirst(const RaySample& sample, std::size_t count)
 {
@@ -249,6 +229,25 @@ bool IsWorthTrying(const TransferFunction& function, const TableGoal& goal,
 }
 
 } // namespace
+
+double CountPiecesPerSegment(const IntervalTable& table, const RaySample& sample)
+{
+  const std::vector<IntervalTable::Interval>& intervals = table.Intervals;
+  const auto rank = [&](double s)
+  {
+    const auto x = static_cast<float>((s - table.Offset) / table.Scale);
+    return std::upper_bound(intervals.begin(), intervals.end(), x,
+             [](float scalar, const IntervalTable::Interval& interval)
+             { return scalar < interval.Lo; }) -
+      intervals.begin();
+  };
+  double segments = 0;
+  for (const std::vector<RaySegment>& ray : sample.Rays)
+  {
+    segments += static_cast<double>(ray.size());
+  }
+  return segments > 0 ? CountPieces(sample, rank) / segments : 1;
+}
 
 TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const TableGoal& goal)
 {

@@ -66,6 +66,11 @@ struct TableChoice
   std::string Reason;           ///< one line
 };
 
+/// Pieces that the closed form integrates for each segment of the rays, on average: ends of
+/// intervals between its two scalars, and one; 1 of no segments.
+TETRALUXCORE_EXPORT double CountPiecesPerSegment(
+  const IntervalTable& table, const RaySample& sample);
+
 /// The smallest table whose EstimatePictureError is at most what is asked for; else none, or with
 /// AlwaysTable the one of the least error.
 /// Tables of growing size are tried until one is right. A few rays rule most of them out, for which

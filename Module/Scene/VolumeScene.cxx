@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/VolumeScene.h"
 
+#include "PreIntegration/TableChoice.h"
 #include "Scene/LargestScalarError.h"
 #include "Scene/OrderError.h"
 #include "Scene/VisibleCells.h"
@@ -42,30 +43,6 @@ CellValue MakeMappedValue(const ScalarMap& map, double scalar)
   value.Attenuation = std::isfinite(scalar) ? static_cast<float>(map.Map(scalar))
                                             : std::numeric_limits<float>::quiet_NaN();
   return value;
-}
-
-/// The mean number of intervals that a segment of the rays touches.
-double CountPieces(const RaySample& sample, const IntervalTable& table, const ScalarMap& map)
-{
-  const auto find = [&](double scalar)
-  {
-    const auto& intervals = table.Intervals;
-    return std::partition_point(intervals.begin(), intervals.end(),
-      [x = map.Map(scalar)](const IntervalTable::Interval& t) { return t.Hi < x; });
-  };
-  double pieces = 0;
-  double segments = 0;
-  for (std::size_t k = 0; k < sample.Rays.size(); ++k)
-  {
-    const double weight = sample.Weights[k];
-    for (const RaySegment& segment : sample.Rays[k])
-    {
-      pieces +=
-        weight * (1 + std::abs(static_cast<double>(find(segment.Back) - find(segment.Front))));
-      segments += weight;
-    }
-  }
-  return segments > 0 ? pieces / segments : 1;
 }
 
 /// What a place has whose scalars have these values of their functions.
@@ -498,10 +475,7 @@ double VolumeScene::EstimatePieces()
   this->Pieces.Update(CacheKey::Of(this->Mesh.GetPointsVersion(), this->Mesh.GetScalarsVersion(),
                         this->Optics.GetFunctionVersion()),
     [&]
-    {
-      return CountPieces(
-        *this->Mesh.DrawRays(1), this->Optics.GetIntervalTable(), this->GetScalarMap());
-    });
+    { return CountPiecesPerSegment(this->Optics.GetIntervalTable(), *this->Mesh.DrawRays(1)); });
   return this->Pieces.Get();
 }
 

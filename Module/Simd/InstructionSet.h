@@ -22,8 +22,8 @@ TETRALUXCORE_EXPORT InstructionSet GetInstructionSet();
 /// The same for kernels that are compiled for AVX-512, too.
 TETRALUXCORE_EXPORT InstructionSet GetWidestInstructionSet();
 
-/// Whether kernels of 16 lanes are faster than those of 8: AVX-512 with VBMI, which permutes bytes,
-/// and fast gathers. Measured on AMD's Zen 4 and Zen 5. Not taken for granted elsewhere, since
+/// Whether kernels of 16 lanes are faster than those of 8: AVX-512 with VBMI, which permutes bytes.
+/// Measured on AMD's Zen 5, those of image data on Zen 4, too. Not taken for granted elsewhere:
 /// microcode against data sampling makes gathers slow on some of Intel's processors.
 TETRALUXCORE_EXPORT bool HasFastWideLanes();
 
