@@ -105,11 +105,16 @@ public:
         upper[i] = k == 0 ? pixel + reach : std::max(upper[i], pixel + reach);
       }
     }
+    // By conversions, which are one instruction each on every processor.
     const auto round = [](
                          double low, double high, int size, std::int32_t& first, std::int32_t& last)
     {
-      first = static_cast<std::int32_t>(std::ceil(std::min(std::max(low, 0.), double(size))));
-      last = static_cast<std::int32_t>(std::floor(std::min(std::max(high, -1.), size - 1.)));
+      const double lowest = std::min(std::max(low, 0.), double(size));
+      const double highest = std::min(std::max(high, -1.), size - 1.);
+      first = static_cast<std::int32_t>(lowest);
+      first += first < lowest ? 1 : 0;
+      last = static_cast<std::int32_t>(highest);
+      last -= highest < last ? 1 : 0;
     };
     PixelBounds bounds;
     round(lower[0], upper[0], this->Width, bounds.X0, bounds.X1);

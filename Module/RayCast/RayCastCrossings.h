@@ -24,6 +24,7 @@ struct TriangleHit
   Mask8 Hit;
   Mask8 Clockwise; ///< all three determinants negative
   V BC, CA, AB;    ///< det(b, c), det(c, a), det(a, b)
+  V Smallest;      ///< of those, without their signs
 };
 
 template <class Real>
@@ -39,7 +40,8 @@ TETRALUX_INLINE TriangleHit<Real> TestTriangle(
   Mask8 p = zero < t.BC;
   Mask8 q = zero < t.CA;
   Mask8 r = zero < t.AB;
-  if (Any((t.BC == zero) | (t.CA == zero) | (t.AB == zero)))
+  t.Smallest = Min(Min(Abs(t.BC), Abs(t.CA)), Abs(t.AB));
+  if (Any(t.Smallest <= zero))
   {
     p = IsPositive(t.BC, b, c);
     q = IsPositive(t.CA, c, a);
@@ -59,15 +61,15 @@ constexpr double ProjectionRounding = 2. * std::numeric_limits<Real>::epsilon();
 /// How much farther than ShiftRounding rays are displaced.
 constexpr float DisplacementRatio = static_cast<float>(FarthestDisplacement / ShiftRounding);
 
-/// The number of each ray's crossings with the boundary, which CrossingBuffer holds in ascending
-/// distance; and which rays pass an edge of the boundary so closely that rounding may decide on
-/// which side.
+/// How often rays cross the boundary, where CrossingBuffer tells; and which rays pass an edge of the
+/// boundary so closely that rounding may decide on which side.
 struct PacketCrossings
 {
-  int Count[LaneCount];
+  int Count; ///< faces that any ray crosses
+  Int8 Left; ///< crossings of each ray that it has not walked from or to
   unsigned NearEdges;
-  unsigned Displaced = 0;       ///< rays that were displaced
-  double ShiftError[LaneCount]; ///< of each ray, see KernelInput::ShiftFactor
+  unsigned Displaced = 0; ///< rays that were displaced
+  Float8 ShiftError;      ///< of each ray, see KernelInput::ShiftFactor
 };
 
 /// Which rays pass the edge from a to b within a distance, by det(a, b), behind a begin.
@@ -127,40 +129,56 @@ TETRALUX_INLINE Mask8 AreNearEdges(const TriangleHit<Real>& t, const Corner<Real
 {
   using V = typename LanesOf<Real>::Type;
   const V distance = static_cast<Real>(ProjectionRounding<Real> * ProjectionScale);
+  // Mostly none is, by what is no less than the longest of the three.
+  const V lengths = (Abs(b.X - a.X) + Abs(b.Y - a.Y)) + (Abs(c.X - a.X) + Abs(c.Y - a.Y));
+  constexpr Real Rounded = Real(1.001); // of sums of four
+  if (!Any(t.Smallest <= distance * V(Rounded) * lengths))
+  {
+    return MaskFromBits(0);
+  }
   return IsNearEdge(b, c, t.BC, distance, begin) | IsNearEdge(c, a, t.CA, distance, begin) |
     IsNearEdge(a, b, t.AB, distance, begin);
 }
 
-/// Whether a crossing is behind one at a distance; where both are at one, by the faces' numbers, so
-/// that the order is the same however faces are found.
-inline bool IsBehind(const Crossing& crossing, double distance, std::int32_t entry)
+template <class Real>
+TETRALUX_INLINE Real* GetDistances(FaceCrossing& crossing)
 {
-  return crossing.Distance > distance || (crossing.Distance == distance && crossing.Entry > entry);
+  static_assert(LaneCount * sizeof(Real) <= sizeof(crossing.Distances));
+  if constexpr (sizeof(Real) == sizeof(float))
+  {
+    return crossing.Distances.Single;
+  }
+  else
+  {
+    return crossing.Distances.Double;
+  }
 }
 
-/// The attenuation at a scalar, or of the cell behind a face.
-inline float FindAttenuation(const KernelInput& in, float scalar, std::int32_t cell)
+/// The attenuation at scalars, or of the cell behind a face.
+TETRALUX_INLINE Float8 FindAttenuation(const KernelInput& in, Float8 scalar, std::int32_t cell)
 {
   if (in.CellValues)
   {
     return in.CellValues[cell].Attenuation;
   }
-  int first = 0;
-  int last = in.NumberOfIntervals - 1;
-  while (first < last)
+  const IntervalTable::Interval& table = *in.Intervals;
+  const auto find = [&](const float& column, Int8 interval)
   {
-    const int middle = (first + last) / 2;
-    if (in.Intervals[middle].Hi < scalar)
-    {
-      first = middle + 1;
-    }
-    else
-    {
-      last = middle;
-    }
+    constexpr auto Row = static_cast<std::int32_t>(sizeof(IntervalTable::Interval));
+    return FromBits(GatherWords(&column, interval * Int8(Row)));
+  };
+  // The first interval that does not end below.
+  Int8 first = 0;
+  Int8 last = in.NumberOfIntervals - 1;
+  while (Any(last > first))
+  {
+    const Int8 middle = ShiftRight(first + last, 1);
+    const Mask8 below = (last > first) & (find(table.Hi, middle) < scalar);
+    first = Select(below, middle + Int8(1), first);
+    last = Select(below, last, Select(last > first, middle, last));
   }
-  const IntervalTable::Interval& interval = in.Intervals[first];
-  return interval.Attenuation + interval.AttenuationSlope * (scalar - interval.Reference);
+  return Fma(find(table.AttenuationSlope, first), scalar - find(table.Reference, first),
+    find(table.Attenuation, first));
 }
 
 /// Adds what the colours of rays change by if rounding moves a face of the boundary across them:
@@ -182,22 +200,15 @@ TETRALUX_INLINE void AddShiftErrors(const KernelInput& in, const Corner<float> (
     Select(displaced, Float8(DisplacementRatio * in.ShiftFactor), Float8(in.ShiftFactor));
   const Float8 most = (Abs(slopeX) + Abs(slopeY)) * factor;
   // Only what is a good part of what is allowed is worth a closer look.
-  unsigned bits = Bits(AndNot(hit, most <= Float8(0.0625f * in.LargestShiftError)));
-  if (bits == 0)
+  const Mask8 large = AndNot(hit, most <= Float8(0.0625f * in.LargestShiftError));
+  if (!Any(large))
   {
     return;
   }
-  float errors[LaneCount], scalars[LaneCount];
-  Store(errors, most);
-  Store(scalars, Blend(weightB, weightC, a.S, b.S, c.S));
-  for (int lane = 0; bits != 0; ++lane, bits >>= 1)
-  {
-    const float attenuation = (bits & 1u) ? FindAttenuation(in, scalars[lane], cell) : 0.f;
-    if (attenuation > 0) // and it is a number
-    {
-      crossings.ShiftError[lane] += errors[lane] * (attenuation / in.LargestAttenuation);
-    }
-  }
+  const Float8 attenuation = FindAttenuation(in, Blend(weightB, weightC, a.S, b.S, c.S), cell);
+  const Mask8 visible = large & (Float8(0.f) < attenuation); // and it is a number
+  const Float8 share = attenuation * Float8(1 / in.LargestAttenuation);
+  crossings.ShiftError = crossings.ShiftError + Keep(visible, most * share);
 }
 
 /// Adds where rays cross a face of the boundary. False where the buffer was too small; it is larger
@@ -219,43 +230,29 @@ TETRALUX_INLINE bool AddCrossings(const KernelInput& in, const Rays<Real>& rays,
   crossings.NearEdges |=
     Bits(AreNearEdges(t, corners[0], corners[1], corners[2], beginOfEdges) & active);
   const Mask8 hit = t.Hit & active;
-  unsigned bits = Bits(hit);
-  if (bits == 0)
+  if (!Any(hit))
   {
     return true;
   }
-  Real z[LaneCount];
+  if (crossings.Count == buffer.Capacity)
+  {
+    buffer.Grow(buffer);
+    return false;
+  }
   const auto scale = typename LanesOf<Real>::Type(Real(1)) / (t.BC + t.CA + t.AB);
   const auto wb = t.CA * scale;
   const auto wc = t.AB * scale;
-  Store(z, Blend(wb, wc, corners[0].Z, corners[1].Z, corners[2].Z));
+  FaceCrossing& crossing = buffer.Crossings[crossings.Count++];
+  Store(GetDistances<Real>(crossing), Blend(wb, wc, corners[0].Z, corners[1].Z, corners[2].Z));
+  crossing.Entry = entryId;
+  crossing.Lanes = Bits(hit);
+  crossings.Left = crossings.Left + Ones(hit);
   if constexpr (sizeof(Real) == sizeof(float))
   {
     if (in.ShiftFactor > 0)
     {
       AddShiftErrors(in, corners, hit, scale, wb, wc, entry.Cell, crossings);
     }
-  }
-  for (int lane = 0; bits != 0; ++lane, bits >>= 1)
-  {
-    if (!(bits & 1u))
-    {
-      continue;
-    }
-    int& count = crossings.Count[lane];
-    if (count == buffer.Capacity)
-    {
-      buffer.Grow(buffer);
-      return false;
-    }
-    // Insertion keeps the list ascending; lists are short.
-    Crossing* list = buffer.Crossings + static_cast<std::int64_t>(lane) * buffer.Capacity;
-    int k = count++;
-    for (; k > 0 && IsBehind(list[k - 1], z[lane], entryId); --k)
-    {
-      list[k] = list[k - 1];
-    }
-    list[k] = { z[lane], entryId };
   }
   return true;
 }
@@ -312,6 +309,55 @@ inline bool FindCrossingsByHierarchy(const KernelInput& in, const Rays<Real>& ra
   return true;
 }
 
+/// The nearest crossings of rays.
+template <class Real>
+struct NearestCrossings
+{
+  typename LanesOf<Real>::Type Distance; ///< infinite where a ray has none left
+  Int8 Place;                            ///< in CrossingBuffer, where there is one
+  Int8 Entry;                            ///< index into KernelInput::Entries
+};
+
+/// Finds the nearest of the crossings that rays have left. Of those at one distance it takes the
+/// one with the lowest number, so that the order is the same however faces were found.
+template <class Real>
+TETRALUX_INLINE NearestCrossings<Real> FindNearest(
+  const CrossingBuffer& buffer, const PacketCrossings& crossings, unsigned lanes)
+{
+  using V = typename LanesOf<Real>::Type;
+  NearestCrossings<Real> nearest{ V(std::numeric_limits<Real>::infinity()), Int8(0), Int8(0) };
+  for (int place = 0; place < crossings.Count; ++place)
+  {
+    FaceCrossing& crossing = buffer.Crossings[place];
+    const unsigned bits = crossing.Lanes & lanes;
+    if (bits == 0)
+    {
+      continue;
+    }
+    const V z = LoadLanes(GetDistances<Real>(crossing));
+    const Int8 entry = crossing.Entry;
+    const Mask8 nearer = MaskFromBits(bits) &
+      ((z < nearest.Distance) | ((z == nearest.Distance) & (nearest.Entry > entry)));
+    nearest.Distance = Select(nearer, z, nearest.Distance);
+    nearest.Place = Select(nearer, Int8(place), nearest.Place);
+    nearest.Entry = Select(nearer, entry, nearest.Entry);
+  }
+  return nearest;
+}
+
+/// Strikes off where rays leave the mesh, of those that have several crossings left.
+inline void StrikeExits(
+  CrossingBuffer& buffer, const PacketCrossings& crossings, unsigned lanes, Int8 exits)
+{
+  for (int place = 0; place < crossings.Count && lanes != 0; ++place)
+  {
+    FaceCrossing& crossing = buffer.Crossings[place];
+    const unsigned struck = crossing.Lanes & lanes & Bits(exits == Int8(crossing.Entry));
+    crossing.Lanes &= ~struck;
+    lanes &= ~struck;
+  }
+}
+
 /// Faces of the boundary that a packet has to test: those of its tile with the bit of one of its
 /// blocks.
 struct PacketFaces
@@ -327,11 +373,9 @@ template <class Real>
 inline bool FindCrossings(const KernelInput& in, const PacketFaces& faces, const Rays<Real>& rays,
   Mask8 active, CrossingBuffer& buffer, PacketCrossings& crossings)
 {
-  for (int lane = 0; lane < LaneCount; ++lane)
-  {
-    crossings.Count[lane] = 0;
-    crossings.ShiftError[lane] = 0;
-  }
+  crossings.Count = 0;
+  crossings.Left = 0;
+  crossings.ShiftError = 0.f;
   crossings.NearEdges = 0;
   if (!in.Nodes)
   {

@@ -71,12 +71,12 @@ TETRALUX_INLINE Corner<Real> Project(const Rays<Real>& rays, typename LanesOf<Re
   const V smallest = SmallestProjection<Real>();
   c.X = Fma(rays.U[0], x, Fma(rays.U[1], y, Fma(rays.U[2], z, rays.U[3])));
   c.Y = Fma(rays.V_[0], x, Fma(rays.V_[1], y, Fma(rays.V_[2], z, rays.V_[3])));
-  const Mask8 largeX = smallest <= Abs(c.X);
-  const Mask8 largeY = smallest <= Abs(c.Y);
-  if (Bits(largeX & largeY) != AllLanes)
+  const V sizeX = Abs(c.X);
+  const V sizeY = Abs(c.Y);
+  if (Any(Min(sizeX, sizeY) < smallest))
   {
-    c.X = Keep(largeX, c.X);
-    c.Y = Keep(largeY, c.Y);
+    c.X = Keep(smallest <= sizeX, c.X);
+    c.Y = Keep(smallest <= sizeY, c.Y);
   }
   c.Z = Dot(rays.W, x, y, z);
   c.S = s;

@@ -131,23 +131,32 @@ constexpr double ShiftRounding = 1. / (1 << 23);
 /// smallest that differ from zero (SmallestProjection squared, times 2^-24).
 constexpr double ProjectionScale = 1099511627776.; // 2^40
 
-/// Where a ray crosses the boundary of the mesh.
-struct Crossing
-{
-  double Distance;
-  std::int32_t Entry; ///< index into KernelInput::Entries, or -1 once it was walked from or to
-};
-
 /// Lanes of the largest packet that kernels cast.
 constexpr int MostLanes = 16;
+
+/// Where the rays of a packet cross a face of the boundary.
+struct FaceCrossing
+{
+  union
+  {
+    float Single[MostLanes];
+    double Double[MostLanes / 2];
+  } Distances;         ///< of each lane, in the precision of the kernel
+  std::int32_t Entry;  ///< index into KernelInput::Entries
+  std::uint32_t Lanes; ///< rays that cross it, and have not walked from it or to it
+};
 
 /// Room for the crossings of a packet's rays, owned by one thread and grown on demand.
 struct CrossingBuffer
 {
-  Crossing* Crossings; ///< Capacity for each of MostLanes, lane after lane
+  FaceCrossing* Crossings;
   int Capacity;
   void (*Grow)(CrossingBuffer&); ///< at least doubles Capacity; contents are lost
 };
+
+/// Packets that a thread casts by turns.
+constexpr int PacketsInFlight = 2;
+using CrossingBuffers = std::array<CrossingBuffer*, PacketsInFlight>;
 
 struct KernelCounts
 {
@@ -167,7 +176,7 @@ constexpr std::int64_t GetBlockPlace(int width, int x, int y)
 /// Casts the rays of the pixels from (x0, y0) up to but without (x1, y1): of one tile of
 /// RayTileSize, or of a block of it.
 using RayCastKernel = void (*)(
-  const KernelInput&, int x0, int y0, int x1, int y1, CrossingBuffer&, KernelCounts&);
+  const KernelInput&, int x0, int y0, int x1, int y1, const CrossingBuffers&, KernelCounts&);
 
 /// The kernels of one instruction set.
 struct RayCastKernels

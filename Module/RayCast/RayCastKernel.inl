@@ -37,7 +37,9 @@
 #include "RayCast/RayCastTable.h"
 #include "RayCast/RayCastVaryingLight.h"
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 namespace tetralux
@@ -51,6 +53,10 @@ constexpr std::uint32_t AllBlocks = ~0u;
 
 /// The depth of a pixel whose ray meets nothing.
 constexpr float NoDepth = -1;
+
+/// Whether packets are cast two by two: where the processor has registers for it.
+template <class Real>
+constexpr bool InPairs = sizeof(Real) == sizeof(float) && LaneCount == MostLanes;
 
 /// In place of what a model does not need.
 struct Nothing
@@ -117,33 +123,65 @@ public:
 
   void Cast()
   {
-    for (this->BeginPart(); this->Running; ++this->Part, this->BeginPart())
+    this->BeginPart();
+    this->Finish();
+  }
+
+  /// Casts the rays of two packets, a step of each by turns: while one waits for what it loads and
+  /// for what follows from that, the processor goes on with the other.
+  static void CastBoth(Packet& a, Packet& b)
+  {
+    a.BeginPart();
+    b.BeginPart();
+    while (a.Running != 0 && b.Running != 0)
     {
-      // Cells are integrated one step late: while the next step waits for what it loads, and so
-      // that it is on its way where a branch of the integral was not predicted.
-      CellParts parts{};
-      for (bool walking = true; walking;)
-      {
-        const CellParts last = parts;
-        walking = this->Running != 0;
-        if (walking)
-        {
-          this->Walk();
-          this->Step(parts);
-        }
-        this->Integrate(last);
-      }
+      CellParts partsOfA{}, partsOfB{};
+      const Exit exitOfA = a.FindExit();
+      const Exit exitOfB = b.FindExit();
+      a.Leave(exitOfA);
+      a.Step(partsOfA);
+      b.Leave(exitOfB);
+      b.Step(partsOfB);
+      a.Integrate(partsOfA);
+      b.Integrate(partsOfB);
     }
-    this->Counts.Lanes += LaneCount * this->Steps;
-    this->Counts.Segments += this->Segments;
-    this->WritePixels();
+    a.Finish();
+    b.Finish();
   }
 
 private:
   using CellParts = PartsOfCells<Real, Model>;
 
-  /// Moves each ray from the face a b c of its cell to the face through which it leaves the cell.
-  TETRALUX_INLINE void Walk()
+  /// Casts the rays until they all end.
+  TETRALUX_NOINLINE void Finish()
+  {
+    do
+    {
+      while (this->Running != 0)
+      {
+        CellParts parts{};
+        this->Leave(this->FindExit());
+        this->Step(parts);
+        this->Integrate(parts);
+      }
+      ++this->Part;
+      this->BeginPart();
+    } while (this->Running != 0);
+    this->Counts.Lanes += static_cast<std::int64_t>(LaneCount) * this->Steps;
+    this->Counts.Segments += this->Segments;
+    this->WritePixels();
+  }
+
+  /// The fourth point of the cell of each ray, and on which sides of its edges to the corners of the
+  /// face of entry the ray passes.
+  struct Exit
+  {
+    Corner<Real> P;
+    V PA, PB, PC;              ///< det(p, a), det(p, b), det(p, c), without their signs
+    Mask8 ASide, BSide, CSide; ///< where those count as positive
+  };
+
+  TETRALUX_INLINE Exit FindExit() const
   {
     const Corner<Real> p = LoadCorner<Real>(this->Ray, this->In.Points, this->Point);
     const V pa = Det(p, this->A);
@@ -153,12 +191,28 @@ private:
     Mask8 aSide = zero < pa;
     Mask8 bSide = zero < pb;
     Mask8 cSide = zero < pc;
-    if (Any((pa == zero) | (pb == zero) | (pc == zero)))
+    const V sizeA = Abs(pa);
+    const V sizeB = Abs(pb);
+    const V sizeC = Abs(pc);
+    if (Any(Min(Min(sizeA, sizeB), sizeC) <= zero))
     {
       aSide = IsPositive(pa, p, this->A);
       bSide = IsPositive(pb, p, this->B);
       cSide = IsPositive(pc, p, this->C);
     }
+    return { p, sizeA, sizeB, sizeC, aSide, bSide, cSide };
+  }
+
+  /// Moves each ray from the face a b c of its cell to the face through which it leaves the cell.
+  TETRALUX_INLINE void Leave(const Exit& exit)
+  {
+    const Corner<Real>& p = exit.P;
+    const V pa = exit.PA;
+    const V pb = exit.PB;
+    const V pc = exit.PC;
+    const Mask8 aSide = exit.ASide;
+    const Mask8 bSide = exit.BSide;
+    const Mask8 cSide = exit.CSide;
     const Mask8 dropA = AndNot(bSide, cSide);
     const Mask8 dropB = AndNot(cSide, aSide);
     const Mask8 keepC = dropA | dropB;
@@ -177,15 +231,15 @@ private:
     TETRALUX_CHECK(this->IsOnItsWay());
 
     // det(p, x) is the weight of the corner across; the replaced corner keeps its weight for p.
-    this->WA = Select(dropA, this->WA, Abs(Select(dropB, pc, pb)));
-    this->WB = Select(dropB, this->WB, Abs(Select(dropA, pc, pa)));
-    this->WC = Select(keepC, Abs(Select(dropA, pb, pa)), this->WC);
+    this->WA = Select(dropA, this->WA, Select(dropB, pc, pb));
+    this->WB = Select(dropB, this->WB, Select(dropA, pc, pa));
+    this->WC = Select(keepC, Select(dropA, pb, pa), this->WC);
     Replace(this->A, dropA, p);
     Replace(this->B, dropB, p);
     Replace(this->C, AndNot(MaskFromBits(AllLanes), keepC), p);
   }
 
-  /// Tells what rays have of the cells of the last Walk. Ends rays that are past their end or left
+  /// Tells what rays have of the cells of the last Leave. Ends rays that are past their end or left
   /// the mesh, or lets them enter it again.
   TETRALUX_INLINE void Step(CellParts& parts)
   {
@@ -201,22 +255,19 @@ private:
     {
       valid = valid & this->IsReal();
     }
-    if constexpr (Model::NeedsLength)
-    {
-      valid = AndNot(valid, z0 == z1);
-    }
     V zFrom = z0;
     V zTo = z1;
     V sFrom = s0;
     V sTo = s1;
-    const Mask8 backward = z1 < z0;
-    Mask8 cut = backward;
+    const Mask8 forward = Model::NeedsLength ? z0 < z1 : z0 <= z1;
+    Mask8 whole = forward;
     if (this->Limited)
     {
-      cut = cut | (z0 < this->Near) | (this->Far < z1);
+      whole = whole & (this->Near <= z0) & (z1 <= this->Far);
     }
-    if (Any(running & cut))
+    if (Any(AndNot(running, whole)))
     {
+      const Mask8 backward = z1 < z0;
       // A ray passes an inverted cell from its far side to its near side. It is drawn as any other.
       const V zNear = Min(z0, z1);
       const V zFar = Max(z0, z1);
@@ -244,7 +295,7 @@ private:
     {
       if (this->In.Lighting)
       {
-        this->TellGradients(z0, z1, backward, parts);
+        this->TellGradients(z0, z1, z1 < z0, parts);
       }
     }
     if constexpr (Model::NeedsComponents)
@@ -265,7 +316,7 @@ private:
     this->Cell = Select(outside, Int8(0), this->Cell);
     if ((pastBits | outsideBits) != 0)
     {
-      this->Leave(exits, outsideBits, this->KeepDone(pastBits));
+      this->LeaveMesh(exits, outsideBits, this->KeepDone(pastBits));
     }
   }
 
@@ -299,7 +350,7 @@ private:
     this->Running &= ~Bits(this->Gathered.IsDone(this->In));
   }
 
-  /// Tells the gradients on the faces of the cells of the last Walk.
+  /// Tells the gradients on the faces of the cells of the last Leave.
   TETRALUX_INLINE void TellGradients(V z0, V z1, Mask8 backward, CellParts& parts)
   {
     parts.OfFaces = { Min(z0, z1), Max(z0, z1) };
@@ -349,17 +400,11 @@ private:
   /// that overlap with the ones they are in. The others go on without effect until they leave.
   unsigned KeepDone(unsigned pastBits) const
   {
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (int place = 0; place < this->Crossings.Count && pastBits != 0; ++place)
     {
-      const Crossing* list = this->GetCrossings(lane);
-      for (int k = this->Cursor[lane]; (pastBits >> lane & 1u) && k < this->Crossings.Count[lane];
-           ++k)
-      {
-        if (list[k].Entry >= 0 && list[k].Distance <= this->FarOf[lane])
-        {
-          pastBits &= ~(1u << lane);
-        }
-      }
+      FaceCrossing& crossing = this->Buffer.Crossings[place];
+      const Mask8 before = LoadLanes(GetDistances<Real>(crossing)) <= this->Far;
+      pastBits &= ~(crossing.Lanes & Bits(before));
     }
     return pastBits;
   }
@@ -412,11 +457,6 @@ private:
     }
   }
 
-  Crossing* GetCrossings(int lane) const
-  {
-    return this->Buffer.Crossings + static_cast<std::int64_t>(lane) * this->Buffer.Capacity;
-  }
-
   /// Starts the next part of the rays in which any ray meets the mesh, if there is one.
   void BeginPart()
   {
@@ -430,13 +470,7 @@ private:
         this->In, this->Faces, this->Ray, MaskFromBits(active), this->Buffer, this->Crossings);
       this->Running = 0;
       active &= ~this->LeaveOutInexact(active);
-      unsigned hit = 0;
-      for (int i = 0; i < LaneCount; ++i)
-      {
-        this->Cursor[i] = 0;
-        hit |= static_cast<unsigned>(this->Crossings.Count[i] > 0) << i;
-      }
-      Store(this->FarOf, end);
+      const unsigned hit = Bits(this->Crossings.Left > Int8(0));
       if constexpr (sizeof(Real) == sizeof(float))
       {
         this->Near = ToFloat(begin);
@@ -471,24 +505,28 @@ private:
   /// lanes: they are not cast here.
   unsigned LeaveOutInexact(unsigned rays)
   {
+    const Float8 errors = this->Crossings.ShiftError;
+    const Float8 noted = static_cast<float>(this->Counts.ShiftError);
+    if (!Any(MaskFromBits(rays) & (noted < errors)))
+    {
+      return 0;
+    }
+    float errorOf[LaneCount];
+    Store(errorOf, errors);
     unsigned left = 0;
     for (int block = 0; block < BlocksOfPacket; ++block)
     {
-      const unsigned lanes = GetLanesOfBlock(block);
-      double largest = 0;
-      for (int lane = block * LanesOfBlock; lane < (block + 1) * LanesOfBlock; ++lane)
+      const unsigned lanes = GetLanesOfBlock(block) & rays;
+      float largest = 0;
+      for (unsigned bits = lanes; bits != 0; bits &= bits - 1)
       {
-        const double error = this->Crossings.ShiftError[lane];
-        if (((rays >> lane) & 1u) && error > largest)
-        {
-          largest = error;
-        }
+        largest = std::max(largest, errorOf[FindFirstLane(bits)]);
       }
       if (this->In.InexactBlocks && largest > this->In.LargestShiftError)
       {
         const int y = this->PixelY + block * BlockHeight;
         this->In.InexactBlocks[GetBlockPlace(this->In.Grid->Width, this->PixelX, y)] = 1;
-        left |= lanes;
+        left |= GetLanesOfBlock(block);
       }
       else if (largest > this->Counts.ShiftError)
       {
@@ -499,53 +537,37 @@ private:
     return left;
   }
 
-  /// Takes a ray's nearest crossing that no walk began or ended at; -1 if there is none.
-  std::int32_t TakeEntry(int lane)
-  {
-    Crossing* list = this->GetCrossings(lane);
-    int& k = this->Cursor[lane];
-    const int n = this->Crossings.Count[lane];
-    while (k < n && list[k].Entry < 0)
-    {
-      ++k;
-    }
-    if (k == n || list[k].Distance > this->FarOf[lane])
-    {
-      return -1;
-    }
-    const std::int32_t entry = list[k].Entry;
-    list[k].Entry = -1;
-    return entry;
-  }
-
-  /// Puts the rays of some lanes at their next entry into the mesh, if they have one.
+  /// Puts the rays of some lanes at their next entry into the mesh, if they have one: the nearest
+  /// crossing that no walk began or ended at.
   void Enter(unsigned lanes)
   {
+    const NearestCrossings<Real> nearest = FindNearest<Real>(this->Buffer, this->Crossings, lanes);
+    const V infinity = std::numeric_limits<Real>::infinity();
+    lanes &= Bits((nearest.Distance <= this->Far) & (nearest.Distance < infinity));
+    if (lanes == 0)
+    {
+      return;
+    }
+    std::int32_t places[LaneCount], entries[LaneCount];
     std::int32_t cells[LaneCount] = {}, opposites[LaneCount] = {}, corners[3][LaneCount] = {};
+    Store(places, nearest.Place);
+    Store(entries, nearest.Entry);
     for (unsigned left = lanes; left != 0; left &= left - 1)
     {
       const int lane = FindFirstLane(left);
-      const std::int32_t entryId = this->TakeEntry(lane);
-      if (entryId < 0)
-      {
-        lanes &= ~(1u << lane);
-        continue;
-      }
-      TETRALUX_CHECK(entryId < this->In.NumberOfEntries);
-      const WalkEntry& entry = this->In.Entries[entryId];
+      TETRALUX_CHECK(entries[lane] < this->In.NumberOfEntries);
+      const WalkEntry& entry = this->In.Entries[entries[lane]];
       for (int k = 0; k < 3; ++k)
       {
         corners[k][lane] = entry.Points[k];
       }
       cells[lane] = entry.Cell;
       opposites[lane] = entry.Opposite;
+      this->Buffer.Crossings[places[lane]].Lanes &= ~(1u << lane);
       ++this->Counts.Paths;
     }
-    if (lanes == 0)
-    {
-      return;
-    }
     const Mask8 start = MaskFromBits(lanes);
+    this->Crossings.Left = this->Crossings.Left - Ones(start);
     const Corner<Real> p = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[0]));
     const Corner<Real> q = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[1]));
     const Corner<Real> r = LoadCorner<Real>(this->Ray, this->In.Points, LoadInt8(corners[2]));
@@ -575,28 +597,17 @@ private:
   }
 
   /// Ends or re-enters the rays that left the mesh, ends those that are done.
-  void Leave(Int8 exits, unsigned outsideBits, unsigned doneBits)
+  void LeaveMesh(Int8 exits, unsigned outsideBits, unsigned doneBits)
   {
-    const unsigned leaving = outsideBits & ~doneBits;
     this->Running &= ~(doneBits | outsideBits);
-    std::int32_t exitOf[LaneCount];
-    Store(exitOf, exits);
-    for (unsigned left = leaving; left != 0; left &= left - 1)
+    const Mask8 leaving = MaskFromBits(outsideBits & ~doneBits);
+    this->Crossings.Left = this->Crossings.Left - Ones(leaving);
+    const unsigned others = Bits(leaving & (this->Crossings.Left > Int8(0)));
+    if (others != 0)
     {
-      const int lane = FindFirstLane(left);
-      Crossing* list = this->GetCrossings(lane);
-      for (int k = this->Cursor[lane]; k < this->Crossings.Count[lane]; ++k)
-      {
-        if (list[k].Entry == ~exitOf[lane])
-        {
-          list[k].Entry = -1;
-          break;
-        }
-      }
-    }
-    if (leaving)
-    {
-      this->Enter(leaving);
+      // A boundary face b is told as ~b.
+      StrikeExits(this->Buffer, this->Crossings, others, Int8(-1) - exits);
+      this->Enter(others);
     }
   }
 
@@ -637,15 +648,13 @@ private:
   int PixelX, PixelY;
   unsigned Inside = 0;       ///< lanes with a pixel that is not left to double precision
   unsigned Running = 0;      ///< lanes whose ray is in the mesh
-  std::int64_t Steps = 0;    ///< taken by the packet
+  int Steps = 0;             ///< taken by the packet; 32 bits, so that both counts stay scalar
   std::int64_t Segments = 0; ///< cells walked through, over all rays
   WorldRays World;
   Rays<Real> Ray;
   Intervals Limits;
   int Part = 0; ///< of the limits
-  double FarOf[LaneCount];
   PacketCrossings Crossings;
-  int Cursor[LaneCount]; ///< first crossing of each ray that may still be an entry
 
   // Where the rays are: in a cell, on the triangle A B C through which they entered it.
   V Near, Far;  ///< ends of the part
@@ -691,9 +700,11 @@ constexpr std::uint32_t FindBlocks(int x, int y)
 }
 
 template <class Real, class Model, bool CellData>
-void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuffer& buffer,
+void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, const CrossingBuffers& buffers,
   KernelCounts& counts)
 {
+  using PacketOfRays = Packet<Real, Model, CellData>;
+  std::optional<PacketOfRays> first;
   PacketFaces faces{};
   std::uint32_t met = AllBlocks;
   if (in.TileFaces)
@@ -717,8 +728,25 @@ void CastRays(const KernelInput& in, int x0, int y0, int x1, int y1, CrossingBuf
         ClearPixels(in, x, y, x1, y1);
         continue;
       }
-      Packet<Real, Model, CellData>(in, faces, x, y, x1, y1, buffer, counts).Cast();
+      if constexpr (!InPairs<Real>)
+      {
+        PacketOfRays(in, faces, x, y, x1, y1, *buffers[0], counts).Cast();
+      }
+      else if (!first)
+      {
+        first.emplace(in, faces, x, y, x1, y1, *buffers[0], counts);
+      }
+      else
+      {
+        PacketOfRays second(in, faces, x, y, x1, y1, *buffers[1], counts);
+        PacketOfRays::CastBoth(*first, second);
+        first.reset();
+      }
     }
+  }
+  if (first)
+  {
+    first->Cast();
   }
 }
 

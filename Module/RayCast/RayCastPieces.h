@@ -143,90 +143,99 @@ TETRALUX_INLINE IntervalLanes LoadInterval(const KernelInput& in, Int8 interval,
   return GatherInterval(in, interval);
 }
 
-/// Cuts a cell where an interval ends. The scalar runs linearly from s0 at z0 to s1 at z1. Calls
-/// add(contributes, piece, from, to) for each piece that attenuates any ray, between two distances
-/// z. interval: of the transfer function, where each ray's last scalar is; updated.
-template <class Real, class V, class AddT>
-TETRALUX_INLINE void CutAtNodes(
-  const KernelInput& in, Int8& interval, Mask8 valid, V z0, V s0, V z1, V s1, AddT add)
+/// What is left of cells: the scalar runs linearly from S0 at Z0 to S1 at Z1.
+template <class V>
+struct RestOfCells
 {
-  while (Any(valid))
-  {
-    TETRALUX_CHECK(AreBelow(valid, interval, in.NumberOfIntervals));
-    Piece piece;
-    const IntervalLanes t = LoadInterval(in, interval, valid);
-    for (int c = 0; c < 3; ++c)
-    {
-      piece.Color[c] = t.Color[c];
-      piece.Slope[c] = t.ColorSlope[c];
-      piece.Bend[c] = t.ColorBend[c];
-    }
-    const V bottom = ToPrecision<V>(t.Lo);
-    const V head = ToPrecision<V>(t.Hi);
-    const V origin = ToPrecision<V>(t.Reference);
+  Mask8 Valid; ///< rays that have some left
+  V Z0, S0, Z1, S1;
+};
 
-    // The interval of the last cell is mostly still right, or a neighbour is. A constant scalar at
-    // a node belongs to the interval above it, whichever came before. Scalars are compared in
-    // single precision, to which the nodes were rounded.
-    const Float8 f0 = ToFloat(s0);
-    const Float8 f1 = ToFloat(s1);
-    const Mask8 inside = (t.Lo <= Min(f0, f1)) & (Max(f0, f1) < t.Hi);
-    V z = z1;
-    V s = s1;
-    Mask8 more = AndNot(valid, inside);
-    const bool cut = Any(more);
-    if (cut)
+/// Takes the next piece of what is left of cells: up to where its interval ends. Calls
+/// add(contributes, piece, from, to) if it attenuates any ray, between two distances z. interval: of
+/// the transfer function, where each ray's last scalar is; updated.
+template <class Real, class V, class AddT>
+TETRALUX_INLINE void TakePiece(
+  const KernelInput& in, Int8& interval, RestOfCells<V>& rest, AddT add)
+{
+  const Mask8 valid = rest.Valid;
+  const V z0 = rest.Z0;
+  const V s0 = rest.S0;
+  const V z1 = rest.Z1;
+  const V s1 = rest.S1;
+  TETRALUX_CHECK(AreBelow(valid, interval, in.NumberOfIntervals));
+  Piece piece;
+  const IntervalLanes t = LoadInterval(in, interval, valid);
+  for (int c = 0; c < 3; ++c)
+  {
+    piece.Color[c] = t.Color[c];
+    piece.Slope[c] = t.ColorSlope[c];
+    piece.Bend[c] = t.ColorBend[c];
+  }
+  const V bottom = ToPrecision<V>(t.Lo);
+  const V head = ToPrecision<V>(t.Hi);
+  const V origin = ToPrecision<V>(t.Reference);
+
+  // The interval of the last cell is mostly still right, or a neighbour is. A constant scalar at
+  // a node belongs to the interval above it, whichever came before. Scalars are compared in
+  // single precision, to which the nodes were rounded.
+  const Float8 f0 = ToFloat(s0);
+  const Float8 f1 = ToFloat(s1);
+  const Mask8 inside = (t.Lo <= Min(f0, f1)) & (Max(f0, f1) < t.Hi);
+  V z = z1;
+  V s = s1;
+  Mask8 more = AndNot(valid, inside);
+  const bool cut = Any(more);
+  if (cut)
+  {
+    const Mask8 below = valid & (f0 < t.Lo);
+    const Mask8 above = valid & ((t.Hi < f0) | ((t.Hi == f0) & (f0 <= f1)));
+    if (Any(below | above))
     {
-      const Mask8 below = valid & (f0 < t.Lo);
-      const Mask8 above = valid & ((t.Hi < f0) | ((t.Hi == f0) & (f0 <= f1)));
-      if (Any(below | above))
-      {
-        interval = interval + Ones(above) - Ones(below);
-        continue;
-      }
-      const Mask8 last = (t.Lo <= f1) & (f1 <= t.Hi);
-      more = AndNot(valid, last);
-      s = Min(Max(s1, bottom), head);
-      V share = (s - s0) / (s1 - s0);
-      if constexpr (sizeof(Real) > sizeof(float))
-      {
-        // What was compared as rounded may lie just outside of the interval, on the side of s1.
-        // Its end then is in front of z0.
-        share = Max(V(Real(0)), share);
-      }
-      z = Select(last, z1, Fma(share, z1 - z0, z0));
-    }
-    V x[2] = { s0, s };
-    if constexpr (sizeof(Real) > sizeof(float))
-    {
-      // What was compared as rounded may lie just outside of the interval, where the slope of one
-      // only a few roundings wide leads far.
-      x[0] = Min(Max(s0, bottom), head);
-      x[1] = Min(Max(s, bottom), head);
-    }
-    piece.X0 = ToFloat(x[0] - origin);
-    piece.X1 = ToFloat(x[1] - origin);
-    const Float8 length = Keep(valid, ToFloat(z - z0));
-    const Float8 zero = 0.f;
-    const Float8 largest = static_cast<float>(LargestSingleDepth);
-    // Rounding may leave an attenuation just below zero where the function comes down to it.
-    piece.D0 = Max(zero, Min(Fma(t.AttenuationSlope, piece.X0, t.Attenuation) * length, largest));
-    piece.D1 = Max(zero, Min(Fma(t.AttenuationSlope, piece.X1, t.Attenuation) * length, largest));
-    const Mask8 contributes = valid & (zero < piece.D0 + piece.D1);
-    if (Any(contributes))
-    {
-      add(contributes, piece, z0, z);
-    }
-    if (!cut || !Any(more))
-    {
+      interval = interval + Ones(above) - Ones(below);
       return;
     }
+    const Mask8 last = (t.Lo <= f1) & (f1 <= t.Hi);
+    more = AndNot(valid, last);
+    s = Min(Max(s1, bottom), head);
+    V share = (s - s0) / (s1 - s0);
+    if constexpr (sizeof(Real) > sizeof(float))
+    {
+      // What was compared as rounded may lie just outside of the interval, on the side of s1.
+      // Its end then is in front of z0.
+      share = Max(V(Real(0)), share);
+    }
+    z = Select(last, z1, Fma(share, z1 - z0, z0));
+  }
+  V x[2] = { s0, s };
+  if constexpr (sizeof(Real) > sizeof(float))
+  {
+    // What was compared as rounded may lie just outside of the interval, where the slope of one
+    // only a few roundings wide leads far.
+    x[0] = Min(Max(s0, bottom), head);
+    x[1] = Min(Max(s, bottom), head);
+  }
+  piece.X0 = ToFloat(x[0] - origin);
+  piece.X1 = ToFloat(x[1] - origin);
+  const Float8 length = Keep(valid, ToFloat(z - z0));
+  const Float8 zero = 0.f;
+  const Float8 largest = static_cast<float>(LargestSingleDepth);
+  // Rounding may leave an attenuation just below zero where the function comes down to it.
+  piece.D0 = Max(zero, Min(Fma(t.AttenuationSlope, piece.X0, t.Attenuation) * length, largest));
+  piece.D1 = Max(zero, Min(Fma(t.AttenuationSlope, piece.X1, t.Attenuation) * length, largest));
+  const Mask8 contributes = valid & (zero < piece.D0 + piece.D1);
+  if (Any(contributes))
+  {
+    add(contributes, piece, z0, z);
+  }
+  if (cut)
+  {
     const Mask8 rising = more & (s0 < s1);
     interval = interval + Ones(rising) - Ones(AndNot(more, rising));
-    z0 = z;
-    s0 = s;
-    valid = more;
   }
+  rest.Valid = more;
+  rest.Z0 = z;
+  rest.S0 = s;
 }
 
 /// Returns the optical depth of a cell of constant scalar, and its colour.
@@ -259,12 +268,16 @@ public:
     const KernelInput& in, Mask8 valid, Int8 cell, V z0, V s0, V z1, V s1)
   {
     this->GetDerived().Enter(in, valid, cell, z0, z1);
-    CutAtNodes<Real>(in, this->Interval, valid, z0, s0, z1, s1,
-      [&](Mask8 contributes, const Piece& piece, V from, V to)
-      {
-        this->GetDerived().AddPiece(in, contributes, piece, from, to);
-        this->First.Add(contributes, from);
-      });
+    if (!Any(valid))
+    {
+      return;
+    }
+    RestOfCells<V> rest{ valid, z0, s0, z1, s1 };
+    this->AddNext(in, rest);
+    if (Any(rest.Valid))
+    {
+      this->AddRest(in, rest);
+    }
   }
 
   TETRALUX_INLINE void AddCell(const KernelInput& in, Mask8 valid, Int8 cell, V z0, V z1)
@@ -282,6 +295,25 @@ public:
   TETRALUX_INLINE void Enter(const KernelInput&, Mask8, Int8, V, V) {}
 
 private:
+  TETRALUX_INLINE void AddNext(const KernelInput& in, RestOfCells<V>& rest)
+  {
+    TakePiece<Real>(in, this->Interval, rest,
+      [&](Mask8 contributes, const Piece& piece, V from, V to) TETRALUX_INLINE_LAMBDA
+      {
+        this->GetDerived().AddPiece(in, contributes, piece, from, to);
+        this->First.Add(contributes, from);
+      });
+  }
+
+  /// Apart, so that what most cells need stays short.
+  TETRALUX_NOINLINE void AddRest(const KernelInput& in, RestOfCells<V> rest)
+  {
+    while (Any(rest.Valid))
+    {
+      this->AddNext(in, rest);
+    }
+  }
+
   Int8 Interval = 0; ///< of the transfer function, where each ray's last scalar was
 };
 

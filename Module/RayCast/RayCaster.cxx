@@ -52,7 +52,7 @@ RayCastKernels GetKernels(InstructionSet set, bool wide)
 /// A CrossingBuffer that owns its memory.
 struct OwningCrossingBuffer : CrossingBuffer
 {
-  std::vector<Crossing> Storage;
+  std::vector<FaceCrossing> Storage;
 
   OwningCrossingBuffer()
   {
@@ -68,7 +68,7 @@ struct OwningCrossingBuffer : CrossingBuffer
   {
     auto& self = static_cast<OwningCrossingBuffer&>(buffer);
     self.Capacity *= 2;
-    self.Storage.resize(MostLanes * static_cast<std::size_t>(self.Capacity));
+    self.Storage.resize(static_cast<std::size_t>(self.Capacity));
     self.Crossings = self.Storage.data();
   }
 };
@@ -207,7 +207,7 @@ bool FillTiles(const WalkMesh& mesh, const WalkTables& tables, const RayGrid& gr
 /// What a thread writes while it casts; on cache lines of its own.
 struct alignas(64) ThreadMemory
 {
-  OwningCrossingBuffer Crossings;
+  OwningCrossingBuffer Crossings[PacketsInFlight];
   KernelCounts Counts;
 };
 
@@ -327,7 +327,8 @@ private:
   void CastTile(const KernelInput& in, RayCastKernel kernel, const Tile& tile, int thread)
   {
     ThreadMemory& memory = this->Threads[thread];
-    kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, memory.Crossings, memory.Counts);
+    kernel(in, tile.X0, tile.Y0, tile.X1, tile.Y1, { &memory.Crossings[0], &memory.Crossings[1] },
+      memory.Counts);
   }
 
   /// Casts the blocks that single precision left out.

@@ -92,8 +92,10 @@
 // Else loops over lanes, and what sanitizers add, take minutes to compile in one function.
 #if defined(__GNUC__) && TETRALUX_FUSED && !defined(__SANITIZE_ADDRESS__)
 #define TETRALUX_INLINE inline __attribute__((always_inline))
+#define TETRALUX_INLINE_LAMBDA __attribute__((always_inline))
 #else
 #define TETRALUX_INLINE inline
+#define TETRALUX_INLINE_LAMBDA
 #endif
 #if defined(__GNUC__)
 #define TETRALUX_NOINLINE __attribute__((noinline))

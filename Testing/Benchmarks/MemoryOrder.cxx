@@ -134,7 +134,7 @@ public:
         {
           for (int x = 0; x < ImageSize; x += TileSize)
           {
-            kernel(this->In, x, y, x + TileSize, y + TileSize, this->Buffer, counts);
+            kernel(this->In, x, y, x + TileSize, y + TileSize, { &this->Buffer, nullptr }, counts);
           }
         }
       });

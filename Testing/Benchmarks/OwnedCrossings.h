@@ -12,7 +12,7 @@ namespace tetralux
 /// A CrossingBuffer that owns its memory.
 struct OwnedCrossings : CrossingBuffer
 {
-  std::vector<Crossing> Storage;
+  std::vector<FaceCrossing> Storage;
 
   OwnedCrossings()
   {
@@ -25,8 +25,7 @@ struct OwnedCrossings : CrossingBuffer
   {
     auto& self = static_cast<OwnedCrossings&>(buffer);
     self.Capacity *= 2;
-    constexpr std::size_t Lanes = 8;
-    self.Storage.resize(Lanes * static_cast<std::size_t>(self.Capacity));
+    self.Storage.resize(static_cast<std::size_t>(self.Capacity));
     self.Crossings = self.Storage.data();
   }
 };
