@@ -18,8 +18,8 @@
 // Gauss's sums of five points, whose error is then below the rounding of single precision.
 
 #include "Integral/SegmentIntegral.h"
-#include "Optics/IntervalTable.h"
 #include "RayCast/RayCastGather.h"
+#include "RayCast/RayCastIntervals.h"
 #include "RayCast/RayCastRadiance.h"
 
 namespace tetralux

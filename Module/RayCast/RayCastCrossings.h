@@ -5,6 +5,7 @@
 // Where the rays of a packet cross the boundary.
 
 #include "RayCast/RayCastFrame.h"
+#include "RayCast/RayCastIntervals.h"
 #include "View/RayDisplacements.h"
 
 #include <limits>
@@ -61,8 +62,8 @@ constexpr double ProjectionRounding = 2. * std::numeric_limits<Real>::epsilon();
 /// How much farther than ShiftRounding rays are displaced.
 constexpr float DisplacementRatio = static_cast<float>(FarthestDisplacement / ShiftRounding);
 
-/// How often rays cross the boundary, where CrossingBuffer tells; and which rays pass an edge of the
-/// boundary so closely that rounding may decide on which side.
+/// How often rays cross the boundary, where CrossingBuffer tells; and which rays pass an edge of
+/// the boundary so closely that rounding may decide on which side.
 struct PacketCrossings
 {
   int Count; ///< faces that any ray crosses
@@ -154,31 +155,17 @@ TETRALUX_INLINE Real* GetDistances(FaceCrossing& crossing)
   }
 }
 
-/// The attenuation at scalars, or of the cell behind a face.
-TETRALUX_INLINE Float8 FindAttenuation(const KernelInput& in, Float8 scalar, std::int32_t cell)
+/// The attenuation at scalars, or of the cell behind a face. Apart, since few faces need it.
+TETRALUX_NOINLINE Float8 FindAttenuation(
+  const KernelInput& in, Mask8 valid, Float8 scalar, std::int32_t cell)
 {
   if (in.CellValues)
   {
     return in.CellValues[cell].Attenuation;
   }
-  const IntervalTable::Interval& table = *in.Intervals;
-  const auto find = [&](const float& column, Int8 interval)
-  {
-    constexpr auto Row = static_cast<std::int32_t>(sizeof(IntervalTable::Interval));
-    return FromBits(GatherWords(&column, interval * Int8(Row)));
-  };
-  // The first interval that does not end below.
-  Int8 first = 0;
-  Int8 last = in.NumberOfIntervals - 1;
-  while (Any(last > first))
-  {
-    const Int8 middle = ShiftRight(first + last, 1);
-    const Mask8 below = (last > first) & (find(table.Hi, middle) < scalar);
-    first = Select(below, middle + Int8(1), first);
-    last = Select(below, last, Select(last > first, middle, last));
-  }
-  return Fma(find(table.AttenuationSlope, first), scalar - find(table.Reference, first),
-    find(table.Attenuation, first));
+  const Int8 interval = FindInterval(in, [&](Float8 end) { return end < scalar; });
+  const IntervalLanes t = LoadInterval(in, interval, valid);
+  return Fma(t.AttenuationSlope, scalar - t.Reference, t.Attenuation);
 }
 
 /// Adds what the colours of rays change by if rounding moves a face of the boundary across them:
@@ -205,7 +192,8 @@ TETRALUX_INLINE void AddShiftErrors(const KernelInput& in, const Corner<float> (
   {
     return;
   }
-  const Float8 attenuation = FindAttenuation(in, Blend(weightB, weightC, a.S, b.S, c.S), cell);
+  const Float8 attenuation =
+    FindAttenuation(in, large, Blend(weightB, weightC, a.S, b.S, c.S), cell);
   const Mask8 visible = large & (Float8(0.f) < attenuation); // and it is a number
   const Float8 share = attenuation * Float8(1 / in.LargestAttenuation);
   crossings.ShiftError = crossings.ShiftError + Keep(visible, most * share);

@@ -55,6 +55,9 @@ struct Corner
   Int8 Id;
 };
 
+TETRALUX_INLINE Float8 LoadLanes(const float* p) { return LoadFloat8(p); }
+TETRALUX_INLINE Double8 LoadLanes(const double* p) { return LoadDouble8(p); }
+
 template <class V>
 TETRALUX_INLINE V Dot(const V (&a)[3], V x, V y, V z)
 {

@@ -49,12 +49,6 @@ TETRALUX_INLINE V ToPrecision(Float8 x)
 TETRALUX_INLINE Double8 Widen(Float8 x) { return ToDouble(x); }
 TETRALUX_INLINE Double8 Widen(Double8 x) { return x; }
 
-TETRALUX_INLINE Float8 LoadLanes(const float* p) { return LoadFloat8(p); }
-TETRALUX_INLINE Double8 LoadLanes(const double* p) { return LoadDouble8(p); }
-
-/// The first row of an interval of an IntervalTable.
-TETRALUX_INLINE Int8 FindIntervalRow(Int8 interval) { return ShiftLeft(interval, 2); }
-
 /// Several scalars in each lane.
 struct ComponentLanes
 {

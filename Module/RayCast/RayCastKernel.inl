@@ -172,8 +172,8 @@ private:
     this->WritePixels();
   }
 
-  /// The fourth point of the cell of each ray, and on which sides of its edges to the corners of the
-  /// face of entry the ray passes.
+  /// The fourth point of the cell of each ray, and on which sides of its edges to the corners of
+  /// the face of entry the ray passes.
   struct Exit
   {
     Corner<Real> P;

@@ -6,8 +6,8 @@
 // integrate those.
 
 #include "Integral/SegmentIntegral.h"
-#include "Optics/IntervalTable.h"
 #include "RayCast/RayCastGather.h"
+#include "RayCast/RayCastIntervals.h"
 
 #include <cstdint>
 
@@ -43,106 +43,6 @@ struct Piece
   }
 };
 
-/// An interval of the transfer function in each lane.
-struct IntervalLanes
-{
-  Float8 Lo, Hi, Reference, Attenuation, AttenuationSlope;
-  Float8 Color[3], ColorSlope[3], ColorBend[3];
-};
-
-/// Looks intervals up in the first Size ones of the table.
-template <int Size>
-TETRALUX_INLINE IntervalLanes LookUpInterval(const KernelInput& in, Int8 interval)
-{
-  const IntervalColumns& columns = *in.Columns;
-  const auto find = [&](const IntervalColumns::Column& column)
-  { return LookUp(reinterpret_cast<const float(&)[Size]>(column), interval); };
-  IntervalLanes t;
-  t.Lo = find(columns.Lo);
-  t.Hi = find(columns.Hi);
-  t.Reference = find(columns.Reference);
-  t.Attenuation = find(columns.Attenuation);
-  t.AttenuationSlope = find(columns.AttenuationSlope);
-  for (int c = 0; c < 3; ++c)
-  {
-    t.Color[c] = find(columns.Color[c]);
-    t.ColorSlope[c] = find(columns.ColorSlope[c]);
-    t.ColorBend[c] = 0.f;
-  }
-  if (in.Curved)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      t.ColorBend[c] = find(columns.ColorBend[c]);
-    }
-  }
-  return t;
-}
-
-/// The same interval in all lanes.
-TETRALUX_INLINE IntervalLanes RepeatInterval(const IntervalTable::Interval& interval)
-{
-  IntervalLanes t;
-  t.Lo = interval.Lo;
-  t.Hi = interval.Hi;
-  t.Reference = interval.Reference;
-  t.Attenuation = interval.Attenuation;
-  t.AttenuationSlope = interval.AttenuationSlope;
-  for (int c = 0; c < 3; ++c)
-  {
-    t.Color[c] = interval.Color[c];
-    t.ColorSlope[c] = interval.ColorSlope[c];
-    t.ColorBend[c] = interval.ColorBend[c];
-  }
-  return t;
-}
-
-TETRALUX_INLINE IntervalLanes GatherInterval(const KernelInput& in, Int8 interval)
-{
-  const Int8 row = FindIntervalRow(interval);
-  const auto* rows = reinterpret_cast<const float*>(in.Intervals);
-  IntervalLanes t;
-  t.ColorBend[0] = t.ColorBend[1] = t.ColorBend[2] = 0.f;
-  Float8 unused;
-  GatherRows(rows, row, t.Lo, t.Hi, t.Reference, t.Attenuation);
-  GatherRows(rows, row + Int8(1), t.AttenuationSlope, t.Color[0], t.Color[1], t.Color[2]);
-  GatherRows(rows, row + Int8(2), t.ColorSlope[0], t.ColorSlope[1], t.ColorSlope[2], unused);
-  if (in.Curved)
-  {
-    GatherRows(rows, row + Int8(3), t.ColorBend[0], t.ColorBend[1], t.ColorBend[2], unused);
-  }
-  return t;
-}
-
-/// valid: at least one lane, those in which the interval matters.
-TETRALUX_INLINE IntervalLanes LoadInterval(const KernelInput& in, Int8 interval, Mask8 valid)
-{
-  if (in.NumberOfIntervals <= IntervalColumns::Few)
-  {
-    return LookUpInterval<IntervalColumns::Few>(in, interval);
-  }
-  if constexpr (IntervalColumns::Most == 4 * LaneCount)
-  {
-    if (in.NumberOfIntervals <= 2 * LaneCount)
-    {
-      return LookUpInterval<2 * LaneCount>(in, interval);
-    }
-    if (in.NumberOfIntervals <= IntervalColumns::Most)
-    {
-      return LookUpInterval<IntervalColumns::Most>(in, interval);
-    }
-  }
-  // Neighbouring rays are mostly in the same interval: one load for all of them.
-  std::int32_t indices[LaneCount];
-  Store(indices, interval);
-  const std::int32_t one = indices[FindFirstLane(Bits(valid))];
-  if (!Any(AndNot(valid, interval == Int8(one))))
-  {
-    return RepeatInterval(in.Intervals[one]);
-  }
-  return GatherInterval(in, interval);
-}
-
 /// What is left of cells: the scalar runs linearly from S0 at Z0 to S1 at Z1.
 template <class V>
 struct RestOfCells
@@ -151,9 +51,16 @@ struct RestOfCells
   V Z0, S0, Z1, S1;
 };
 
+/// The interval in which a scalar runs that begins at f0, towards f1. Apart, since it is rarely far
+/// from the last cell's.
+TETRALUX_NOINLINE Int8 FindIntervalOfCell(const KernelInput& in, Float8 f0, Float8 f1)
+{
+  return FindInterval(in, [&](Float8 end) { return (end < f0) | ((end == f0) & (f0 <= f1)); });
+}
+
 /// Takes the next piece of what is left of cells: up to where its interval ends. Calls
-/// add(contributes, piece, from, to) if it attenuates any ray, between two distances z. interval: of
-/// the transfer function, where each ray's last scalar is; updated.
+/// add(contributes, piece, from, to) if it attenuates any ray, between two distances z. interval:
+/// of the transfer function, where each ray's last scalar is; updated.
 template <class Real, class V, class AddT>
 TETRALUX_INLINE void TakePiece(
   const KernelInput& in, Int8& interval, RestOfCells<V>& rest, AddT add)
@@ -190,9 +97,10 @@ TETRALUX_INLINE void TakePiece(
   {
     const Mask8 below = valid & (f0 < t.Lo);
     const Mask8 above = valid & ((t.Hi < f0) | ((t.Hi == f0) & (f0 <= f1)));
-    if (Any(below | above))
+    const Mask8 elsewhere = below | above;
+    if (Any(elsewhere))
     {
-      interval = interval + Ones(above) - Ones(below);
+      interval = Select(elsewhere, FindIntervalOfCell(in, f0, f1), interval);
       return;
     }
     const Mask8 last = (t.Lo <= f1) & (f1 <= t.Hi);

@@ -67,8 +67,8 @@
 //   GatherNeighbors    two consecutive floats from base + index of each lane. Indices are at least
 //                      0.
 //   LookUp(t, index)   t[index] of each lane, of a table of LaneCount or of two times as many, of
-//                      LanesAvx512Wide.h also of four times. Unspecified where an index is not in
-//                      the table.
+//                      LanesAvx512Wide.h also of three and four times. Unspecified where an
+//                      index is not in the table.
 //   Lane(a, i)         one lane
 //   Polynomial(x, c)   Horner's scheme, with Fma
 

@@ -359,6 +359,13 @@ TETRALUX_INLINE Float8 LookUp(const float (&table)[2 * LaneCount], Int8 index)
   return Float8(
     _mm512_permutex2var_ps(_mm512_loadu_ps(table), index.v, _mm512_loadu_ps(table + LaneCount)));
 }
+TETRALUX_INLINE Float8 LookUp(const float (&table)[3 * LaneCount], Int8 index)
+{
+  const __m512 lower = LookUp(reinterpret_cast<const float(&)[2 * LaneCount]>(table), index).v;
+  const __mmask16 upper = _mm512_test_epi32_mask(index.v, _mm512_set1_epi32(2 * LaneCount));
+  return Float8(
+    _mm512_mask_permutexvar_ps(lower, upper, index.v, _mm512_loadu_ps(table + 2 * LaneCount)));
+}
 TETRALUX_INLINE Float8 LookUp(const float (&table)[4 * LaneCount], Int8 index)
 {
   const auto half = [&](const float* p)

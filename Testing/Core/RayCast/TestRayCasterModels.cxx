@@ -377,7 +377,7 @@ TEST(RayCasterModels, WideKernelsGiveTheSameBitsOfAnyNumberOfIntervals)
     GTEST_SKIP() << "this processor has no fast lanes of 16";
   }
   RayScene scene = MakeScene(Emitter);
-  for (const int nodes : { 15, 16, 31, 32, 63, 64, 200 })
+  for (const int nodes : { 15, 16, 31, 32, 47, 48, 63, 64, 200 })
   {
     scene.Function.Nodes.clear();
     for (int k = 0; k < nodes; ++k)
