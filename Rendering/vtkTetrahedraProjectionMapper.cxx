@@ -328,7 +328,10 @@ void vtkTetrahedraProjectionMapper::Internals::MakeSamples(
   scene.Hides = true;
   const auto goOn = [&frame](double fraction) { return frame.ReportProgress(fraction); };
   frame.Aborted = this->Picture.Draw(frame.Window, scene, goOn).Aborted;
-  this->Picture.ReadColors(scene, task.Colors);
+  if (!frame.Aborted)
+  {
+    this->Picture.ReadColors(scene, task.Colors);
+  }
 }
 
 //------------------------------------------------------------------------------------------------
