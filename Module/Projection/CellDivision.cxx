@@ -29,7 +29,7 @@ constexpr std::int64_t MostSlicesOfAll = std::numeric_limits<std::uint32_t>::max
 constexpr std::int64_t BlockSize = 8192;
 
 /// Of the whole work, what is done when points have their intervals, and when cells have parts.
-constexpr double PlacedShare = 0.2;
+constexpr double PlacedShare = 0.1;
 constexpr double DividedShare = 0.9;
 
 /// The scalar of a point, and the interval that it is in. At a node that is the one above it.
