@@ -87,9 +87,9 @@ public:
   };
 
   /// Divides the cells where that is to be done anew, draws the colours, the cells in batches, and
-  /// waits until they are drawn. progress: told the share that is done, 0..1; the work ends where it
-  /// returns false. Leaves OpenGL's state as it
-  /// was. Throws std::runtime_error, with one line, where the graphics card or its driver can't.
+  /// waits until they are drawn. progress: told the share that is done, 0..1; the work ends where
+  /// it returns false. Leaves OpenGL's state as it was. Throws std::runtime_error, with one line,
+  /// where the graphics card or its driver can't.
   Result Draw(vtkOpenGLRenderWindow* window, const ProjectionScene& scene,
     const std::function<bool(double)>& progress);
 

@@ -278,7 +278,7 @@ TEST(ProjectionMapper, EmissionIsDitheredWithoutBias)
   EXPECT_GT(findBias(rounded), 10 * findBias(dithered));
 }
 
-// Sums are rounded in proportion to what they have come to, which may be above 1 without absorption.
+// Sums are rounded in proportion to what they have come to: without absorption that may be above 1.
 TEST(ProjectionMapper, BrightEmissionInHalfPrecision)
 {
   ProjectionMapperScene scene;
