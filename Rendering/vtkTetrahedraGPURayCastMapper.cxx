@@ -273,7 +273,9 @@ void vtkTetrahedraGPURayCastMapper::Internals::Cast(MapperFrame& frame, const Vi
     PathOfCubeRoot * std::cbrt(static_cast<double>(scene.Mesh.GetMesh()->GetNumberOfCells()));
   frame.Errors = { { "early_termination", frame.Budget.Termination },
     { "integrals", HasWeights(integrator) ? tetralux::SegmentWeightError : 0 },
-    { "summation", segments * std::numeric_limits<float>::epsilon() / 2 },
+    { "summation",
+      segments * scene.EstimateLargestChannel(worldRadius) * std::numeric_limits<float>::epsilon() /
+        2 },
     { "table", IsTabulated(integrator) ? scene.Optics.GetTableError() : 0 },
     { "geometry", geometryError } };
   frame.ReportOmission(

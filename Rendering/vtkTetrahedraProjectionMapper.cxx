@@ -50,7 +50,11 @@ using tetralux::VolumeScene;
 namespace
 {
 
-/// Rounding of each sum of colours in a format.
+/// The largest number of half precision.
+constexpr double LargestHalf = 65504;
+
+/// Rounding of a number from 1/2 to 1 in a format. OpenGL does not say how blending rounds to 16
+/// bits: some graphics cards and Mesa's llvmpipe cut bits off.
 double GetRounding(ChannelFormat format)
 {
   switch (format)
@@ -58,7 +62,7 @@ double GetRounding(ChannelFormat format)
     case ChannelFormat::UNorm8:
       return 0.5 / 255;
     case ChannelFormat::Half:
-      return 0.5 / (1 << 11);
+      return 1. / (1 << 11);
     default:
       return 0.5 * std::numeric_limits<float>::epsilon();
   }
@@ -76,10 +80,17 @@ double EstimateSummationError(
   {
     return measured;
   }
-  // A ray goes through at most some four cells for each that lie side by side along the mesh.
-  const double layers =
-    4 * std::cbrt(static_cast<double>(volume.Mesh.GetMesh()->GetNumberOfCells()));
-  return layers * GetRounding(format);
+  const double largest = volume.EstimateLargestChannel(worldRadius);
+  if (format == ChannelFormat::Half && largest > LargestHalf)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  // A ray goes through at most some four cells for each that lie side by side along the mesh. The
+  // largest scalar is not summed up: what it is seen as is written once.
+  const double sums = volume.Optics.GetModel() == tetralux::OpticalModel::MaximumIntensity
+    ? 1
+    : 4 * std::cbrt(static_cast<double>(volume.Mesh.GetMesh()->GetNumberOfCells()));
+  return sums * GetRounding(format) * std::exp2(std::ceil(std::log2(largest)));
 }
 
 const char* GetFormatName(ChannelFormat format)
@@ -328,7 +339,10 @@ void vtkTetrahedraProjectionMapper::Internals::MakeSamples(
   scene.Hides = true;
   const auto goOn = [&frame](double fraction) { return frame.ReportProgress(fraction); };
   frame.Aborted = this->Picture.Draw(frame.Window, scene, goOn).Aborted;
-  this->Picture.ReadColors(scene, task.Colors);
+  if (!frame.Aborted)
+  {
+    this->Picture.ReadColors(scene, task.Colors);
+  }
 }
 
 //------------------------------------------------------------------------------------------------

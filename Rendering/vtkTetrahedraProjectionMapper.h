@@ -72,9 +72,11 @@ public:
   /**
    * Set the format that colours are composited in by the hardware's blending (Kraus et al. 2004,
    * section 4.1): 32-bit floats, 16-bit floats, or 8 bits a channel. Default AUTOMATIC_BUFFER:
-   * 16-bit floats if their rounding is within a quarter of MaximumError, else 32-bit floats. 32-bit
-   * floats are composited front to back, which keeps the smallest opacities. The others are
-   * composited back to front, where rounding does less harm.
+   * 16-bit floats if their rounding is within a quarter of MaximumError, else 32-bit floats.
+   * Without absorption colours may come above 1, and are rounded in proportion; 16 bits hold up to
+   * 65504.
+   * Colours of 32-bit floats are composited front to back, which keeps the smallest opacities. The
+   * others are composited back to front, where rounding does less harm.
    */
   virtual void SetColorBuffer(int buffer);
   vtkGetMacro(ColorBuffer, int);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Projection/CellDivision.h"
 
+#include "Base/ParallelTiles.h"
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include <omp.h>
 
 namespace tetralux
 {
@@ -15,10 +19,33 @@ using Interval = IntervalTable::Interval;
 using Part = CellDivision::Part;
 
 /// Scalars beyond this are not in intervals as shaders compare them.
-constexpr double LargestScalar = 1e30;
+constexpr float LargestScalar = 1e30f;
 
 /// More are not counted in 32 bits.
 constexpr std::int64_t MostSlicesOfAll = std::numeric_limits<std::uint32_t>::max();
+
+/// Points or cells that a thread takes at once: some tenths of a millisecond, so that an abort is
+/// heard soon.
+constexpr std::int64_t BlockSize = 8192;
+
+/// Of the whole work, what is done when points have their intervals, and when cells have parts.
+constexpr double PlacedShare = 0.1;
+constexpr double DividedShare = 0.9;
+
+/// The scalar of a point, and the interval that it is in. At a node that is the one above it.
+struct Place
+{
+  float Scalar; ///< not-a-number: not finite
+  std::uint32_t Interval;
+};
+
+/// The parts of a block of cells.
+struct DividedBlock
+{
+  std::vector<Part> Parts;
+  std::int64_t Cells = 0; ///< that have any
+  std::int64_t Slices = 0;
+};
 
 float Evaluate(const Interval& interval, float scalar)
 {
@@ -43,38 +70,38 @@ double FindLongestEdge(Span<const double> coordinates, const std::int32_t* cell)
   return std::sqrt(largest);
 }
 
-/// Calls take(part) for each part of a cell; false where there is no dividing it.
-template <class Take>
-bool Divide(const DivisionSource& source, Span<const float> ends, std::int64_t cell, Take&& take)
+/// Appends the parts of a cell; false where there is no dividing it.
+bool Divide(const DivisionSource& source, const RawVector<Place>& places, std::int64_t cell,
+  DividedBlock& result)
 {
   const std::int32_t* p = &source.Cells[4 * cell];
-  double lo = std::numeric_limits<double>::infinity();
-  double hi = -lo;
-  bool finite = true;
-  for (int i = 0; i < 4; ++i)
+  const Place first = places[p[0]];
+  float lowest = first.Scalar;
+  float highest = first.Scalar;
+  std::uint32_t begin = first.Interval;
+  std::uint32_t last = first.Interval;
+  bool finite = !std::isnan(first.Scalar);
+  for (int i = 1; i < 4; ++i)
   {
-    const double scalar = source.Points[p[i]].Scalar;
-    finite = finite && std::isfinite(scalar);
-    lo = std::min(lo, scalar);
-    hi = std::max(hi, scalar);
+    const Place place = places[p[i]];
+    finite = finite && !std::isnan(place.Scalar);
+    lowest = std::min(lowest, place.Scalar);
+    highest = std::max(highest, place.Scalar);
+    begin = std::min(begin, place.Interval);
+    last = std::max(last, place.Interval);
   }
   if (!finite)
   {
     return true; // it is not drawn
   }
-  if (lo < -LargestScalar || hi > LargestScalar)
+  if (lowest < -LargestScalar || highest > LargestScalar)
   {
     return false;
   }
-  const auto lowest = static_cast<float>(lo);
-  const auto highest = static_cast<float>(hi);
-  // A scalar at a node belongs to the interval above it.
-  const auto find = [&](float scalar)
-  { return std::upper_bound(ends.begin(), ends.end() - 1, scalar) - ends.begin(); };
-  const auto first = find(lowest);
-  const auto last = highest < ends[first] ? first : find(highest);
+  const double depthOfLength = source.LengthScale / source.LargestDepth;
   double edge = -1;
-  for (auto k = first; k <= last; ++k)
+  bool any = false;
+  for (std::uint32_t k = begin; k <= last; ++k)
   {
     const Interval& interval = source.Intervals[k];
     const double attenuation =
@@ -85,76 +112,153 @@ bool Divide(const DivisionSource& source, Span<const float> ends, std::int64_t c
       continue;
     }
     Part part = {};
-    part.Interval = static_cast<std::uint32_t>(k);
+    part.Interval = k;
     part.Slices = 1;
-    part.OpenBelow = k == first;
+    part.OpenBelow = k == begin;
     part.OpenAbove = k == last;
-    if (source.LargestDepth < std::numeric_limits<double>::infinity())
+    if (attenuation * source.LongestEdge * depthOfLength > 1)
     {
-      edge = edge < 0 ? source.LengthScale * FindLongestEdge(source.Coordinates, p) : edge;
-      const double slices = std::ceil(attenuation * edge / source.LargestDepth);
+      edge = edge < 0 ? FindLongestEdge(source.Coordinates, p) : edge;
+      const double slices = std::ceil(attenuation * edge * depthOfLength);
       if (!(slices <= CellDivision::MostSlices))
       {
         return false;
       }
       part.Slices = static_cast<std::uint32_t>(std::max(slices, 1.));
     }
-    take(part);
+    result.Parts.push_back(part);
+    result.Slices += part.Slices;
+    any = true;
   }
+  result.Cells += any;
   return true;
+}
+
+/// Calls work(begin, end, block) for each block of 0..size - 1, on all threads. progress: as of
+/// ForEachTile. False after an abort.
+template <class Work>
+bool ForEachBlock(std::int64_t size, const std::function<bool(double)>& progress, const Work& work)
+{
+  const auto count = static_cast<int>((size + BlockSize - 1) / BlockSize);
+  return ForEachTile({ count, 1, 1 }, omp_get_max_threads(), progress,
+    [&](const Tile& block, int)
+    {
+      const std::int64_t begin = block.X0 * BlockSize;
+      work(begin, std::min(begin + BlockSize, size), block.X0);
+    });
 }
 
 } // namespace
 
 void CellDivision::Clear() { *this = CellDivision(); }
 
-bool CellDivision::Make(const DivisionSource& source)
+CellDivision::Outcome CellDivision::Make(
+  const DivisionSource& source, const std::function<bool(double)>& progress)
 {
   this->Clear();
   if (source.Intervals.size() > MostIntervals)
   {
-    return false;
+    return Outcome::Refused;
   }
+  bool aborted = false;
+  const auto makePart = [&](double from, double to) -> std::function<bool(double)>
+  {
+    if (!progress)
+    {
+      return {};
+    }
+    return [&, from, to](double share)
+    {
+      aborted = aborted || !progress(from + share * (to - from));
+      return !aborted;
+    };
+  };
+
   std::vector<float> ends(source.Intervals.size());
   std::transform(source.Intervals.begin(), source.Intervals.end(), ends.begin(),
     [](const Interval& interval) { return interval.Hi; });
-  const auto n = static_cast<std::int64_t>(source.Cells.size() / 4);
-  std::vector<std::uint32_t> begins(n + 1, 0);
-  bool possible = true;
-  std::int64_t cells = 0;
-  std::int64_t slices = 0;
-#pragma omp parallel for schedule(static) reduction(&& : possible) reduction(+ : cells, slices)
-  for (std::int64_t cell = 0; cell < n; ++cell)
+  RawVector<Place> places(source.Points.size());
+  ForEachBlock(static_cast<std::int64_t>(places.size()), makePart(0, PlacedShare),
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const double scalar = source.Points[i].Scalar;
+        const auto rounded = static_cast<float>(scalar);
+        const auto found = std::upper_bound(ends.begin(), ends.end() - 1, rounded);
+        places[i] = { std::isfinite(scalar) ? rounded : std::numeric_limits<float>::quiet_NaN(),
+          static_cast<std::uint32_t>(found - ends.begin()) };
+      }
+    });
+  if (aborted)
   {
-    std::uint32_t count = 0;
-    possible = Divide(source, ends, cell,
-                 [&](const Part& part)
-                 {
-                   ++count;
-                   slices += part.Slices;
-                 }) &&
-      possible;
-    begins[cell + 1] = count;
-    cells += count > 0;
+    return Outcome::Aborted;
+  }
+
+  const auto n = static_cast<std::int64_t>(source.Cells.size() / 4);
+  std::vector<DividedBlock> blocks((n + BlockSize - 1) / BlockSize);
+  RawVector<std::uint32_t> begins(n + 1); // in the block, at first
+  std::atomic<bool> possible{ true };
+  std::atomic<std::int64_t> slices{ 0 };
+  ForEachBlock(n, makePart(PlacedShare, DividedShare),
+    [&](std::int64_t begin, std::int64_t end, int block)
+    {
+      DividedBlock& divided = blocks[block];
+      divided.Parts.reserve(BlockSize);
+      for (std::int64_t cell = begin; cell < end && possible; ++cell)
+      {
+        begins[cell] = static_cast<std::uint32_t>(divided.Parts.size());
+        if (!Divide(source, places, cell, divided))
+        {
+          possible = false;
+        }
+      }
+      divided.Parts.shrink_to_fit();
+      slices += divided.Slices;
+      // Too many already, if all cells had some.
+      if (static_cast<double>(slices) > source.MostSlices * static_cast<double>(n))
+      {
+        possible = false;
+      }
+    });
+  if (aborted)
+  {
+    return Outcome::Aborted;
+  }
+  std::int64_t cells = 0;
+  std::vector<std::int64_t> firsts(blocks.size() + 1, 0);
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+  {
+    cells += blocks[block].Cells;
+    firsts[block + 1] = firsts[block] + static_cast<std::int64_t>(blocks[block].Parts.size());
   }
   const double perCell = cells > 0 ? static_cast<double>(slices) / static_cast<double>(cells) : 1;
   if (!possible || perCell > source.MostSlices || slices > MostSlicesOfAll)
   {
-    return false;
+    return Outcome::Refused;
   }
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  const std::int64_t sum = begins.back();
-  this->Parts.resize(sum);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t cell = 0; cell < n; ++cell)
+
+  RawVector<Part> parts(firsts.back());
+  begins[n] = static_cast<std::uint32_t>(firsts.back());
+  ForEachBlock(n, makePart(DividedShare, 1),
+    [&](std::int64_t begin, std::int64_t end, int block)
+    {
+      const std::vector<Part>& divided = blocks[block].Parts;
+      std::copy(divided.begin(), divided.end(), parts.begin() + firsts[block]);
+      for (std::int64_t cell = begin; cell < end; ++cell)
+      {
+        begins[cell] += static_cast<std::uint32_t>(firsts[block]);
+      }
+    });
+  if (aborted)
   {
-    Part* next = this->Parts.data() + begins[cell];
-    Divide(source, ends, cell, [&](const Part& part) { *next++ = part; });
+    return Outcome::Aborted;
   }
+  this->Sliced = slices > firsts.back();
+  this->Parts = std::move(parts);
   this->Begins = std::move(begins);
   this->Ends = std::move(ends);
-  this->Sliced = slices > sum;
-  return true;
+  return Outcome::Made;
 }
 
 std::int64_t CellDivision::GetNumberOfSlices(std::int32_t cell) const

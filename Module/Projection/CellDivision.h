@@ -6,6 +6,7 @@
 // with the numbers of one interval. Isosurfaces in a cell are planes, so the parts of a cell have
 // an exact order. Most cells are one part.
 
+#include "Base/RawVector.h"
 #include "Base/Span.h"
 #include "Optics/IntervalTable.h"
 #include "Projection/ScreenFrame.h"
@@ -13,6 +14,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <vector>
 
 namespace tetralux
@@ -26,6 +29,9 @@ struct DivisionSource
   Span<const double> Coordinates; ///< of the points, three each
   Span<const std::int32_t> Cells; ///< four point ids each
   double LengthScale = 1;         ///< world units of a unit of coordinates, at most
+
+  /// Edge of a cell at most, units of coordinates: cells that can't be thick are not measured.
+  double LongestEdge = std::numeric_limits<double>::infinity();
 
   /// Optical depth of a part at most: thicker ones are cut into slices of equal length. Infinity:
   /// there are no slices.
@@ -59,9 +65,16 @@ public:
     int Index; ///< 0 is the one in front
   };
 
-  /// Makes the parts; false, and there are none, if there would be too many of them or of slices.
-  /// Parallel.
-  bool Make(const DivisionSource& source);
+  enum class Outcome
+  {
+    Made,
+    Refused, ///< there would be too many parts or slices
+    Aborted
+  };
+
+  /// Makes the parts, or leaves none. progress: as of ForEachTile, with the share that is done;
+  /// where it returns false, the work ends. Parallel, on all threads of OpenMP.
+  Outcome Make(const DivisionSource& source, const std::function<bool(double)>& progress = {});
 
   void Clear();
 
@@ -89,9 +102,9 @@ public:
   }
 
 private:
-  std::vector<Part> Parts;
-  std::vector<std::uint32_t> Begins; ///< of each cell's parts, and the end
-  std::vector<float> Ends;           ///< of intervals, above
+  RawVector<Part> Parts;
+  RawVector<std::uint32_t> Begins; ///< of each cell's parts, and the end
+  std::vector<float> Ends;         ///< of intervals, above
   bool Sliced = false;
 };
 

@@ -218,9 +218,9 @@ bool AddsPieces(Integrator integrator)
 }
 
 /// Adds to statistics what the rays met, and the errors that follow from it. pieces: that a segment
-/// adds.
-void Summarize(
-  const std::vector<ThreadMemory>& threads, double pieces, RayCastStatistics& statistics)
+/// adds. largest: what a channel comes to.
+void Summarize(const std::vector<ThreadMemory>& threads, double pieces, double largest,
+  RayCastStatistics& statistics)
 {
   KernelCounts counts;
   for (const ThreadMemory& thread : threads)
@@ -239,7 +239,7 @@ void Summarize(
     // A sum is rounded once for each piece.
     const double segments = static_cast<double>(counts.Segments) / counts.Paths;
     statistics.SummationError =
-      std::min(1., segments * pieces * std::numeric_limits<float>::epsilon() / 2);
+      largest * std::min(1., segments * pieces * std::numeric_limits<float>::epsilon() / 2);
   }
   if (counts.Lanes > 0)
   {
@@ -297,7 +297,7 @@ public:
     statistics.Rays = static_cast<std::int64_t>(this->Grid.Width) * this->Grid.Height;
     statistics.DoubleRays += this->Choices.DoublePrecision ? statistics.Rays : 0;
     Summarize(this->Threads, AddsPieces(this->Choices.Method) ? this->Scene.EstimatePieces() : 1.,
-      statistics);
+      this->Scene.EstimateLargestChannel(this->Choices.WorldRadius), statistics);
   }
 
 private:

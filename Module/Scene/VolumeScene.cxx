@@ -2,6 +2,7 @@
 #include "Scene/VolumeScene.h"
 
 #include "PreIntegration/TableChoice.h"
+#include "Scene/LargestChannel.h"
 #include "Scene/LargestScalarError.h"
 #include "Scene/OrderError.h"
 #include "Scene/VisibleCells.h"
@@ -468,6 +469,23 @@ EightBitErrors VolumeScene::EstimateEightBitErrors(double worldRadius)
         radius / this->Mesh.GetMesh()->GetRadius(), this->Optics.GetTransferFunction(), model);
     });
   return this->EightBits.Get();
+}
+
+double VolumeScene::EstimateLargestChannel(double worldRadius)
+{
+  const OpticalModel model = this->Optics.GetModel();
+  const double radius = static_cast<float>(worldRadius);
+  this->LargestChannel.Update(
+    CacheKey::Of(this->Mesh.GetPointsVersion(), this->Mesh.GetScalarsVersion(),
+      this->Optics.GetFunctionVersion(), model, radius),
+    [&]
+    {
+      const RaySample none;
+      return tetralux::EstimateLargestChannel(
+        model == OpticalModel::EmissionOnly ? *this->Mesh.DrawRays(1) : none,
+        radius / this->Mesh.GetMesh()->GetRadius(), this->Optics.GetTransferFunction(), model);
+    });
+  return this->LargestChannel.Get();
 }
 
 double VolumeScene::EstimatePieces()

@@ -129,6 +129,9 @@ public:
   /// as above. Lights are left out.
   EightBitErrors EstimateEightBitErrors(double worldRadius);
 
+  /// EstimateLargestChannel. Measured once, as above.
+  double EstimateLargestChannel(double worldRadius);
+
   /// Pieces on which the function is linear, or one of its runs, that a segment of a ray is cut
   /// into: the mean over a sample of the mesh's rays, at least 1. Measured once, as above.
   double EstimatePieces();
@@ -163,6 +166,7 @@ private:
   Cached<double> ShiftError;
   Cached<double> OrderError;
   Cached<EightBitErrors> EightBits;
+  Cached<double> LargestChannel;
   Cached<double> Pieces;                  ///< of a segment
   std::uint64_t VisiblePointsVersion = 0; ///< of the mesh that the boxes of VisibleTables are of
 };

@@ -36,6 +36,9 @@ constexpr std::size_t BatchSize = 32768;
 /// 1024 x 1024 pixels what is drawn takes less time up to about two a cell, at 512 x 512 up to 1.7.
 constexpr double MostSlicesPerCell = 1.8;
 
+/// Of the progress of a picture whose cells have to be divided, what dividing them takes.
+constexpr double DivideShare = 0.1;
+
 /// No scalar and no distance; as in ProjectedCellFS.glsl and ClassifyLargestDec.glsl.
 constexpr float Beyond = 1e38f;
 
@@ -196,9 +199,23 @@ ProjectionPicture::Result ProjectionPicture::Draw(vtkOpenGLRenderWindow* window,
     this->Rays.emplace(scene.Grid, RayLimits(), mesh.GetCenter(), mesh.GetRadius());
   }
   const Stopwatch stopwatch;
-  const char* whole = this->DivideCells(scene);
+  double divided = 0; // of the progress
+  const char* whole = nullptr;
+  Result result;
+  result.Aborted = !this->DivideCells(
+    scene,
+    [&](double share)
+    {
+      divided = DivideShare * share;
+      return !progress || progress(divided);
+    },
+    whole);
   const double divideSeconds = stopwatch.GetSeconds();
-  Result result = this->DrawPicture(scene, progress);
+  if (!result.Aborted)
+  {
+    result = this->DrawPicture(
+      scene, [&](double share) { return !progress || progress(divided + share * (1 - divided)); });
+  }
   result.WhyWhole = whole;
   result.DivideSeconds = divideSeconds;
   return result;
@@ -238,13 +255,15 @@ const char* ProjectionPicture::WhyCellsAreWhole(const ProjectionScene& scene) co
   return scene.Format != ChannelFormat::Float ? "ColorBuffer is not of 32-bit floats" : nullptr;
 }
 
-const char* ProjectionPicture::DivideCells(const ProjectionScene& scene)
+bool ProjectionPicture::DivideCells(
+  const ProjectionScene& scene, const std::function<bool(double)>& progress, const char*& whole)
 {
-  if (const char* reason = this->WhyCellsAreWhole(scene))
+  whole = this->WhyCellsAreWhole(scene);
+  if (whole)
   {
     this->Division.Clear();
     this->DivisionStamp.Reset();
-    return reason;
+    return true;
   }
   const VolumeScene& volume = *scene.Volume;
   // What cropping leaves of a ray in a cell is in several stretches. Each would be cut into slices
@@ -257,6 +276,7 @@ const char* ProjectionPicture::DivideCells(const ProjectionScene& scene)
   source.Coordinates = mesh.Points;
   source.Cells = mesh.Cells;
   source.LengthScale = MeasureMeshToWorld(scene.Grid.MeshFromWorld).Largest;
+  source.LongestEdge = volume.Mesh.GetLongestEdge();
   source.LargestDepth = this->Integral.GetLargestPartDepth();
   source.MostSlices = MostSlicesPerCell;
   const CacheKey key = CacheKey::Of(volume.Mesh.GetCellsVersion(), volume.Mesh.GetPointsVersion(),
@@ -264,15 +284,22 @@ const char* ProjectionPicture::DivideCells(const ProjectionScene& scene)
     source.LargestDepth, cropped);
   if (!this->DivisionStamp.Has(key))
   {
-    if (this->Division.Make(source) && cropped && this->Division.HasSlices())
+    this->DivisionStamp.Reset();
+    const CellDivision::Outcome outcome = this->Division.Make(source, progress);
+    if (outcome == CellDivision::Outcome::Aborted)
+    {
+      return false;
+    }
+    if (cropped && this->Division.HasSlices())
     {
       this->Division.Clear();
     }
     this->DivisionStamp.Set(key);
   }
-  return this->Division.IsEmpty()
+  whole = this->Division.IsEmpty()
     ? "cells have too many parts, are too thick, or are thick and cropped"
     : nullptr;
+  return true;
 }
 
 ProjectionPicture::Result ProjectionPicture::DrawCells(Pass pass, FloatTarget& target,

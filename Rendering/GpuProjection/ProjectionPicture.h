@@ -86,9 +86,10 @@ public:
     double ProjectSeconds = 0;      ///< waiting for cells to be projected, on the processor
   };
 
-  /// Draws the colours, the cells in batches, and waits until they are drawn. progress: told the
-  /// share that is done, 0..1; the drawing ends where it returns false. Leaves OpenGL's state as it
-  /// was. Throws std::runtime_error, with one line, where the graphics card or its driver can't.
+  /// Divides the cells where that is to be done anew, draws the colours, the cells in batches, and
+  /// waits until they are drawn. progress: told the share that is done, 0..1; the work ends where
+  /// it returns false. Leaves OpenGL's state as it was. Throws std::runtime_error, with one line,
+  /// where the graphics card or its driver can't.
   Result Draw(vtkOpenGLRenderWindow* window, const ProjectionScene& scene,
     const std::function<bool(double)>& progress);
 
@@ -135,8 +136,10 @@ private:
   Result DrawCells(Pass pass, FloatTarget& target, const ProjectionScene& scene,
     const std::function<bool(double)>& progress);
   ProjectedCellDrawer::Shader MakeShader(Pass pass, const ProjectionScene& scene) const;
-  /// Divides cells. Returns why they are drawn as they are, in plain words; nullptr: they are not.
-  const char* DivideCells(const ProjectionScene& scene);
+  /// Divides cells. whole: why they are drawn as they are, in plain words; nullptr: they are not.
+  /// False after an abort.
+  bool DivideCells(
+    const ProjectionScene& scene, const std::function<bool(double)>& progress, const char*& whole);
   const char* WhyCellsAreWhole(const ProjectionScene& scene) const;
   void SetUniforms(vtkShaderProgram* program, const ProjectionScene& scene) const;
   /// What is drawn into.

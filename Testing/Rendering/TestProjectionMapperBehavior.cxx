@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -275,6 +276,59 @@ TEST(ProjectionMapper, EmissionIsDitheredWithoutBias)
   };
   EXPECT_LT(findBias(dithered), 0.1 / 255);
   EXPECT_GT(findBias(rounded), 10 * findBias(dithered));
+}
+
+// Sums are rounded in proportion to what they have come to: without absorption that may be above 1.
+TEST(ProjectionMapper, BrightEmissionInHalfPrecision)
+{
+  ProjectionMapperScene scene;
+  scene.Projection->SetBlendModeToAdditive();
+  const double sums = 4 * std::cbrt(static_cast<double>(scene.Grid->GetNumberOfCells()));
+  constexpr double HalfRounding = 1. / (1 << 11); // of numbers up to 1
+  for (const double unitDistance : { 1., 0.1, 0.01 })
+  {
+    SCOPED_TRACE(unitDistance);
+    scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(unitDistance);
+    scene.Projection->SetColorBufferToFloat();
+    const std::vector<float> best = scene.Render();
+    const double largest = *std::max_element(best.begin(), best.end());
+    scene.Projection->SetColorBufferToHalf();
+    const double error = FindLargestDifference(scene.Render(), best);
+    const double estimate = scene.Projection->GetErrorEstimate();
+    EXPECT_LT(error, estimate);
+    // Sums of the sample's rays, up to the next power of two, may be four times those of the view.
+    EXPECT_LT(estimate, sums * HalfRounding * 4 * std::max(largest, 1.));
+    if (largest > 16)
+    {
+      EXPECT_GT(error, sums * HalfRounding) << "as if no sum came above 1";
+    }
+  }
+}
+
+TEST(ProjectionMapper, WhatHalfPrecisionCannotHoldHasNoEstimate)
+{
+  ProjectionMapperScene scene;
+  const MessageObserver warnings(scene.Projection, { vtkCommand::WarningEvent });
+  scene.Projection->SetBlendModeToAdditive();
+  scene.Projection->SetColorBufferToHalf();
+  scene.Volume->GetProperty()->SetScalarOpacityUnitDistance(1e-6); // sums of a million
+  scene.Render();
+  EXPECT_EQ(scene.Projection->GetErrorEstimate(), std::numeric_limits<double>::infinity());
+  EXPECT_NE(warnings.Text.find("'summation'"), std::string::npos);
+}
+
+// It is written once, whatever the number of cells.
+TEST(ProjectionMapper, LargestScalarInHalfPrecision)
+{
+  ProjectionMapperScene scene;
+  scene.Projection->SetBlendModeToMaximumIntensity();
+  scene.Projection->SetColorBufferToFloat();
+  const std::vector<float> best = scene.Render();
+  scene.Projection->SetColorBufferToHalf();
+  const double error = FindLargestDifference(scene.Render(), best);
+  EXPECT_GT(error, 1e-5);
+  EXPECT_LT(error, scene.Projection->GetErrorEstimate());
+  EXPECT_LT(scene.Projection->GetErrorEstimate(), 1e-3);
 }
 
 // In a view that is nearly parallel there is nothing to correct: what the rasteriser interpolates

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells that are drawn once for each interval that they have part in, beside cells that are drawn
 // whole and look intervals up: the same function with so many more nodes that parts do not pay.
+#include "Observer.h"
 #include "RayCastScene.h"
 #include "Statistics.h"
 
+#include "vtkCommand.h"
 #include "vtkImageData.h"
 #include "vtkPlane.h"
 #include "vtkTetrahedraProjectionMapper.h"
@@ -64,9 +66,16 @@ public:
         this->Opacity->AddPoint(at[0], at[4]);
       }
     }
+    return this->Render();
+  }
+
+  /// With the function as it is; nothing after an abort.
+  std::vector<float> Render()
+  {
     this->Window->Render();
     const vtkIdType size = 4 * this->Projection->GetOutputImage()->GetNumberOfPoints();
-    return { this->GetColors(), this->GetColors() + size };
+    return size == 0 ? std::vector<float>()
+                     : std::vector<float>(this->GetColors(), this->GetColors() + size);
   }
 
   int Count(const char* name) { return std::stoi(GetStatistic(this->Projection, name)); }
@@ -153,6 +162,57 @@ TEST(ProjectionMapperParts, LimitedRays)
   scene.Projection->SetCroppingRegionPlanes(0.2, 0.7, 0.3, 0.6, 0.25, 0.8);
   scene.Projection->SetCroppingRegionFlagsToCross();
   scene.Expect("cropped");
+}
+
+// A frame that is aborted while cells are divided leaves nothing of them: neither of what they were
+// divided for before nor of what they were to be divided for.
+TEST(ProjectionMapperParts, AnAbortWhileCellsAreDividedLeavesNothing)
+{
+  constexpr double Thick = 0.17; // where cells are sliced
+  constexpr double Thin = 2;
+  for (const bool crops : { false, true }) // else another function
+  {
+    SCOPED_TRACE(crops ? "cropping" : "another function");
+    const auto render = [&](PartsScene& scene, bool other)
+    {
+      scene.Projection->SetCropping(crops && other);
+      scene.Projection->SetCroppingRegionPlanes(0, 0.6, 0, 1, 0, 1);
+      scene.SetUnitDistance(other && !crops ? Thick : Thin);
+      return scene.Render();
+    };
+    PartsScene never;
+    never.Render(1);
+    const std::vector<float> before = render(never, false);
+    const std::vector<float> after = render(never, true);
+    ASSERT_NE(before, after);
+
+    PartsScene scene;
+    scene.Render(1);
+    int asked = 0;
+    int last = 0; // 0: no abort
+    const Observer progress(scene.Projection, vtkCommand::VolumeMapperRenderProgressEvent,
+      [&](const char*) { scene.Window->SetAbortRender(++asked == last); });
+    int whileDivided = 0;
+    bool aborted = true;
+    for (int question = 1; aborted; ++question)
+    {
+      SCOPED_TRACE(question);
+      EXPECT_EQ(render(scene, false), before);
+      asked = 0;
+      last = question;
+      render(scene, true);
+      last = 0;
+      aborted = GetStatistic(scene.Projection, "aborted") == "true";
+      whileDivided += aborted && scene.Count("triangles") == 0;
+      for (const bool other : { question % 2 == 0, true })
+      {
+        EXPECT_EQ(render(scene, other), other ? after : before);
+        EXPECT_GT(scene.Count("parts_drawn"), scene.Count("tetrahedra_drawn"));
+      }
+    }
+    // The end of each of three passes is told at least.
+    EXPECT_GE(whileDivided, 3);
+  }
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 // Parts of cells against what rays meet, point by point.
 #include "Projection/CellDivision.h"
 
+#include "ThreadCounts.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +17,7 @@ namespace
 {
 
 using tetralux::CellDivision;
+using Outcome = tetralux::CellDivision::Outcome;
 using tetralux::DivisionSource;
 using tetralux::IntervalTable;
 using tetralux::ScreenPoint;
@@ -106,6 +109,16 @@ public:
     return scalar;
   }
 
+  /// So many times as many cells, of the same points.
+  void RepeatCells(int times)
+  {
+    const std::vector<std::int32_t> once = this->Cells;
+    for (int k = 1; k < times; ++k)
+    {
+      this->Cells.insert(this->Cells.end(), once.begin(), once.end());
+    }
+  }
+
   std::mt19937 Random{ 5 };
   std::vector<ScreenPoint> Points;
   std::vector<double> Coordinates;
@@ -116,7 +129,7 @@ TEST_F(CellDivisionTest, EachScalarOfACellIsInOnePartWhereItAttenuates)
 {
   const IntervalTable table = MakeTable(1);
   CellDivision division;
-  ASSERT_TRUE(division.Make(this->MakeSource(table, Infinity)));
+  ASSERT_EQ(division.Make(this->MakeSource(table, Infinity)), Outcome::Made);
   EXPECT_FALSE(division.HasSlices());
   for (int cell = 0; cell < NumberOfCells; ++cell)
   {
@@ -155,7 +168,7 @@ TEST_F(CellDivisionTest, RaysGoThroughPartsInTheirOrder)
 {
   const IntervalTable table = MakeTable(1);
   CellDivision division;
-  ASSERT_TRUE(division.Make(this->MakeSource(table, Infinity)));
+  ASSERT_EQ(division.Make(this->MakeSource(table, Infinity)), Outcome::Made);
   std::vector<CellDivision::Slice> order;
   int inside = 0;
   for (int cell = 0; cell < NumberOfCells; ++cell)
@@ -214,7 +227,7 @@ TEST_F(CellDivisionTest, NoSliceIsThick)
   CellDivision division;
   DivisionSource source = this->MakeSource(table, LargestDepth);
   source.LengthScale = 2;
-  ASSERT_TRUE(division.Make(source));
+  ASSERT_EQ(division.Make(source), Outcome::Made);
   EXPECT_TRUE(division.HasSlices());
   std::vector<CellDivision::Slice> order;
   for (int cell = 0; cell < NumberOfCells; ++cell)
@@ -254,7 +267,7 @@ TEST_F(CellDivisionTest, IsNotMadeOfTooManyParts)
   const IntervalTable table = MakeTable(1);
   CellDivision division;
   DivisionSource source = this->MakeSource(table, Infinity);
-  ASSERT_TRUE(division.Make(source));
+  ASSERT_EQ(division.Make(source), Outcome::Made);
   std::int64_t parts = 0;
   int cells = 0;
   for (int cell = 0; cell < NumberOfCells; ++cell)
@@ -265,21 +278,89 @@ TEST_F(CellDivisionTest, IsNotMadeOfTooManyParts)
   const double perCell = static_cast<double>(parts) / cells;
   EXPECT_GT(perCell, 1);
   source.MostSlices = 1.01 * perCell;
-  EXPECT_TRUE(division.Make(source));
+  EXPECT_EQ(division.Make(source), Outcome::Made);
   source.MostSlices = 0.99 * perCell;
-  EXPECT_FALSE(division.Make(source));
+  EXPECT_EQ(division.Make(source), Outcome::Refused);
   EXPECT_TRUE(division.IsEmpty());
 
   // A cell that is too thick, or whose scalars shaders can't hold.
   source.MostSlices = Infinity;
   source.LargestDepth = 1e-3;
-  EXPECT_FALSE(division.Make(source));
+  EXPECT_EQ(division.Make(source), Outcome::Refused);
   source.LargestDepth = Infinity;
   this->Points[0].Scalar = 1e35;
-  EXPECT_FALSE(division.Make(source));
+  EXPECT_EQ(division.Make(source), Outcome::Refused);
   this->Points[0].Scalar = std::nan("");
-  ASSERT_TRUE(division.Make(source));
+  ASSERT_EQ(division.Make(source), Outcome::Made);
   EXPECT_TRUE(division.GetParts(0).empty());
+}
+
+/// All parts, cell by cell.
+std::vector<std::array<std::uint32_t, 5>> ListParts(const CellDivision& division, std::size_t cells)
+{
+  std::vector<std::array<std::uint32_t, 5>> list;
+  for (std::uint32_t cell = 0; cell < cells; ++cell)
+  {
+    for (const CellDivision::Part& part : division.GetParts(static_cast<std::int32_t>(cell)))
+    {
+      list.push_back({ cell, part.Interval, part.Slices, part.OpenBelow, part.OpenAbove });
+    }
+  }
+  return list;
+}
+
+TEST_F(CellDivisionTest, AnAbortLeavesNothingAndTheNextOneIsComplete)
+{
+  this->RepeatCells(100);
+  const std::size_t cells = this->Cells.size() / 4;
+  const IntervalTable table = MakeTable(3);
+  const DivisionSource source = this->MakeSource(table, 0.5);
+  CellDivision expected;
+  ASSERT_EQ(expected.Make(source), Outcome::Made);
+  const auto parts = ListParts(expected, cells);
+  // Of each of three passes over many blocks the end is told at least.
+  constexpr int Passes = 3;
+  ForEachThreadCount(
+    [&]
+    {
+      std::vector<double> told;
+      CellDivision division;
+      ASSERT_EQ(division.Make(source,
+                  [&](double share)
+                  {
+                    told.push_back(share);
+                    return true;
+                  }),
+        Outcome::Made);
+      EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+      ASSERT_GE(told.size(), static_cast<std::size_t>(Passes));
+      EXPECT_GE(told.front(), 0);
+      EXPECT_EQ(told.back(), 1);
+      EXPECT_EQ(ListParts(division, cells), parts);
+      for (int last = 1; last <= Passes; ++last)
+      {
+        int calls = 0;
+        EXPECT_EQ(division.Make(source, [&](double) { return ++calls < last; }), Outcome::Aborted);
+        EXPECT_EQ(calls, last);
+        EXPECT_TRUE(division.IsEmpty());
+        EXPECT_FALSE(division.HasSlices());
+        EXPECT_EQ(division.GetNumberOfBytes(), 0u);
+      }
+      ASSERT_EQ(division.Make(source), Outcome::Made);
+      EXPECT_EQ(ListParts(division, cells), parts);
+    });
+}
+
+TEST_F(CellDivisionTest, EdgesThatAreKnownToBeShortNeedNotBeMeasured)
+{
+  const IntervalTable table = MakeTable(3);
+  DivisionSource source = this->MakeSource(table, 0.5);
+  CellDivision measured;
+  ASSERT_EQ(measured.Make(source), Outcome::Made);
+  source.LongestEdge = std::sqrt(3.); // of the unit cube
+  CellDivision known;
+  ASSERT_EQ(known.Make(source), Outcome::Made);
+  EXPECT_EQ(ListParts(known, NumberOfCells), ListParts(measured, NumberOfCells));
 }
 
 } // namespace
