@@ -587,7 +587,7 @@ void ScenePreparation::PrepareTable(const MapperSettings& settings, const SceneI
     std::max(MakeErrorBudget(settings.MaximumError, spending).Table, SmallestFunctionError);
   goal.MaximumBytes = wishes.MaximumBytes;
   goal.Rays = this->Scene.Mesh.DrawRays(scale);
-  goal.Intervals = &optics.GetIntervalTable();
+  goal.PiecesPerSegment = this->Scene.EstimatePieces();
   this->Scene.Mesh.PrepareLongestEdge();
   goal.LongestSegment = this->Scene.Mesh.GetLongestEdge() * scale; // no segment is longer
   std::copy_n(this->Scene.Mesh.GetScalarRange(), 2, goal.ScalarRange);
