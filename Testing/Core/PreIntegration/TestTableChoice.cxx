@@ -80,8 +80,7 @@ TEST(TableChoice, MeasuresFewRaysWhereThereAreManyNodes)
     sample.Rays.push_back(ray);
   }
   goal.Rays = std::make_shared<RaySample>(sample);
-  EXPECT_EQ(
-    CountTableRays(MakeRandomFunction(generator, 100, 2, false), sample), NumberOfRays);
+  EXPECT_EQ(CountTableRays(MakeRandomFunction(generator, 100, 2, false), sample), NumberOfRays);
   const TransferFunction many = MakeRandomFunction(generator, ManyNodes, 2, false);
   EXPECT_LT(CountTableRays(many, sample), NumberOfRays);
   EXPECT_GE(CountTableRays(many, sample), NumberOfRays / 2);
@@ -89,8 +88,8 @@ TEST(TableChoice, MeasuresFewRaysWhereThereAreManyNodes)
   const TransferFunction most = MakeRandomFunction(generator, 20 * ManyNodes, 2, false);
   const TableChoice none = ChoosePreIntegrationTable(most, goal);
   EXPECT_FALSE(none.Table);
-  EXPECT_EQ(none.Reason,
-    "closed form: a segment has too many pieces to find a table that is right") << "none is tried";
+  EXPECT_EQ(none.Reason, "closed form: a segment has too many pieces to find a table that is right")
+    << "none is tried";
 }
 
 /// The caller may know of fewer pieces than the function has.
