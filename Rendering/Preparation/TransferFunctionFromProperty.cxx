@@ -2,6 +2,7 @@
 #include "Preparation/TransferFunctionFromProperty.h"
 
 #include "Preparation/FunctionChunks.h"
+#include "Preparation/ValueCurve.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkPiecewiseFunction.h"
@@ -36,13 +37,15 @@ constexpr double SmallestStep = 1e-7;
 /// How often an interval is halved at most: down to the rounding of single precision.
 constexpr int MaximumHalvings = 24;
 
-/// Points inside of an interval at which it is compared with the line through its ends: S-shaped
-/// curves meet that line in the middle.
-constexpr int TestsPerInterval = 7;
+/// Parts of an interval between which it is compared with the line through its ends, and with a
+/// curve: S-shaped curves meet that line in the middle.
+constexpr int Parts = 8;
 
-/// Those after a few halvings, when a curve has no more of a shape than that it bends.
-constexpr int SmoothHalvings = 3;
-constexpr int TestsPerSmoothInterval = 3;
+/// Share of an error that colours take, of the error of a function.
+constexpr double ShareOfColors = 3. / 4;
+
+/// Share of an error that a curve through a few values may be off by; lines along it take the rest.
+constexpr double ShareOfCurve = 1. / 8;
 
 /// Whether VTK interpolates between the logarithms of scalars.
 bool IsLogarithmic(vtkColorTransferFunction* function)
@@ -169,16 +172,14 @@ public:
   }
 
   /// The limit at a break from the side of the neighbouring break: VTK's value at the break where
-  /// that is continuous.
-  Value GetLimit(double scalar, double neighbour) const
+  /// that is continuous. at, far: VTK's values at both.
+  Value GetLimit(double scalar, const Value& at, double neighbour, const Value& far) const
   {
     const double offset = LimitOffset * std::min(std::abs(neighbour - scalar), std::abs(scalar));
     const double next = std::nextafter(scalar, neighbour);
     const double x =
       neighbour > scalar ? std::max(scalar + offset, next) : std::min(scalar - offset, next);
     const Value beyond = this->Evaluate(x);
-    const Value at = this->Evaluate(scalar);
-    const Value far = this->Evaluate(neighbour);
     // Where an interval has but few numbers, a slope goes a good way from one to the next.
     const double share = SmallestStep + 4 * (x - scalar) / (neighbour - scalar);
     const auto choose = [share](double a, double b, double c)
@@ -265,7 +266,7 @@ private:
 /// How far an approximation may be off: an error c of the colour is one of at most c in the
 /// picture; an attenuation that is off by a share s, and by a on top, changes an optical depth D by
 /// s D + a longestPath, and the picture by at most s D exp(-D) + a longestPath < s / 2 + a
-/// longestPath.
+/// longestPath. Colours take most of it, as opacities mostly are lines.
 struct Tolerance
 {
   double Color;
@@ -273,24 +274,35 @@ struct Tolerance
   double Attenuation;
 
   Tolerance(double maximumError, double longestPath)
-    : Color(maximumError / 2)
-    , AttenuationShare(maximumError / 2)
-    , Attenuation(maximumError / 4 / longestPath)
+    : Color(ShareOfColors * maximumError)
+    , AttenuationShare((1 - ShareOfColors) * maximumError)
+    , Attenuation((1 - ShareOfColors) * maximumError / 2 / longestPath)
   {
   }
 
-  bool Accepts(const Value& exact, const Value& approximation) const
+  double GetOfColor(double color) const
+  {
+    return std::max(this->Color, SmallestStep * std::abs(color));
+  }
+
+  double GetOfAttenuation(double attenuation) const
+  {
+    return this->AttenuationShare * attenuation + this->Attenuation;
+  }
+
+  /// share: of the tolerance.
+  bool Accepts(const Value& exact, const Value& approximation, double share = 1) const
   {
     if (std::abs(exact.Attenuation - approximation.Attenuation) >
-      this->AttenuationShare * exact.Attenuation + this->Attenuation)
+      share * this->GetOfAttenuation(exact.Attenuation))
     {
       return false;
     }
     // No colour is seen where nothing attenuates.
     return (exact.Attenuation == 0 && approximation.Attenuation == 0) ||
       std::equal(exact.Color, exact.Color + 3, approximation.Color,
-        [this](double a, double b)
-        { return std::abs(a - b) <= std::max(this->Color, SmallestStep * std::abs(a)); });
+        [this, share](double a, double b)
+        { return std::abs(a - b) <= share * this->GetOfColor(a); });
   }
 };
 
@@ -305,35 +317,183 @@ Value Interpolate(const Value& a, const Value& b, double t)
   return value;
 }
 
-/// Adds nodes inside of (x0, x1), where the function is continuous, ascending, until it is linear
-/// between them. Returns whether any were needed.
-bool Subdivide(const PropertyFunctions& functions, const Tolerance& tolerance, double x0,
-  const Value& value0, double x1, const Value& value1, int halvings, TransferFunction& result)
+/// A property's functions where they are continuous, from one scalar to another one: their values
+/// at both ends and between Parts.
+struct Stretch
 {
-  const double middle = x0 + 0.5 * (x1 - x0);
-  if (halvings == MaximumHalvings || middle <= x0 || x1 <= middle)
+  double X[Parts + 1];
+  Value At[Parts + 1];
+
+  double GetBegin() const { return this->X[0]; }
+  double GetEnd() const { return this->X[Parts]; }
+
+  double GetPlace(double t) const
   {
-    return false;
+    return this->GetBegin() + (this->GetEnd() - this->GetBegin()) * t;
   }
-  // In the middle first: there most are too far off, and are halved.
-  const Value value = functions.Evaluate(middle);
-  bool linear = tolerance.Accepts(value, Interpolate(value0, value1, (middle - x0) / (x1 - x0)));
-  const int tests = halvings < SmoothHalvings ? TestsPerInterval : TestsPerSmoothInterval;
-  for (int i = 1; i <= tests && linear; ++i)
+
+  /// Takes a value at t; those at ends are limits, and next to them there may be no further scalar.
+  void Fill(const PropertyFunctions& functions, int part)
   {
-    const double x = x0 + (x1 - x0) * i / (tests + 1);
-    linear = 2 * i == tests + 1 || x <= x0 || x1 <= x ||
-      tolerance.Accepts(functions.Evaluate(x), Interpolate(value0, value1, (x - x0) / (x1 - x0)));
+    const double x = this->GetPlace(static_cast<double>(part) / Parts);
+    this->X[part] = x;
+    this->At[part] = x <= this->GetBegin() ? this->At[0]
+      : x >= this->GetEnd()                ? this->At[Parts]
+                                           : functions.Evaluate(x);
   }
-  if (linear)
+
+  /// Whether the line from end to end is near enough.
+  bool IsLine(const Tolerance& tolerance) const
   {
-    return false;
+    // From the middle on: there most are too far off.
+    for (const int part : { 4, 2, 6, 1, 3, 5, 7 })
+    {
+      const double t = (this->X[part] - this->GetBegin()) / (this->GetEnd() - this->GetBegin());
+      if (!tolerance.Accepts(this->At[part], Interpolate(this->At[0], this->At[Parts], t)))
+      {
+        return false;
+      }
+    }
+    return true;
   }
-  Subdivide(functions, tolerance, x0, value0, middle, value, halvings + 1, result);
-  result.Nodes.push_back({ middle, value, value });
-  Subdivide(functions, tolerance, middle, value, x1, value1, halvings + 1, result);
-  return true;
-}
+
+  /// Whether a curve through half of the values has the others.
+  bool IsCurve(const ValueCurve& curve, const Tolerance& tolerance) const
+  {
+    for (int part = 1; part < Parts; part += 2)
+    {
+      const double t = static_cast<double>(part) / Parts;
+      if (!tolerance.Accepts(this->At[part], curve.Evaluate(t), ShareOfCurve))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+};
+
+/// Nodes between the ends of a stretch of a property's functions.
+class Subdivision
+{
+public:
+  Subdivision(
+    const PropertyFunctions& functions, const Tolerance& tolerance, TransferFunction& result)
+    : Functions(functions)
+    , Allowed(tolerance)
+    , Result(result)
+  {
+  }
+
+  /// Adds nodes inside of (x0, x1), ascending, until the function is linear between them. Returns
+  /// whether any were needed.
+  bool Add(double x0, const Value& value0, double x1, const Value& value1)
+  {
+    Stretch stretch;
+    stretch.X[0] = x0;
+    stretch.At[0] = value0;
+    stretch.X[Parts] = x1;
+    stretch.At[Parts] = value1;
+    for (int part = 1; part < Parts; ++part)
+    {
+      stretch.Fill(this->Functions, part);
+    }
+    const std::size_t before = this->Result.Nodes.size();
+    this->Divide(stretch, 0);
+    return this->Result.Nodes.size() > before;
+  }
+
+private:
+  void Divide(const Stretch& stretch, int halvings)
+  {
+    const double middle = stretch.X[Parts / 2];
+    if (halvings == MaximumHalvings || middle <= stretch.GetBegin() || stretch.GetEnd() <= middle ||
+      stretch.IsLine(this->Allowed))
+    {
+      return;
+    }
+    const ValueCurve curve(
+      { stretch.At[0], stretch.At[2], stretch.At[4], stretch.At[6], stretch.At[8] });
+    if (stretch.IsCurve(curve, this->Allowed))
+    {
+      this->Follow(stretch, curve);
+      return;
+    }
+    this->Divide(this->TakeHalf(stretch, 0), halvings + 1);
+    this->Result.Nodes.push_back({ middle, stretch.At[Parts / 2], stretch.At[Parts / 2] });
+    this->Divide(this->TakeHalf(stretch, Parts / 2), halvings + 1);
+  }
+
+  /// From a part on.
+  Stretch TakeHalf(const Stretch& whole, int first) const
+  {
+    Stretch half;
+    for (int part = 0; part <= Parts; part += 2)
+    {
+      half.X[part] = whole.X[first + part / 2];
+      half.At[part] = whole.At[first + part / 2];
+    }
+    for (int part = 1; part < Parts; part += 2)
+    {
+      half.Fill(this->Functions, part);
+    }
+    return half;
+  }
+
+  /// As many nodes on a curve, evenly apart, as it takes for lines to be near enough.
+  void Follow(const Stretch& stretch, const ValueCurve& curve)
+  {
+    Value least = stretch.At[0];
+    Value most = stretch.At[0];
+    Value smallest = stretch.At[0]; // absolute
+    for (const Value& value : stretch.At)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        least.Color[c] = std::min(least.Color[c], value.Color[c]);
+        most.Color[c] = std::max(most.Color[c], value.Color[c]);
+        smallest.Color[c] = std::min(std::abs(smallest.Color[c]), std::abs(value.Color[c]));
+      }
+      smallest.Attenuation = std::min(smallest.Attenuation, value.Attenuation);
+    }
+    // Half of what values in between may be below.
+    double squares =
+      this->CountSquares(curve, 3, this->Allowed.GetOfAttenuation(0.5 * smallest.Attenuation));
+    for (int c = 0; c < 3; ++c)
+    {
+      squares = std::max(
+        squares, this->CountSquares(curve, c, this->Allowed.GetOfColor(0.5 * smallest.Color[c])));
+    }
+    const int lines = static_cast<int>(std::ceil(std::sqrt(squares)));
+    for (int i = 1; i < lines; ++i)
+    {
+      const double t = static_cast<double>(i) / lines;
+      const double x = stretch.GetPlace(t);
+      if (x <= this->Result.Nodes.back().Scalar || stretch.GetEnd() <= x)
+      {
+        continue;
+      }
+      Value value = curve.Evaluate(t);
+      for (int c = 0; c < 3; ++c)
+      {
+        // As far from 0 and 1 as all values are: nothing becomes negative that is not.
+        const bool isInside = 0 <= least.Color[c] && most.Color[c] <= 1;
+        value.Color[c] = isInside ? std::clamp(value.Color[c], 0., 1.) : value.Color[c];
+      }
+      value.Attenuation = std::max(value.Attenuation, 0.);
+      this->Result.Nodes.push_back({ x, value, value });
+    }
+  }
+
+  /// The square of how many lines a channel takes.
+  static double CountSquares(const ValueCurve& curve, int channel, double tolerance)
+  {
+    return curve.GetLargestBend(channel) / (8 * (1 - ShareOfCurve) * tolerance);
+  }
+
+  const PropertyFunctions& Functions;
+  const Tolerance& Allowed;
+  TransferFunction& Result;
+};
 
 } // namespace
 
@@ -353,6 +513,8 @@ PropertyTransferFunction TransferFunctionFromProperty(
   const double last = breaks.back();
   const auto margin = [](double x) { return x == 0 ? 1 : 1e-6 * std::abs(x); };
   Value left = functions.Evaluate(first - margin(first));
+  Value at = functions.Evaluate(first);
+  Subdivision subdivision(functions, tolerance, result.Function);
   for (std::size_t i = 0; i < breaks.size(); ++i)
   {
     const double x0 = breaks[i];
@@ -362,14 +524,16 @@ PropertyTransferFunction TransferFunctionFromProperty(
       break;
     }
     const double x1 = breaks[i + 1];
-    const Value right = functions.GetLimit(x0, x1);
-    const Value nextLeft = functions.GetLimit(x1, x0);
+    const Value nextAt = functions.Evaluate(x1);
+    const Value right = functions.GetLimit(x0, at, x1, nextAt);
+    const Value nextLeft = functions.GetLimit(x1, nextAt, x0, at);
     nodes.push_back({ x0, left, right });
-    if (Subdivide(functions, tolerance, x0, right, x1, nextLeft, 0, result.Function))
+    if (subdivision.Add(x0, right, x1, nextLeft))
     {
       result.Error = maximumError;
     }
     left = nextLeft;
+    at = nextAt;
   }
   return result;
 }
