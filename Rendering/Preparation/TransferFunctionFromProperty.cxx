@@ -3,6 +3,7 @@
 
 #include "Preparation/FunctionChunks.h"
 #include "Preparation/ValueCurve.h"
+#include "Preparation/ValueInterpolant.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkPiecewiseFunction.h"
@@ -44,8 +45,17 @@ constexpr int Parts = 8;
 /// Share of an error that colours take, of the error of a function.
 constexpr double ShareOfColors = 3. / 4;
 
-/// Share of an error that a curve through a few values may be off by; lines along it take the rest.
-constexpr double ShareOfCurve = 1. / 8;
+/// Share of an error that a curve through a few values may be off by. There are two, one through
+/// values of VTK and one through values of that; lines along the second one take the rest.
+constexpr double ShareOfCurve = 1. / 16;
+constexpr double ShareOfLines = 1 - 2 * ShareOfCurve;
+
+/// Lines whose ends are moved off a curve, by half of what they would be off by in the middle, are
+/// off by half as much. The first and the last of them have one end on the curve, and are shorter.
+constexpr double LengthOfEndLine = 0.85;
+
+/// More lines than that are never made of one curve: its halves may do with fewer.
+constexpr double MostLines = 256;
 
 /// Whether VTK interpolates between the logarithms of scalars.
 bool IsLogarithmic(vtkColorTransferFunction* function)
@@ -327,43 +337,24 @@ struct Stretch
   double GetBegin() const { return this->X[0]; }
   double GetEnd() const { return this->X[Parts]; }
 
-  double GetPlace(double t) const
+  double GetScalar(double t) const
   {
     return this->GetBegin() + (this->GetEnd() - this->GetBegin()) * t;
   }
 
-  /// Takes a value at t; those at ends are limits, and next to them there may be no further scalar.
-  void Fill(const PropertyFunctions& functions, int part)
+  double GetPlace(double x) const
   {
-    const double x = this->GetPlace(static_cast<double>(part) / Parts);
-    this->X[part] = x;
-    this->At[part] = x <= this->GetBegin() ? this->At[0]
-      : x >= this->GetEnd()                ? this->At[Parts]
-                                           : functions.Evaluate(x);
+    return (x - this->GetBegin()) / (this->GetEnd() - this->GetBegin());
   }
 
   /// Whether the line from end to end is near enough.
-  bool IsLine(const Tolerance& tolerance) const
+  bool IsLine(const Tolerance& tolerance, double share) const
   {
-    // From the middle on: there most are too far off.
+    // The middle first: there most are too far off.
     for (const int part : { 4, 2, 6, 1, 3, 5, 7 })
     {
-      const double t = (this->X[part] - this->GetBegin()) / (this->GetEnd() - this->GetBegin());
-      if (!tolerance.Accepts(this->At[part], Interpolate(this->At[0], this->At[Parts], t)))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  /// Whether a curve through half of the values has the others.
-  bool IsCurve(const ValueCurve& curve, const Tolerance& tolerance) const
-  {
-    for (int part = 1; part < Parts; part += 2)
-    {
-      const double t = static_cast<double>(part) / Parts;
-      if (!tolerance.Accepts(this->At[part], curve.Evaluate(t), ShareOfCurve))
+      const Value line = Interpolate(this->At[0], this->At[Parts], this->GetPlace(this->X[part]));
+      if (!tolerance.Accepts(this->At[part], line, share))
       {
         return false;
       }
@@ -380,7 +371,7 @@ public:
     const PropertyFunctions& functions, const Tolerance& tolerance, TransferFunction& result)
     : Functions(functions)
     , Allowed(tolerance)
-    , Result(result)
+    , Nodes(result.Nodes)
   {
   }
 
@@ -395,104 +386,165 @@ public:
     stretch.At[Parts] = value1;
     for (int part = 1; part < Parts; ++part)
     {
-      stretch.Fill(this->Functions, part);
+      this->Fill(stretch, part, nullptr);
     }
-    const std::size_t before = this->Result.Nodes.size();
-    this->Divide(stretch, 0);
-    return this->Result.Nodes.size() > before;
+    const std::size_t before = this->Nodes.size();
+    this->Divide(stretch, nullptr, 0);
+    return this->Nodes.size() > before;
   }
 
 private:
-  void Divide(const Stretch& stretch, int halvings)
+  /// The polynomial through the values of a stretch.
+  struct Model
+  {
+    explicit Model(const Stretch& stretch)
+      : Begin(stretch.GetBegin())
+      , End(stretch.GetEnd())
+      , Polynomial(stretch.At)
+    {
+    }
+
+    double GetPlace(double x) const { return (x - this->Begin) / (this->End - this->Begin); }
+
+    double Begin;
+    double End;
+    ValueInterpolant<Parts> Polynomial;
+  };
+
+  /// model: what is evaluated in place of VTK's functions; nullptr: these.
+  void Divide(const Stretch& stretch, const Model* model, int halvings)
   {
     const double middle = stretch.X[Parts / 2];
     if (halvings == MaximumHalvings || middle <= stretch.GetBegin() || stretch.GetEnd() <= middle ||
-      stretch.IsLine(this->Allowed))
+      stretch.IsLine(this->Allowed, model ? 1 - ShareOfCurve : 1))
     {
       return;
     }
     const ValueCurve curve(
       { stretch.At[0], stretch.At[2], stretch.At[4], stretch.At[6], stretch.At[8] });
-    if (stretch.IsCurve(curve, this->Allowed))
+    if (this->HasOddValues(stretch, curve, stretch) && this->Follow(stretch, curve))
     {
-      this->Follow(stretch, curve);
       return;
     }
-    this->Divide(this->TakeHalf(stretch, 0), halvings + 1);
-    this->Result.Nodes.push_back({ middle, stretch.At[Parts / 2], stretch.At[Parts / 2] });
-    this->Divide(this->TakeHalf(stretch, Parts / 2), halvings + 1);
+    const Stretch first = this->TakeHalf(stretch, 0, model);
+    const Stretch second = this->TakeHalf(stretch, Parts / 2, model);
+    std::optional<Model> own;
+    if (!model)
+    {
+      own.emplace(stretch);
+      if (this->HasOddValues(stretch, own->Polynomial, first) &&
+        this->HasOddValues(stretch, own->Polynomial, second))
+      {
+        model = &*own;
+      }
+    }
+    this->Divide(first, model, halvings + 1);
+    this->Nodes.push_back({ middle, stretch.At[Parts / 2], stretch.At[Parts / 2] });
+    this->Divide(second, model, halvings + 1);
   }
 
-  /// From a part on.
-  Stretch TakeHalf(const Stretch& whole, int first) const
+  /// Whether a curve along a stretch has every other value of the stretch or of a half of it.
+  template <class Curve>
+  bool HasOddValues(const Stretch& whole, const Curve& curve, const Stretch& part) const
+  {
+    for (int k = 1; k < Parts; k += 2)
+    {
+      if (!this->Allowed.Accepts(
+            part.At[k], curve.Evaluate(whole.GetPlace(part.X[k])), ShareOfCurve))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  Stretch TakeHalf(const Stretch& whole, int first, const Model* model) const
   {
     Stretch half;
-    for (int part = 0; part <= Parts; part += 2)
+    for (int k = 0; k <= Parts; k += 2)
     {
-      half.X[part] = whole.X[first + part / 2];
-      half.At[part] = whole.At[first + part / 2];
+      half.X[k] = whole.X[first + k / 2];
+      half.At[k] = whole.At[first + k / 2];
     }
-    for (int part = 1; part < Parts; part += 2)
+    for (int k = 1; k < Parts; k += 2)
     {
-      half.Fill(this->Functions, part);
+      this->Fill(half, k, model);
     }
     return half;
   }
 
-  /// As many nodes on a curve, evenly apart, as it takes for lines to be near enough.
-  void Follow(const Stretch& stretch, const ValueCurve& curve)
+  /// Those at the ends are limits, and next to them there may be no further scalar.
+  void Fill(Stretch& stretch, int part, const Model* model) const
   {
-    Value least = stretch.At[0];
-    Value most = stretch.At[0];
-    Value smallest = stretch.At[0]; // absolute
-    for (const Value& value : stretch.At)
+    const double x = stretch.GetScalar(static_cast<double>(part) / Parts);
+    stretch.X[part] = x;
+    stretch.At[part] = x <= stretch.GetBegin() ? stretch.At[0]
+      : x >= stretch.GetEnd()                  ? stretch.At[Parts]
+      : model                                  ? model->Polynomial.Evaluate(model->GetPlace(x))
+                                               : this->Functions.Evaluate(x);
+  }
+
+  /// Adds as many nodes near a curve as it takes for lines between them to be near enough, unless
+  /// they are too many.
+  bool Follow(const Stretch& stretch, const ValueCurve& curve)
+  {
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    struct Channel
     {
-      for (int c = 0; c < 3; ++c)
-      {
-        least.Color[c] = std::min(least.Color[c], value.Color[c]);
-        most.Color[c] = std::max(most.Color[c], value.Color[c]);
-        smallest.Color[c] = std::min(std::abs(smallest.Color[c]), std::abs(value.Color[c]));
-      }
-      smallest.Attenuation = std::min(smallest.Attenuation, value.Attenuation);
+      double Low, High; ///< of nodes
+      bool IsMoved;     ///< off the curve
+    };
+    Channel channels[ValueCurve::Channels];
+    double lines = 0;
+    for (int c = 0; c < ValueCurve::Channels; ++c)
+    {
+      const auto isLess = [c](const Value& a, const Value& b)
+      { return ValueCurve::Get(a, c) < ValueCurve::Get(b, c); };
+      const auto [least, most] = std::minmax_element(stretch.At, stretch.At + Parts + 1, isLess);
+      const double low = ValueCurve::Get(*least, c);
+      const double high = ValueCurve::Get(*most, c);
+      // Values in between may be somewhat nearer to 0.
+      const double small = 0.5 * std::max({ low, -high, 0. });
+      const double tolerance = ShareOfLines *
+        (c < 3 ? this->Allowed.GetOfColor(small) : this->Allowed.GetOfAttenuation(small));
+      // What is in 0..1 stays there.
+      channels[c].Low = low >= 0 ? 0 : -Infinity;
+      channels[c].High = high <= 1 ? 1 : Infinity;
+      channels[c].IsMoved =
+        low - tolerance >= channels[c].Low && high + tolerance <= channels[c].High;
+      lines = std::max(
+        lines, std::sqrt(curve.GetLargestBend(c) / ((channels[c].IsMoved ? 16 : 8) * tolerance)));
     }
-    // Half of what values in between may be below.
-    double squares =
-      this->CountSquares(curve, 3, this->Allowed.GetOfAttenuation(0.5 * smallest.Attenuation));
-    for (int c = 0; c < 3; ++c)
+    constexpr double Shorter = 1 - LengthOfEndLine;
+    lines = std::ceil(lines + 2 * Shorter);
+    if (!(lines <= MostLines))
     {
-      squares = std::max(
-        squares, this->CountSquares(curve, c, this->Allowed.GetOfColor(0.5 * smallest.Color[c])));
+      return false;
     }
-    const int lines = static_cast<int>(std::ceil(std::sqrt(squares)));
-    for (int i = 1; i < lines; ++i)
+    const double length = 1 / (lines - 2 * Shorter);
+    for (double i = 1; i < lines; ++i)
     {
-      const double t = static_cast<double>(i) / lines;
-      const double x = stretch.GetPlace(t);
-      if (x <= this->Result.Nodes.back().Scalar || stretch.GetEnd() <= x)
+      const double t = (i - Shorter) * length;
+      const double x = stretch.GetScalar(t);
+      if (x <= this->Nodes.back().Scalar || stretch.GetEnd() <= x)
       {
         continue;
       }
-      Value value = curve.Evaluate(t);
-      for (int c = 0; c < 3; ++c)
+      double value[ValueCurve::Channels];
+      for (int c = 0; c < ValueCurve::Channels; ++c)
       {
-        // As far from 0 and 1 as all values are: nothing becomes negative that is not.
-        const bool isInside = 0 <= least.Color[c] && most.Color[c] <= 1;
-        value.Color[c] = isInside ? std::clamp(value.Color[c], 0., 1.) : value.Color[c];
+        const double move = channels[c].IsMoved ? curve.GetBend(c, t) * length * length / 16 : 0;
+        value[c] = std::clamp(curve.Evaluate(c, t) - move, channels[c].Low, channels[c].High);
       }
-      value.Attenuation = std::max(value.Attenuation, 0.);
-      this->Result.Nodes.push_back({ x, value, value });
+      const Value node{ { value[0], value[1], value[2] }, value[3] };
+      this->Nodes.push_back({ x, node, node });
     }
-  }
-
-  /// The square of how many lines a channel takes.
-  static double CountSquares(const ValueCurve& curve, int channel, double tolerance)
-  {
-    return curve.GetLargestBend(channel) / (8 * (1 - ShareOfCurve) * tolerance);
+    return true;
   }
 
   const PropertyFunctions& Functions;
   const Tolerance& Allowed;
-  TransferFunction& Result;
+  std::vector<TransferFunction::Node>& Nodes;
 };
 
 } // namespace
