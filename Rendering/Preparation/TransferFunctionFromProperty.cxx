@@ -42,6 +42,10 @@ constexpr int MaximumHalvings = 24;
 /// curve: S-shaped curves meet that line in the middle.
 constexpr int Parts = 8;
 
+/// After how many halvings every other of these places is enough for a line, and polynomials are no
+/// longer tried: what is not smooth by then has a kink.
+constexpr int SmoothHalvings = 3;
+
 /// Share of an error that colours take, of the error of a function.
 constexpr double ShareOfColors = 3. / 4;
 
@@ -333,6 +337,7 @@ struct Stretch
 {
   double X[Parts + 1];
   Value At[Parts + 1];
+  bool HasOdd = false; ///< values after an odd number of parts
 
   double GetBegin() const { return this->X[0]; }
   double GetEnd() const { return this->X[Parts]; }
@@ -347,19 +352,16 @@ struct Stretch
     return (x - this->GetBegin()) / (this->GetEnd() - this->GetBegin());
   }
 
-  /// Whether the line from end to end is near enough.
-  bool IsLine(const Tolerance& tolerance, double share) const
+  /// Without odd values.
+  Stretch TakeHalf(int first) const
   {
-    // The middle first: there most are too far off.
-    for (const int part : { 4, 2, 6, 1, 3, 5, 7 })
+    Stretch half;
+    for (int part = 0; part <= Parts; part += 2)
     {
-      const Value line = Interpolate(this->At[0], this->At[Parts], this->GetPlace(this->X[part]));
-      if (!tolerance.Accepts(this->At[part], line, share))
-      {
-        return false;
-      }
+      half.X[part] = this->X[first + part / 2];
+      half.At[part] = this->At[first + part / 2];
     }
-    return true;
+    return half;
   }
 };
 
@@ -384,7 +386,7 @@ public:
     stretch.At[0] = value0;
     stretch.X[Parts] = x1;
     stretch.At[Parts] = value1;
-    for (int part = 1; part < Parts; ++part)
+    for (int part = 2; part < Parts; part += 2)
     {
       this->Fill(stretch, part, nullptr);
     }
@@ -411,12 +413,19 @@ private:
     ValueInterpolant<Parts> Polynomial;
   };
 
-  /// model: what is evaluated in place of VTK's functions; nullptr: these.
-  void Divide(const Stretch& stretch, const Model* model, int halvings)
+  /// model: what is evaluated in place of VTK's functions; nullptr: these. Odd values of the stretch
+  /// may not be there yet.
+  void Divide(Stretch& stretch, const Model* model, int halvings)
   {
     const double middle = stretch.X[Parts / 2];
+    const double share = model ? 1 - ShareOfCurve : 1;
     if (halvings == MaximumHalvings || middle <= stretch.GetBegin() || stretch.GetEnd() <= middle ||
-      stretch.IsLine(this->Allowed, model ? 1 - ShareOfCurve : 1))
+      (halvings >= SmoothHalvings && this->IsLine(stretch, 2, share)))
+    {
+      return;
+    }
+    this->FillOdd(stretch, model);
+    if (this->IsLine(stretch, 1, share))
     {
       return;
     }
@@ -426,12 +435,14 @@ private:
     {
       return;
     }
-    const Stretch first = this->TakeHalf(stretch, 0, model);
-    const Stretch second = this->TakeHalf(stretch, Parts / 2, model);
+    Stretch first = stretch.TakeHalf(0);
+    Stretch second = stretch.TakeHalf(Parts / 2);
     std::optional<Model> own;
-    if (!model)
+    if (!model && halvings < SmoothHalvings)
     {
       own.emplace(stretch);
+      this->FillOdd(first, nullptr);
+      this->FillOdd(second, nullptr);
       if (this->HasOddValues(stretch, own->Polynomial, first) &&
         this->HasOddValues(stretch, own->Polynomial, second))
       {
@@ -441,6 +452,24 @@ private:
     this->Divide(first, model, halvings + 1);
     this->Nodes.push_back({ middle, stretch.At[Parts / 2], stretch.At[Parts / 2] });
     this->Divide(second, model, halvings + 1);
+  }
+
+  /// Whether the line from end to end is near enough, at every value or every other one.
+  bool IsLine(const Stretch& stretch, int step, double share) const
+  {
+    const auto isNear = [&](int part)
+    {
+      const Value line =
+        Interpolate(stretch.At[0], stretch.At[Parts], stretch.GetPlace(stretch.X[part]));
+      return this->Allowed.Accepts(stretch.At[part], line, share);
+    };
+    // The middle first: there most are too far off.
+    bool near = isNear(Parts / 2);
+    for (int part = step; part < Parts && near; part += step)
+    {
+      near = part == Parts / 2 || isNear(part);
+    }
+    return near;
   }
 
   /// Whether a curve along a stretch has every other value of the stretch or of a half of it.
@@ -458,19 +487,13 @@ private:
     return true;
   }
 
-  Stretch TakeHalf(const Stretch& whole, int first, const Model* model) const
+  void FillOdd(Stretch& stretch, const Model* model) const
   {
-    Stretch half;
-    for (int k = 0; k <= Parts; k += 2)
+    for (int part = 1; part < Parts && !stretch.HasOdd; part += 2)
     {
-      half.X[k] = whole.X[first + k / 2];
-      half.At[k] = whole.At[first + k / 2];
+      this->Fill(stretch, part, model);
     }
-    for (int k = 1; k < Parts; k += 2)
-    {
-      this->Fill(half, k, model);
-    }
-    return half;
+    stretch.HasOdd = true;
   }
 
   /// Those at the ends are limits, and next to them there may be no further scalar.
