@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <exception>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -369,11 +371,11 @@ struct Stretch
 class Subdivision
 {
 public:
-  Subdivision(
-    const PropertyFunctions& functions, const Tolerance& tolerance, TransferFunction& result)
+  Subdivision(const PropertyFunctions& functions, const Tolerance& tolerance,
+    std::vector<TransferFunction::Node>& nodes)
     : Functions(functions)
     , Allowed(tolerance)
-    , Nodes(result.Nodes)
+    , Nodes(nodes)
   {
   }
 
@@ -570,6 +572,45 @@ private:
   std::vector<TransferFunction::Node>& Nodes;
 };
 
+/// Nodes of some intervals between breaks.
+struct Block
+{
+  std::vector<TransferFunction::Node> Nodes; ///< the first one without its Left
+  Value LastLeft{};                          ///< of the node after the last interval
+  bool IsDivided = false;
+  std::exception_ptr Failure;
+};
+
+/// Intervals of a block: their functions are evaluated some thousand times.
+constexpr std::size_t BlockSize = 64;
+
+/// begin, end: breaks from the first interval to the end of the last one.
+Block MakeBlock(const PropertyFunctions& functions, const Tolerance& tolerance, const double* begin,
+  const double* end)
+{
+  Block block;
+  try
+  {
+    Subdivision subdivision(functions, tolerance, block.Nodes);
+    Value at = functions.Evaluate(*begin);
+    for (const double* x = begin; x != end; ++x)
+    {
+      const Value nextAt = functions.Evaluate(x[1]);
+      const Value right = functions.GetLimit(x[0], at, x[1], nextAt);
+      const Value nextLeft = functions.GetLimit(x[1], nextAt, x[0], at);
+      block.Nodes.push_back({ x[0], block.LastLeft, right });
+      block.IsDivided = subdivision.Add(x[0], right, x[1], nextLeft) || block.IsDivided;
+      block.LastLeft = nextLeft;
+      at = nextAt;
+    }
+  }
+  catch (...)
+  {
+    block.Failure = std::current_exception(); // none may leave a parallel loop
+  }
+  return block;
+}
+
 } // namespace
 
 PropertyTransferFunction TransferFunctionFromProperty(
@@ -579,37 +620,43 @@ PropertyTransferFunction TransferFunctionFromProperty(
   const Tolerance tolerance(maximumError, longestPath);
   const std::vector<double> breaks = functions.GetBreaks();
 
+  // VTK only reads its functions when they are evaluated.
+  const std::size_t intervals = breaks.size() - 1;
+  const auto count = static_cast<std::ptrdiff_t>((intervals + BlockSize - 1) / BlockSize);
+  std::vector<Block> blocks(static_cast<std::size_t>(count));
+#pragma omp parallel for schedule(dynamic) if (count > 1)
+  for (std::ptrdiff_t k = 0; k < count; ++k)
+  {
+    const std::size_t first = static_cast<std::size_t>(k) * BlockSize;
+    blocks[k] = MakeBlock(functions, tolerance, breaks.data() + first,
+      breaks.data() + std::min(first + BlockSize, intervals));
+  }
+
   PropertyTransferFunction result;
   std::vector<TransferFunction::Node>& nodes = result.Function.Nodes;
-
+  std::size_t size = 1;
+  for (const Block& block : blocks)
+  {
+    if (block.Failure)
+    {
+      std::rethrow_exception(block.Failure);
+    }
+    size += block.Nodes.size();
+    result.Error = block.IsDivided ? maximumError : result.Error;
+  }
+  nodes.reserve(size);
   // Outside of all nodes functions are constant; a place there that logarithms can be taken of,
   // too.
-  const double first = breaks.front();
   const double last = breaks.back();
   const auto margin = [](double x) { return x == 0 ? 1 : 1e-6 * std::abs(x); };
-  Value left = functions.Evaluate(first - margin(first));
-  Value at = functions.Evaluate(first);
-  Subdivision subdivision(functions, tolerance, result.Function);
-  for (std::size_t i = 0; i < breaks.size(); ++i)
+  Value left = functions.Evaluate(breaks.front() - margin(breaks.front()));
+  for (Block& block : blocks)
   {
-    const double x0 = breaks[i];
-    if (x0 == last)
-    {
-      nodes.push_back({ x0, left, functions.Evaluate(last + margin(last)) });
-      break;
-    }
-    const double x1 = breaks[i + 1];
-    const Value nextAt = functions.Evaluate(x1);
-    const Value right = functions.GetLimit(x0, at, x1, nextAt);
-    const Value nextLeft = functions.GetLimit(x1, nextAt, x0, at);
-    nodes.push_back({ x0, left, right });
-    if (subdivision.Add(x0, right, x1, nextLeft))
-    {
-      result.Error = maximumError;
-    }
-    left = nextLeft;
-    at = nextAt;
+    block.Nodes.front().Left = left;
+    nodes.insert(nodes.end(), block.Nodes.begin(), block.Nodes.end());
+    left = block.LastLeft;
   }
+  nodes.push_back({ last, left, functions.Evaluate(last + margin(last)) });
   return result;
 }
 
