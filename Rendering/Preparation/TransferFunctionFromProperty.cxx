@@ -56,10 +56,6 @@ constexpr double ShareOfColors = 3. / 4;
 constexpr double ShareOfCurve = 1. / 16;
 constexpr double ShareOfLines = 1 - 2 * ShareOfCurve;
 
-/// Lines whose ends are moved off a curve, by half of what they would be off by in the middle, are
-/// off by half as much. The first and the last of them have one end on the curve, and are shorter.
-constexpr double LengthOfEndLine = 0.85;
-
 /// More lines than that are never made of one curve: its halves may do with fewer.
 constexpr double MostLines = 256;
 
@@ -509,60 +505,46 @@ private:
                                                : this->Functions.Evaluate(x);
   }
 
-  /// Adds as many nodes near a curve as it takes for lines between them to be near enough, unless
-  /// they are too many.
+  /// Adds as many nodes on a curve, evenly apart, as it takes for lines between them to be near
+  /// enough, unless they are too many.
   bool Follow(const Stretch& stretch, const ValueCurve& curve)
   {
     constexpr double Infinity = std::numeric_limits<double>::infinity();
-    struct Channel
-    {
-      double Low, High; ///< of nodes
-      bool IsMoved;     ///< off the curve
-    };
-    Channel channels[ValueCurve::Channels];
+    double low[ValueCurve::Channels];
+    double high[ValueCurve::Channels];
     double lines = 0;
     for (int c = 0; c < ValueCurve::Channels; ++c)
     {
       const auto isLess = [c](const Value& a, const Value& b)
       { return ValueCurve::Get(a, c) < ValueCurve::Get(b, c); };
       const auto [least, most] = std::minmax_element(stretch.At, stretch.At + Parts + 1, isLess);
-      const double low = ValueCurve::Get(*least, c);
-      const double high = ValueCurve::Get(*most, c);
+      low[c] = ValueCurve::Get(*least, c);
+      high[c] = ValueCurve::Get(*most, c);
       // Values in between may be somewhat nearer to 0.
-      const double small = 0.5 * std::max({ low, -high, 0. });
+      const double small = 0.5 * std::max({ low[c], -high[c], 0. });
       const double tolerance = ShareOfLines *
         (c < 3 ? this->Allowed.GetOfColor(small) : this->Allowed.GetOfAttenuation(small));
+      lines = std::max(lines, std::sqrt(curve.GetLargestBend(c) / (8 * tolerance)));
       // What is in 0..1 stays there.
-      channels[c].Low = low >= 0 ? 0 : -Infinity;
-      channels[c].High = high <= 1 ? 1 : Infinity;
-      channels[c].IsMoved =
-        low - tolerance >= channels[c].Low && high + tolerance <= channels[c].High;
-      lines = std::max(
-        lines, std::sqrt(curve.GetLargestBend(c) / ((channels[c].IsMoved ? 16 : 8) * tolerance)));
+      low[c] = low[c] >= 0 ? 0 : -Infinity;
+      high[c] = high[c] <= 1 ? 1 : Infinity;
     }
-    constexpr double Shorter = 1 - LengthOfEndLine;
-    lines = std::ceil(lines + 2 * Shorter);
+    lines = std::ceil(lines);
     if (!(lines <= MostLines))
     {
       return false;
     }
-    const double length = 1 / (lines - 2 * Shorter);
     for (double i = 1; i < lines; ++i)
     {
-      const double t = (i - Shorter) * length;
+      const double t = i / lines;
       const double x = stretch.GetScalar(t);
       if (x <= this->Nodes.back().Scalar || stretch.GetEnd() <= x)
       {
         continue;
       }
-      double value[ValueCurve::Channels];
-      for (int c = 0; c < ValueCurve::Channels; ++c)
-      {
-        const double move = channels[c].IsMoved ? curve.GetBend(c, t) * length * length / 16 : 0;
-        value[c] = std::clamp(curve.Evaluate(c, t) - move, channels[c].Low, channels[c].High);
-      }
-      const Value node{ { value[0], value[1], value[2] }, value[3] };
-      this->Nodes.push_back({ x, node, node });
+      const auto get = [&](int c) { return std::clamp(curve.Evaluate(c, t), low[c], high[c]); };
+      const Value value{ { get(0), get(1), get(2) }, get(3) };
+      this->Nodes.push_back({ x, value, value });
     }
     return true;
   }

@@ -49,22 +49,15 @@ public:
       this->Evaluate(3, t) };
   }
 
-  /// The second derivative of a channel: a line from end to end of a part of the interval is off
-  /// by an eighth of it times the part's square.
-  double GetBend(int channel, double t) const
-  {
-    const double* p = this->Coefficients[channel];
-    return 2 * p[2] + t * (6 * p[3] + t * 12 * p[4]);
-  }
-
-  /// The largest in the interval, absolute.
+  /// The largest second derivative of a channel in the interval, absolute: a line from end to end
+  /// of a part of the interval is off by at most an eighth of it times the part's square.
   double GetLargestBend(int channel) const
   {
     const double* p = this->Coefficients[channel];
+    const auto bend = [p](double t) { return std::abs(2 * p[2] + t * (6 * p[3] + t * 12 * p[4])); };
     // Where the derivative of the bend vanishes, if there.
     const double vertex = p[4] != 0 ? std::clamp(-p[3] / (4 * p[4]), 0., 1.) : 0;
-    return std::max({ std::abs(this->GetBend(channel, 0)), std::abs(this->GetBend(channel, vertex)),
-      std::abs(this->GetBend(channel, 1)) });
+    return std::max({ bend(0), bend(vertex), bend(1) });
   }
 
   static double Get(const TransferFunction::Value& value, int channel)
