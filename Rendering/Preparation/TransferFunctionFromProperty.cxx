@@ -636,6 +636,7 @@ PropertyTransferFunction TransferFunctionFromProperty(
   {
     block.Nodes.front().Left = left;
     nodes.insert(nodes.end(), block.Nodes.begin(), block.Nodes.end());
+    block.Nodes = {}; // they may be millions
     left = block.LastLeft;
   }
   nodes.push_back({ last, left, functions.Evaluate(last + margin(last)) });
