@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace tetralux
 {
@@ -20,6 +22,10 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// Shares of an error that attenuation takes, and of the rest that the weights of bulges take.
 constexpr double ShareOfAttenuation = 1. / 8;
 constexpr double ShareOfBulges = 1. / 8;
+
+/// Intervals that a thread looks through at once; runs end with them, whatever the threads. Few
+/// functions have more.
+constexpr std::size_t PartSize = 1 << 15;
 
 /// What is rounded in double precision is no step and no bend.
 constexpr double Rounding = 1e-14;
@@ -55,10 +61,10 @@ public:
   {
   }
 
-  FunctionRuns Find()
+  /// From a node to another one.
+  FunctionRuns Find(std::size_t first, std::size_t last)
   {
-    const std::size_t last = this->Nodes.size() - 1;
-    for (std::size_t first = 0; first < last;)
+    while (first < last)
     {
       const FunctionRun run = this->FindFrom(first, last);
       this->Length = run.Last - run.First;
@@ -311,7 +317,22 @@ RunTolerance MakeRunTolerance(
 
 FunctionRuns FindFunctionRuns(const TransferFunction& function, const RunTolerance& tolerance)
 {
-  return RunFinder(function, tolerance).Find();
+  const std::size_t last = function.Nodes.size() - 1;
+  const auto count = static_cast<std::ptrdiff_t>((last + PartSize - 1) / PartSize);
+  std::vector<FunctionRuns> parts(static_cast<std::size_t>(count));
+#pragma omp parallel for schedule(dynamic) if (count > 1)
+  for (std::ptrdiff_t k = 0; k < count; ++k)
+  {
+    const std::size_t first = static_cast<std::size_t>(k) * PartSize;
+    parts[k] = RunFinder(function, tolerance).Find(first, std::min(first + PartSize, last));
+  }
+  FunctionRuns runs;
+  for (const FunctionRuns& part : parts)
+  {
+    runs.Runs.insert(runs.Runs.end(), part.Runs.begin(), part.Runs.end());
+    runs.Visits += part.Visits;
+  }
+  return runs;
 }
 
 } // namespace tetralux
