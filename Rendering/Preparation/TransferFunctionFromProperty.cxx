@@ -48,7 +48,7 @@ constexpr int Parts = 8;
 /// longer tried: what is not smooth by then has a kink.
 constexpr int SmoothHalvings = 3;
 
-/// Share of an error that colours take, of the error of a function.
+/// Of the error of a function, what colours take.
 constexpr double ShareOfColors = 3. / 4;
 
 /// Share of an error that a curve through a few values may be off by. There are two, one through
@@ -509,7 +509,6 @@ private:
   /// enough, unless they are too many.
   bool Follow(const Stretch& stretch, const ValueCurve& curve)
   {
-    constexpr double Infinity = std::numeric_limits<double>::infinity();
     double low[ValueCurve::Channels];
     double high[ValueCurve::Channels];
     double lines = 0;
@@ -525,26 +524,30 @@ private:
       const double tolerance = ShareOfLines *
         (c < 3 ? this->Allowed.GetOfColor(small) : this->Allowed.GetOfAttenuation(small));
       lines = std::max(lines, std::sqrt(curve.GetLargestBend(c) / (8 * tolerance)));
-      // What is in 0..1 stays there.
-      low[c] = low[c] >= 0 ? 0 : -Infinity;
-      high[c] = high[c] <= 1 ? 1 : Infinity;
     }
     lines = std::ceil(lines);
     if (!(lines <= MostLines))
     {
       return false;
     }
+    // No error of the curve takes a colour out of 0..1 where VTK's is inside.
+    const auto getColor = [&](int c, double t)
+    {
+      const double color = curve.Evaluate(c, t);
+      const double inside = std::clamp(color, 0., 1.);
+      return 0 <= low[c] && high[c] <= 1 && std::abs(color - inside) <= this->Allowed.Color ? inside
+                                                                                            : color;
+    };
     for (double i = 1; i < lines; ++i)
     {
       const double t = i / lines;
       const double x = stretch.GetScalar(t);
-      if (x <= this->Nodes.back().Scalar || stretch.GetEnd() <= x)
+      if (this->Nodes.back().Scalar < x && x < stretch.GetEnd())
       {
-        continue;
+        const Value value{ { getColor(0, t), getColor(1, t), getColor(2, t) },
+          std::max(curve.Evaluate(3, t), 0.) };
+        this->Nodes.push_back({ x, value, value });
       }
-      const auto get = [&](int c) { return std::clamp(curve.Evaluate(c, t), low[c], high[c]); };
-      const Value value{ { get(0), get(1), get(2) }, get(3) };
-      this->Nodes.push_back({ x, value, value });
     }
     return true;
   }

@@ -186,6 +186,10 @@ TEST_F(TransferFunctionFromProperty, ManyNodes)
     constexpr double Bend = 5;
     const double lines = std::sqrt(Bend / (8 * ShareOfColors * MaximumError));
     EXPECT_LE(nodes, 1.5 * lines * Nodes);
+    const tetralux::TransferFunction function =
+      tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath).Function;
+    EXPECT_FALSE(tetralux::HasNegativeColors(function));
+    EXPECT_LE(tetralux::GetLargestColor(function), 1);
   }
 }
 
