@@ -56,8 +56,9 @@ constexpr double ShareOfColors = 3. / 4;
 constexpr double ShareOfCurve = 1. / 16;
 constexpr double ShareOfLines = 1 - 2 * ShareOfCurve;
 
-/// More lines than that are never made of one curve: its halves may do with fewer.
-constexpr double MostLines = 256;
+/// More lines than parts are not made of one curve: what bends as much between two values would be
+/// seen at none of them.
+constexpr double MostLines = Parts;
 
 /// Whether VTK interpolates between the logarithms of scalars.
 bool IsLogarithmic(vtkColorTransferFunction* function)
