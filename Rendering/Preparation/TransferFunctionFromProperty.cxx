@@ -56,9 +56,11 @@ constexpr double ShareOfColors = 3. / 4;
 constexpr double ShareOfCurve = 1. / 16;
 constexpr double ShareOfLines = 1 - 2 * ShareOfCurve;
 
-/// More lines than parts are not made of one curve: what bends as much between two values would be
-/// seen at none of them.
-constexpr double MostLines = Parts;
+/// More lines than that are not made of one curve; nor are more lines than parts where colours come
+/// near 1 or are dark: kinks between two values, where VTK cuts colours off and where gamma curves
+/// begin, are seen at none of them.
+constexpr double MostLines = 64;
+constexpr double DarkColor = 0.06; // sRGB's gamma curve begins at 0.04
 
 /// Whether VTK interpolates between the logarithms of scalars.
 bool IsLogarithmic(vtkColorTransferFunction* function)
@@ -513,21 +515,25 @@ private:
     double low[ValueCurve::Channels];
     double high[ValueCurve::Channels];
     double lines = 0;
+    double most = MostLines;
     for (int c = 0; c < ValueCurve::Channels; ++c)
     {
       const auto isLess = [c](const Value& a, const Value& b)
       { return ValueCurve::Get(a, c) < ValueCurve::Get(b, c); };
-      const auto [least, most] = std::minmax_element(stretch.At, stretch.At + Parts + 1, isLess);
-      low[c] = ValueCurve::Get(*least, c);
-      high[c] = ValueCurve::Get(*most, c);
+      const auto ends = std::minmax_element(stretch.At, stretch.At + Parts + 1, isLess);
+      low[c] = ValueCurve::Get(*ends.first, c);
+      high[c] = ValueCurve::Get(*ends.second, c);
       // Values in between may be somewhat nearer to 0.
       const double small = 0.5 * std::max({ low[c], -high[c], 0. });
       const double tolerance = ShareOfLines *
         (c < 3 ? this->Allowed.GetOfColor(small) : this->Allowed.GetOfAttenuation(small));
-      lines = std::max(lines, std::sqrt(curve.GetLargestBend(c) / (8 * tolerance)));
+      const double bend = curve.GetLargestBend(c);
+      lines = std::max(lines, std::sqrt(bend / (8 * tolerance)));
+      const double beyond = bend / (8 * Parts * Parts); // values, in between
+      most = c < 3 && (low[c] < DarkColor + beyond || 1 < high[c] + beyond) ? Parts : most;
     }
     lines = std::ceil(lines);
-    if (!(lines <= MostLines))
+    if (!(lines <= most))
     {
       return false;
     }
