@@ -414,8 +414,8 @@ private:
     ValueInterpolant<Parts> Polynomial;
   };
 
-  /// model: what is evaluated in place of VTK's functions; nullptr: these. Odd values of the stretch
-  /// may not be there yet.
+  /// model: what is evaluated in place of VTK's functions; nullptr: these. Odd values of the
+  /// stretch may not be there yet.
   void Divide(Stretch& stretch, const Model* model, int halvings)
   {
     const double middle = stretch.X[Parts / 2];
