@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace tetralux
 {
@@ -20,6 +22,10 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// Shares of an error that attenuation takes, and of the rest that the weights of bulges take.
 constexpr double ShareOfAttenuation = 1. / 8;
 constexpr double ShareOfBulges = 1. / 8;
+
+/// Intervals that a thread looks through at once; runs end with them, whatever the threads. Few
+/// functions have more.
+constexpr std::size_t PartSize = 1 << 15;
 
 /// What is rounded in double precision is no step and no bend.
 constexpr double Rounding = 1e-14;
@@ -55,32 +61,13 @@ public:
   {
   }
 
-  FunctionRuns Find()
+  /// From a node to another one.
+  FunctionRuns Find(std::size_t first, std::size_t last)
   {
-    const std::size_t last = this->Nodes.size() - 1;
-    for (std::size_t first = 0; first < last;)
+    while (first < last)
     {
-      FunctionRun run{ first, first + 1, { 0, 0, 0 } };
-      // The end of what no run from here can pass.
-      std::size_t end = last;
-      std::size_t step = 1;
-      // Doubles the step while that fits, and halves it after.
-      bool growing = true;
-      while (step > 0 && run.Last < end)
-      {
-        FunctionRun longer{ first, std::min(run.Last + step, end), { 0, 0, 0 } };
-        if (this->Fit(longer))
-        {
-          run = longer;
-          step = growing ? 2 * step : step / 2;
-        }
-        else
-        {
-          end = longer.Last - 1;
-          growing = false;
-          step /= 2;
-        }
-      }
+      const FunctionRun run = this->FindFrom(first, last);
+      this->Length = run.Last - run.First;
       this->Result.Runs.push_back(run);
       first = run.Last;
     }
@@ -88,6 +75,53 @@ public:
   }
 
 private:
+  /// What a run's intervals are taken with, each at its end and in its middle.
+  struct Place
+  {
+    double Share;         ///< of the run, up to the end
+    double HalfStep;      ///< half of the interval's share
+    double Inverse;       ///< of 4 w (1 - w) at the end
+    double MiddleInverse; ///< and in the middle
+  };
+
+  /// Runs mostly are about as long as the one before: tries that length, then ever longer or
+  /// shorter ones, and halves what is left in between.
+  FunctionRun FindFrom(std::size_t first, std::size_t last)
+  {
+    FunctionRun run{ first, first + 1, { 0, 0, 0 } };
+    // The end of what no run from here can pass.
+    std::size_t end = last;
+    std::size_t step = std::max<std::size_t>(this->Length / 8, 1);
+    std::size_t next = std::min(first + std::max<std::size_t>(this->Length, 2), last);
+    bool fitted = false;
+    bool failed = false;
+    while (run.Last < end)
+    {
+      FunctionRun longer{ first, next, { 0, 0, 0 } };
+      if (this->Fit(longer))
+      {
+        run = longer;
+        fitted = true;
+      }
+      else
+      {
+        end = next - 1;
+        failed = true;
+      }
+      if (fitted && failed)
+      {
+        next = run.Last + (end - run.Last + 1) / 2;
+      }
+      else
+      {
+        next = fitted ? std::min(run.Last + step, end)
+                      : std::max(end - std::min(step - 1, end), run.Last + 1);
+        step *= 2;
+      }
+    }
+    return run;
+  }
+
   /// Whether the intervals of a run can be taken as one; fills in the bulges.
   bool Fit(FunctionRun& run)
   {
@@ -102,12 +136,39 @@ private:
     {
       return true;
     }
+    if (!this->FindPlaces(run))
+    {
+      return false;
+    }
     for (int c = 0; c < 3; ++c)
     {
       if (!this->FitChannel(run, c))
       {
         return false;
       }
+    }
+    return true;
+  }
+
+  /// Divides once for all channels. False where ends are nearer than doubles tell.
+  bool FindPlaces(const FunctionRun& run)
+  {
+    this->Places.clear();
+    double previous = 0;
+    for (std::size_t k = run.First + 1; k <= run.Last; ++k)
+    {
+      ++this->Result.Visits;
+      const double w = k == run.Last ? 1 : this->GetShare(run, k);
+      const double middle = 0.5 * (previous + w);
+      const double shape = 4 * w * (1 - w);
+      const double middleShape = 4 * middle * (1 - middle);
+      if (!(middleShape > 0) || !(k == run.Last || shape > 0))
+      {
+        return false;
+      }
+      this->Places.push_back(
+        { w, 0.5 * (w - previous), k == run.Last ? 0 : 1 / shape, 1 / middleShape });
+      previous = w;
     }
     return true;
   }
@@ -150,31 +211,29 @@ private:
     bool isNegative = begin < 0 || end < 0;
     double previousShare = 0;
     double previousColor = begin;
-    const auto bound = [&](double w, double color, double halfStep)
+    const auto bound = [&](double w, double inverse, double color, double halfStep)
     {
-      const double shape = 4 * w * (1 - w);
       const double line = (1 - w) * begin + w * end;
-      range.Least = std::max(range.Least, (color - line - this->ColorError) / shape);
-      range.Most = std::min(range.Most, (color - line + this->ColorError) / shape);
+      range.Least = std::max(range.Least, (color - line - this->ColorError) * inverse);
+      range.Most = std::min(range.Most, (color - line + this->ColorError) * inverse);
       // A parabola that is convex comes no lower than this below what it has at such points.
       const double dip = this->LargestBulge * halfStep * halfStep;
-      leastPositive = std::max(leastPositive, (dip - line) / shape);
-      // Shapes of 0 are nearer to an end than doubles tell.
-      return shape > 0 && !range.IsEmpty();
+      leastPositive = std::max(leastPositive, (dip - line) * inverse);
+      return !range.IsEmpty();
     };
     for (std::size_t k = run.First + 1; k <= run.Last; ++k)
     {
       ++this->Result.Visits;
-      const double w = k == run.Last ? 1 : this->GetShare(run, k);
+      const Place& place = this->Places[k - run.First - 1];
       const double color = this->Nodes[k].Left.Color[c];
       isNegative = isNegative || color < 0;
-      const double halfStep = 0.5 * (w - previousShare);
-      if (!bound(0.5 * (previousShare + w), 0.5 * (previousColor + color), halfStep) ||
-        (k < run.Last && !bound(w, color, halfStep)))
+      if (!bound(0.5 * (previousShare + place.Share), place.MiddleInverse,
+            0.5 * (previousColor + color), place.HalfStep) ||
+        (k < run.Last && !bound(place.Share, place.Inverse, color, place.HalfStep)))
       {
         return false;
       }
-      previousShare = w;
+      previousShare = place.Share;
       previousColor = color;
     }
     run.Bulge[c] = range.Choose();
@@ -200,7 +259,7 @@ private:
     for (std::size_t k = run.First + 1; k <= run.Last; ++k)
     {
       ++this->Result.Visits;
-      const double w = k == run.Last ? 1 : this->GetShare(run, k);
+      const double w = this->Places[k - run.First - 1].Share;
       const double color = (1 - w) * begin + w * end + run.Bulge[c] * 4 * w * (1 - w);
       const double next = k == run.Last ? 0 : color - this->Nodes[k].Left.Color[c];
       const double bulge = run.Bulge[c] * (w - share) * (w - share);
@@ -225,6 +284,8 @@ private:
   double ColorError;
   double LargestBulge;
   double AttenuationShare;
+  std::size_t Length = 1;    ///< of the run before
+  std::vector<Place> Places; ///< of the intervals of the run that is fitted
   FunctionRuns Result;
 };
 
@@ -256,7 +317,22 @@ RunTolerance MakeRunTolerance(
 
 FunctionRuns FindFunctionRuns(const TransferFunction& function, const RunTolerance& tolerance)
 {
-  return RunFinder(function, tolerance).Find();
+  const std::size_t last = function.Nodes.size() - 1;
+  const auto count = static_cast<std::ptrdiff_t>((last + PartSize - 1) / PartSize);
+  std::vector<FunctionRuns> parts(static_cast<std::size_t>(count));
+#pragma omp parallel for schedule(dynamic) if (count > 1)
+  for (std::ptrdiff_t k = 0; k < count; ++k)
+  {
+    const std::size_t first = static_cast<std::size_t>(k) * PartSize;
+    parts[k] = RunFinder(function, tolerance).Find(first, std::min(first + PartSize, last));
+  }
+  FunctionRuns runs;
+  for (const FunctionRuns& part : parts)
+  {
+    runs.Runs.insert(runs.Runs.end(), part.Runs.begin(), part.Runs.end());
+    runs.Visits += part.Visits;
+  }
+  return runs;
 }
 
 } // namespace tetralux

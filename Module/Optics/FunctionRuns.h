@@ -57,11 +57,12 @@ struct FunctionRuns
   std::int64_t Visits = 0;       ///< of intervals while runs were looked for
 };
 
-/// Makes runs as long as a tolerance allows, from the first node on. Steps and bends of the
-/// attenuation begin runs. Colours count only where there is attenuation. A channel that is nowhere
-/// negative stays so. function: one that MakeIntervalTable accepts. Each run is found
-/// by doubling its length and halving the step, so visits are at most in proportion to the nodes
-/// times the logarithm of a run's length.
+/// Makes runs as long as a tolerance allows, from the first node on. Steps, bends of the
+/// attenuation, and every 32,768th node begin runs. Colours count only where there is attenuation.
+/// A channel that is nowhere negative stays so. function: one that MakeIntervalTable accepts. Each
+/// run is looked for from the length of the one before, by doubled and then by halved steps, so
+/// visits are at most in proportion to the nodes times the logarithm of a run's length. Uses all
+/// threads; runs do not depend on their number.
 TETRALUXCORE_EXPORT FunctionRuns FindFunctionRuns(
   const TransferFunction& function, const RunTolerance& tolerance);
 

@@ -209,10 +209,13 @@ ScalarAxisMap MakeScalarAxis(
   std::sort(breaks.begin(), breaks.end());
   std::sort(doubled.begin(), doubled.end());
   std::vector<Cell> cells;
+  // Weighing a cell takes all nodes, which may be thousands: not where no texel is left.
+  const bool isHalved =
+    breaks.size() + doubled.size() < static_cast<std::size_t>(settings.ScalarSize);
   const auto addCell = [&](double begin, double end, int halvings)
   {
     Cell cell{ begin, end, halvings, 0 };
-    cell.Weight = GetWeight(cell, bends);
+    cell.Weight = isHalved ? GetWeight(cell, bends) : 0;
     cells.push_back(cell);
     std::push_heap(cells.begin(), cells.end());
   };

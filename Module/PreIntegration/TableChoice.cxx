@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,9 @@ constexpr double MostPieces = 2e7;
 /// Rays that rule most tables out; each of their lookups integrates eight texels.
 constexpr std::size_t FewRays = 32;
 constexpr std::size_t TexelsOfLookup = 8;
+
+/// Rays that rule out tables which are right nowhere, before few rays are integrated.
+constexpr std::size_t VeryFewRays = 4;
 
 /// Pieces of all segments of the rays: ends between their two scalars, plus one each. rank(scalar):
 /// how many ends are not above it.
@@ -49,20 +53,6 @@ RaySample TakeFirst(const RaySample& sample, std::size_t count)
   few.Rays.assign(sample.Rays.begin(),
     sample.Rays.begin() + static_cast<std::ptrdiff_t>(std::min(count, sample.Rays.size())));
   return few;
-}
-
-/// How many rays like those of a sample have MostPieces.
-std::size_t CountAffordableRays(const TransferFunction& function, const RaySample& sample)
-{
-  const auto rank = [&](double s)
-  {
-    return std::upper_bound(function.Nodes.begin(), function.Nodes.end(), s,
-             [](double scalar, const TransferFunction::Node& node)
-             { return scalar < node.Scalar; }) -
-      function.Nodes.begin();
-  };
-  const auto rays = static_cast<double>(sample.Rays.size());
-  return static_cast<std::size_t>(MostPieces * rays / std::max(CountPieces(sample, rank), 1.));
 }
 
 /// Sizes and scales in the order of their costs: scalars, lengths, steps for each doubling (0:
@@ -202,13 +192,22 @@ bool HasColorsUpToOne(const TransferFunction& function)
 
 constexpr const char* NoTable = "closed form: no table within the limits is right enough";
 
+/// Whether a few rays say that a table may be right.
+bool MayBeRight(const TableRays& rays, const VirtualTable& table, double allowed)
+{
+  return rays.MayBeRight(allowed,
+    [&table](double front, double back, double length, float rgba[4])
+    { table.LookUp(front, back, length, rgba); });
+}
+
 /// Whether any of the largest tables may be right, as a few rays tell.
 bool IsWorthTrying(const TransferFunction& function, const TableGoal& goal,
   const std::vector<PreIntegrationSettings>& candidates)
 {
   // The last steps of the ladder, some of each scale.
   constexpr std::size_t MostTried = 12;
-  const TableRays rays(function, TakeFirst(*goal.Rays, FewRays));
+  const TableRays veryFew(function, TakeFirst(*goal.Rays, VeryFewRays));
+  std::optional<TableRays> few;
   std::size_t tried = 0;
   for (std::size_t k = candidates.size(); k-- > 0 && tried < MostTried;)
   {
@@ -218,9 +217,15 @@ bool IsWorthTrying(const TransferFunction& function, const TableGoal& goal,
     }
     ++tried;
     const VirtualTable table(function, candidates[k]);
-    if (rays.MayBeRight(goal.MaximumError,
-          [&table](double front, double back, double length, float rgba[4])
-          { table.LookUp(front, back, length, rgba); }))
+    if (!MayBeRight(veryFew, table, goal.MaximumError))
+    {
+      continue;
+    }
+    if (!few)
+    {
+      few.emplace(function, TakeFirst(*goal.Rays, FewRays));
+    }
+    if (MayBeRight(*few, table, goal.MaximumError))
     {
       return true;
     }
@@ -249,41 +254,49 @@ double CountPiecesPerSegment(const IntervalTable& table, const RaySample& sample
   return segments > 0 ? CountPieces(sample, rank) / segments : 1;
 }
 
+std::size_t CountTableRays(const TransferFunction& function, const RaySample& sample)
+{
+  const auto rank = [&](double s)
+  {
+    return std::upper_bound(function.Nodes.begin(), function.Nodes.end(), s,
+             [](double scalar, const TransferFunction::Node& node)
+             { return scalar < node.Scalar; }) -
+      function.Nodes.begin();
+  };
+  const auto rays = static_cast<double>(sample.Rays.size());
+  const double affordable = MostPieces * rays / std::max(CountPieces(sample, rank), 1.);
+  return static_cast<std::size_t>(std::min(affordable, rays));
+}
+
 TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const TableGoal& goal)
 {
   TableChoice choice;
-  choice.PiecesPerSegment = CountPiecesPerSegment(
-    goal.Intervals ? *goal.Intervals : MakeIntervalTable(function), *goal.Rays);
-  if (choice.PiecesPerSegment <= goal.LookupCost && !goal.AlwaysTable)
+  const double pieces = goal.PiecesPerSegment > 0
+    ? goal.PiecesPerSegment
+    : CountPiecesPerSegment(MakeIntervalTable(function), *goal.Rays);
+  if (pieces <= goal.LookupCost && !goal.AlwaysTable)
   {
     choice.Reason = "closed form: a segment has few pieces, a lookup takes longer";
     return choice;
   }
-  const std::size_t affordable = CountAffordableRays(function, *goal.Rays);
-  if (affordable < TexelsOfLookup * FewRays && !goal.AlwaysTable)
+  const std::size_t affordable = CountTableRays(function, *goal.Rays);
+  if (affordable < std::min(TexelsOfLookup * FewRays, goal.Rays->Rays.size()) && !goal.AlwaysTable)
   {
     choice.Reason = "closed form: a segment has too many pieces to find a table that is right";
     return choice;
   }
 
   std::vector<PreIntegrationSettings> candidates = GetCandidates(goal);
-  if (goal.Doubtful && !goal.AlwaysTable && !IsWorthTrying(function, goal, candidates))
+  if (!goal.AlwaysTable && !IsWorthTrying(function, goal, candidates))
   {
     choice.Reason = NoTable;
-    choice.IsNoneRight = true;
     return choice;
   }
-  choice.MeasuredRays = std::min(std::max(affordable, FewRays), goal.Rays->Rays.size());
-  const TableRays rays(function, TakeFirst(*goal.Rays, choice.MeasuredRays));
+  const TableRays rays(function, TakeFirst(*goal.Rays, std::max(affordable, FewRays)));
   const bool integersHold = HasColorsUpToOne(function);
   // A few rays tell most tables that are not right, for much less than it takes to fill them.
   const auto mayBeRight = [&](const PreIntegrationSettings& settings, double allowed)
-  {
-    const VirtualTable table(function, settings);
-    return rays.MayBeRight(allowed,
-      [&table](double front, double back, double length, float rgba[4])
-      { table.LookUp(front, back, length, rgba); });
-  };
+  { return MayBeRight(rays, VirtualTable(function, settings), allowed); };
   // Makes a table the choice where its error is at most what is allowed.
   const auto choose = [&](const PreIntegrationSettings& settings, double allowed)
   {
@@ -325,7 +338,6 @@ TableChoice ChoosePreIntegrationTable(const TransferFunction& function, const Ta
     }
   }
   choice.Reason = NoTable;
-  choice.IsNoneRight = true;
   if (!goal.AlwaysTable)
   {
     return choice;

@@ -24,12 +24,9 @@ struct TableGoal
   /// What the table has to be right for; not nullptr.
   std::shared_ptr<const RaySample> Rays;
 
-  /// What the closed form is of: each is a piece. nullptr: MakeIntervalTable of the function.
-  const IntervalTable* Intervals = nullptr;
-
-  /// No table was right for a function before this one: a few rays and the largest tables decide
-  /// whether it is worth while to try.
-  bool Doubtful = false;
+  /// Pieces that the closed form integrates for each segment of the rays, see
+  /// CountPiecesPerSegment. 0: those of MakeIntervalTable(function).
+  double PiecesPerSegment = 0;
 
   // What the axes of the table reach to: no scalar or segment of a picture is beyond.
   double ScalarRange[2] = { 0, 1 };
@@ -59,11 +56,8 @@ struct TableChoice
 {
   /// nullptr, no table: the closed form is as fast, or no table within the limits is right enough.
   std::shared_ptr<PreIntegrationTable> Table;
-  bool IsNoneRight = false;     ///< tables were tried
-  double PictureError = 0;      ///< EstimatePictureError of the table; 0 without one
-  double PiecesPerSegment = 1;  ///< of the rays, on average
-  std::size_t MeasuredRays = 0; ///< those of the goal that tables were measured on, the first ones
-  std::string Reason;           ///< one line
+  double PictureError = 0; ///< EstimatePictureError of the table; 0 without one
+  std::string Reason;      ///< one line
 };
 
 /// Pieces that the closed form integrates for each segment of the rays, on average: ends of
@@ -71,14 +65,20 @@ struct TableChoice
 TETRALUXCORE_EXPORT double CountPiecesPerSegment(
   const IntervalTable& table, const RaySample& sample);
 
+/// How many rays of a sample, the first ones, tables are measured on: as many as are integrated in
+/// about a second of one thread.
+TETRALUXCORE_EXPORT std::size_t CountTableRays(
+  const TransferFunction& function, const RaySample& sample);
+
 /// The smallest table whose EstimatePictureError is at most what is asked for; else none, or with
 /// AlwaysTable the one of the least error.
-/// Tables of growing size are tried until one is right. A few rays rule most of them out, for which
-/// only the texels they look up are computed; what is left is built and measured on all rays. Some
-/// 100 milliseconds of one thread, and up to a second where no table is right. Where functions have
-/// so many nodes that integrating the rays would take longer, fewer are measured; where these would
-/// be too few to tell, no table is tried unless AlwaysTable. Throws as BuildPreIntegrationTable
-/// does.
+/// The largest tables are tried first, on a few rays: where none of them is right, none is, as with
+/// most functions of hundreds of nodes. Then tables of growing size are tried until one is right. A
+/// few rays rule most of them out, for which only the texels they look up are computed; what is
+/// left is built and measured on all rays. Some 100 milliseconds of one thread, and up to a second
+/// where no table is right. Where functions have so many nodes that integrating the rays would take
+/// longer, fewer are measured; where these would be too few to tell, no table is tried unless
+/// AlwaysTable. Throws as BuildPreIntegrationTable does.
 TETRALUXCORE_EXPORT TableChoice ChoosePreIntegrationTable(
   const TransferFunction& function, const TableGoal& goal);
 

@@ -87,7 +87,7 @@ private:
       {
         continue;
       }
-      largest = std::max(largest, this->MeasureRay(i, lookUp));
+      largest = std::max(largest, this->MeasureRay(i, allowed, lookUp));
       if (largest > allowed)
       {
 #pragma omp atomic write
@@ -97,12 +97,13 @@ private:
     return tooLarge ? std::numeric_limits<double>::infinity() : largest;
   }
 
+  /// No further than to a segment that is more wrong than is allowed.
   template <class LookUp>
-  double MeasureRay(std::size_t i, const LookUp& lookUp) const
+  double MeasureRay(std::size_t i, double allowed, const LookUp& lookUp) const
   {
     double largest = 0;
     SeenByTable seen;
-    for (std::size_t k = this->Rays[i].size(); k-- > 0;)
+    for (std::size_t k = this->Rays[i].size(); k-- > 0 && largest <= allowed;)
     {
       const RaySegment& segment = this->Rays[i][k];
       float rgba[4];

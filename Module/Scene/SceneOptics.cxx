@@ -44,10 +44,10 @@ bool AreEqual(
 } // namespace
 
 void SceneOptics::SetTransferFunction(
-  const TransferFunction& function, double error, const RunTolerance& tolerance)
+  TransferFunction function, double error, const RunTolerance& tolerance)
 {
   IntervalTable intervals = MakeIntervalTable(function, tolerance);
-  this->Function = function;
+  this->Function = std::move(function);
   this->ApproximationError = error;
   this->SetIntervals(std::move(intervals), tolerance);
 }

@@ -30,7 +30,7 @@ public:
   /// approximates another one. tolerance: for the intervals, which stand for it along rays. Throws
   /// std::invalid_argument as MakeIntervalTable does. Isosurfaces need no function.
   void SetTransferFunction(
-    const TransferFunction& function, double error = 0, const RunTolerance& tolerance = {});
+    TransferFunction function, double error = 0, const RunTolerance& tolerance = {});
   const TransferFunction& GetTransferFunction() const { return this->Function; }
   const IntervalTable& GetIntervalTable() const { return this->Intervals; }
 

@@ -22,6 +22,7 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace tetralux
 {
@@ -525,8 +526,8 @@ void ScenePreparation::PrepareFunction(const MapperSettings& settings, const Sce
   {
     this->Scene.Optics.SetIsosurfaces(IsosurfacesFromProperty(input.Property, function.Function));
   }
-  this->Scene.Optics.SetTransferFunction(
-    function.Function, function.Error, makeTolerance(function.Function, function.Error));
+  const RunTolerance tolerance = makeTolerance(function.Function, function.Error);
+  this->Scene.Optics.SetTransferFunction(std::move(function.Function), function.Error, tolerance);
   this->PropertyError = function.Error;
   this->Function.Set(this->PropertyError == 0 ? exactKey : key);
   this->Tolerance.Set(toleranceKey);
@@ -587,7 +588,7 @@ void ScenePreparation::PrepareTable(const MapperSettings& settings, const SceneI
     std::max(MakeErrorBudget(settings.MaximumError, spending).Table, SmallestFunctionError);
   goal.MaximumBytes = wishes.MaximumBytes;
   goal.Rays = this->Scene.Mesh.DrawRays(scale);
-  goal.Intervals = &optics.GetIntervalTable();
+  goal.PiecesPerSegment = this->Scene.EstimatePieces();
   this->Scene.Mesh.PrepareLongestEdge();
   goal.LongestSegment = this->Scene.Mesh.GetLongestEdge() * scale; // no segment is longer
   std::copy_n(this->Scene.Mesh.GetScalarRange(), 2, goal.ScalarRange);

@@ -65,8 +65,6 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
     return false;
   }
   const bool hadTable = this->Table != nullptr;
-  // What was found of one function is true of most that it is edited into.
-  const bool doubtful = sameRequest && this->NoneWasRight;
   this->Decided = false;
 
   if (request.Interactive && !request.Goal.AlwaysTable)
@@ -95,23 +93,19 @@ bool SegmentTable::Update(const TransferFunction& function, const Request& reque
   }
   else
   {
-    TableGoal goal = request.Goal;
-    goal.Doubtful = doubtful;
-    TableChoice choice = ChoosePreIntegrationTable(function, goal);
+    TableChoice choice = ChoosePreIntegrationTable(function, request.Goal);
     if (!choice.Table && request.Goal.AlwaysTable)
     {
       throw std::invalid_argument(
         "no table of the sizes that are asked for fits into TableMaximumBytes");
     }
     this->Coarse = false;
-    this->NoneWasRight = choice.IsNoneRight;
     this->Reason = choice.Reason;
     this->PictureError = choice.PictureError;
     this->Table = std::move(choice.Table);
   }
   this->Function = function;
   this->Last = request;
-  this->Last.Goal.Intervals = nullptr;
   this->Decided = true;
   return hadTable || this->Table;
 }

@@ -50,7 +50,6 @@ private:
 
   // What it was decided by.
   bool Decided = false;
-  bool NoneWasRight = false; ///< of the tables that were tried
   TransferFunction Function;
   Request Last;
 };

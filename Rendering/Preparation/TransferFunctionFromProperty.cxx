@@ -2,6 +2,8 @@
 #include "Preparation/TransferFunctionFromProperty.h"
 
 #include "Preparation/FunctionChunks.h"
+#include "Preparation/ValueCurve.h"
+#include "Preparation/ValueInterpolant.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkPiecewiseFunction.h"
@@ -11,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <exception>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -36,13 +40,27 @@ constexpr double SmallestStep = 1e-7;
 /// How often an interval is halved at most: down to the rounding of single precision.
 constexpr int MaximumHalvings = 24;
 
-/// Points inside of an interval at which it is compared with the line through its ends: S-shaped
-/// curves meet that line in the middle.
-constexpr int TestsPerInterval = 7;
+/// Parts of an interval between which it is compared with the line through its ends, and with a
+/// curve: S-shaped curves meet that line in the middle.
+constexpr int Parts = 8;
 
-/// Those after a few halvings, when a curve has no more of a shape than that it bends.
+/// After how many halvings every other of these places is enough for a line, and polynomials are no
+/// longer tried: what is not smooth by then has a kink.
 constexpr int SmoothHalvings = 3;
-constexpr int TestsPerSmoothInterval = 3;
+
+/// Of the error of a function, what colours take.
+constexpr double ShareOfColors = 3. / 4;
+
+/// Share of an error that a curve through a few values may be off by. There are two, one through
+/// values of VTK and one through values of that; lines along the second one take the rest.
+constexpr double ShareOfCurve = 1. / 16;
+constexpr double ShareOfLines = 1 - 2 * ShareOfCurve;
+
+/// More lines than that are not made of one curve; nor are more lines than parts where colours come
+/// near 1 or are dark: kinks between two values, where VTK cuts colours off and where gamma curves
+/// begin, are seen at none of them.
+constexpr double MostLines = 64;
+constexpr double DarkColor = 0.06; // sRGB's gamma curve begins at 0.04
 
 /// Whether VTK interpolates between the logarithms of scalars.
 bool IsLogarithmic(vtkColorTransferFunction* function)
@@ -169,16 +187,14 @@ public:
   }
 
   /// The limit at a break from the side of the neighbouring break: VTK's value at the break where
-  /// that is continuous.
-  Value GetLimit(double scalar, double neighbour) const
+  /// that is continuous. at, far: VTK's values at both.
+  Value GetLimit(double scalar, const Value& at, double neighbour, const Value& far) const
   {
     const double offset = LimitOffset * std::min(std::abs(neighbour - scalar), std::abs(scalar));
     const double next = std::nextafter(scalar, neighbour);
     const double x =
       neighbour > scalar ? std::max(scalar + offset, next) : std::min(scalar - offset, next);
     const Value beyond = this->Evaluate(x);
-    const Value at = this->Evaluate(scalar);
-    const Value far = this->Evaluate(neighbour);
     // Where an interval has but few numbers, a slope goes a good way from one to the next.
     const double share = SmallestStep + 4 * (x - scalar) / (neighbour - scalar);
     const auto choose = [share](double a, double b, double c)
@@ -265,7 +281,7 @@ private:
 /// How far an approximation may be off: an error c of the colour is one of at most c in the
 /// picture; an attenuation that is off by a share s, and by a on top, changes an optical depth D by
 /// s D + a longestPath, and the picture by at most s D exp(-D) + a longestPath < s / 2 + a
-/// longestPath.
+/// longestPath. Colours take most of it, as opacities mostly are lines.
 struct Tolerance
 {
   double Color;
@@ -273,24 +289,35 @@ struct Tolerance
   double Attenuation;
 
   Tolerance(double maximumError, double longestPath)
-    : Color(maximumError / 2)
-    , AttenuationShare(maximumError / 2)
-    , Attenuation(maximumError / 4 / longestPath)
+    : Color(ShareOfColors * maximumError)
+    , AttenuationShare((1 - ShareOfColors) * maximumError)
+    , Attenuation((1 - ShareOfColors) * maximumError / 2 / longestPath)
   {
   }
 
-  bool Accepts(const Value& exact, const Value& approximation) const
+  double GetOfColor(double color) const
+  {
+    return std::max(this->Color, SmallestStep * std::abs(color));
+  }
+
+  double GetOfAttenuation(double attenuation) const
+  {
+    return this->AttenuationShare * attenuation + this->Attenuation;
+  }
+
+  /// share: of the tolerance.
+  bool Accepts(const Value& exact, const Value& approximation, double share = 1) const
   {
     if (std::abs(exact.Attenuation - approximation.Attenuation) >
-      this->AttenuationShare * exact.Attenuation + this->Attenuation)
+      share * this->GetOfAttenuation(exact.Attenuation))
     {
       return false;
     }
     // No colour is seen where nothing attenuates.
     return (exact.Attenuation == 0 && approximation.Attenuation == 0) ||
       std::equal(exact.Color, exact.Color + 3, approximation.Color,
-        [this](double a, double b)
-        { return std::abs(a - b) <= std::max(this->Color, SmallestStep * std::abs(a)); });
+        [this, share](double a, double b)
+        { return std::abs(a - b) <= share * this->GetOfColor(a); });
   }
 };
 
@@ -305,34 +332,275 @@ Value Interpolate(const Value& a, const Value& b, double t)
   return value;
 }
 
-/// Adds nodes inside of (x0, x1), where the function is continuous, ascending, until it is linear
-/// between them. Returns whether any were needed.
-bool Subdivide(const PropertyFunctions& functions, const Tolerance& tolerance, double x0,
-  const Value& value0, double x1, const Value& value1, int halvings, TransferFunction& result)
+/// A property's functions where they are continuous, from one scalar to another one: their values
+/// at both ends and between Parts.
+struct Stretch
 {
-  const double middle = x0 + 0.5 * (x1 - x0);
-  if (halvings == MaximumHalvings || middle <= x0 || x1 <= middle)
+  double X[Parts + 1];
+  Value At[Parts + 1];
+  bool HasOdd = false; ///< values after an odd number of parts
+
+  double GetBegin() const { return this->X[0]; }
+  double GetEnd() const { return this->X[Parts]; }
+
+  double GetScalar(double t) const
   {
-    return false;
+    return this->GetBegin() + (this->GetEnd() - this->GetBegin()) * t;
   }
-  // In the middle first: there most are too far off, and are halved.
-  const Value value = functions.Evaluate(middle);
-  bool linear = tolerance.Accepts(value, Interpolate(value0, value1, (middle - x0) / (x1 - x0)));
-  const int tests = halvings < SmoothHalvings ? TestsPerInterval : TestsPerSmoothInterval;
-  for (int i = 1; i <= tests && linear; ++i)
+
+  double GetPlace(double x) const
   {
-    const double x = x0 + (x1 - x0) * i / (tests + 1);
-    linear = 2 * i == tests + 1 || x <= x0 || x1 <= x ||
-      tolerance.Accepts(functions.Evaluate(x), Interpolate(value0, value1, (x - x0) / (x1 - x0)));
+    return (x - this->GetBegin()) / (this->GetEnd() - this->GetBegin());
   }
-  if (linear)
+
+  /// Without odd values.
+  Stretch TakeHalf(int first) const
   {
-    return false;
+    Stretch half;
+    for (int part = 0; part <= Parts; part += 2)
+    {
+      half.X[part] = this->X[first + part / 2];
+      half.At[part] = this->At[first + part / 2];
+    }
+    return half;
   }
-  Subdivide(functions, tolerance, x0, value0, middle, value, halvings + 1, result);
-  result.Nodes.push_back({ middle, value, value });
-  Subdivide(functions, tolerance, middle, value, x1, value1, halvings + 1, result);
-  return true;
+};
+
+/// Nodes between the ends of a stretch of a property's functions.
+class Subdivision
+{
+public:
+  Subdivision(const PropertyFunctions& functions, const Tolerance& tolerance,
+    std::vector<TransferFunction::Node>& nodes)
+    : Functions(functions)
+    , Allowed(tolerance)
+    , Nodes(nodes)
+  {
+  }
+
+  /// Adds nodes inside of (x0, x1), ascending, until the function is linear between them. Returns
+  /// whether any were needed.
+  bool Add(double x0, const Value& value0, double x1, const Value& value1)
+  {
+    Stretch stretch;
+    stretch.X[0] = x0;
+    stretch.At[0] = value0;
+    stretch.X[Parts] = x1;
+    stretch.At[Parts] = value1;
+    for (int part = 2; part < Parts; part += 2)
+    {
+      this->Fill(stretch, part, nullptr);
+    }
+    const std::size_t before = this->Nodes.size();
+    this->Divide(stretch, nullptr, 0);
+    return this->Nodes.size() > before;
+  }
+
+private:
+  /// The polynomial through the values of a stretch.
+  struct Model
+  {
+    explicit Model(const Stretch& stretch)
+      : Begin(stretch.GetBegin())
+      , End(stretch.GetEnd())
+      , Polynomial(stretch.At)
+    {
+    }
+
+    double GetPlace(double x) const { return (x - this->Begin) / (this->End - this->Begin); }
+
+    double Begin;
+    double End;
+    ValueInterpolant<Parts> Polynomial;
+  };
+
+  /// model: what is evaluated in place of VTK's functions; nullptr: these. Odd values of the
+  /// stretch may not be there yet.
+  void Divide(Stretch& stretch, const Model* model, int halvings)
+  {
+    const double middle = stretch.X[Parts / 2];
+    const double share = model ? 1 - ShareOfCurve : 1;
+    if (halvings == MaximumHalvings || middle <= stretch.GetBegin() || stretch.GetEnd() <= middle ||
+      (halvings >= SmoothHalvings && this->IsLine(stretch, 2, share)))
+    {
+      return;
+    }
+    this->FillOdd(stretch, model);
+    if (this->IsLine(stretch, 1, share))
+    {
+      return;
+    }
+    const ValueCurve curve(
+      { stretch.At[0], stretch.At[2], stretch.At[4], stretch.At[6], stretch.At[8] });
+    if (this->HasOddValues(stretch, curve, stretch) && this->Follow(stretch, curve))
+    {
+      return;
+    }
+    Stretch first = stretch.TakeHalf(0);
+    Stretch second = stretch.TakeHalf(Parts / 2);
+    std::optional<Model> own;
+    if (!model && halvings < SmoothHalvings)
+    {
+      own.emplace(stretch);
+      this->FillOdd(first, nullptr);
+      this->FillOdd(second, nullptr);
+      if (this->HasOddValues(stretch, own->Polynomial, first) &&
+        this->HasOddValues(stretch, own->Polynomial, second))
+      {
+        model = &*own;
+      }
+    }
+    this->Divide(first, model, halvings + 1);
+    this->Nodes.push_back({ middle, stretch.At[Parts / 2], stretch.At[Parts / 2] });
+    this->Divide(second, model, halvings + 1);
+  }
+
+  /// Whether the line from end to end is near enough, at every value or every other one.
+  bool IsLine(const Stretch& stretch, int step, double share) const
+  {
+    const auto isNear = [&](int part)
+    {
+      const Value line =
+        Interpolate(stretch.At[0], stretch.At[Parts], stretch.GetPlace(stretch.X[part]));
+      return this->Allowed.Accepts(stretch.At[part], line, share);
+    };
+    // The middle first: there most are too far off.
+    bool near = isNear(Parts / 2);
+    for (int part = step; part < Parts && near; part += step)
+    {
+      near = part == Parts / 2 || isNear(part);
+    }
+    return near;
+  }
+
+  /// Whether a curve along a stretch has every other value of the stretch or of a half of it.
+  template <class Curve>
+  bool HasOddValues(const Stretch& whole, const Curve& curve, const Stretch& part) const
+  {
+    for (int k = 1; k < Parts; k += 2)
+    {
+      if (!this->Allowed.Accepts(
+            part.At[k], curve.Evaluate(whole.GetPlace(part.X[k])), ShareOfCurve))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void FillOdd(Stretch& stretch, const Model* model) const
+  {
+    for (int part = 1; part < Parts && !stretch.HasOdd; part += 2)
+    {
+      this->Fill(stretch, part, model);
+    }
+    stretch.HasOdd = true;
+  }
+
+  /// Those at the ends are limits, and next to them there may be no further scalar.
+  void Fill(Stretch& stretch, int part, const Model* model) const
+  {
+    const double x = stretch.GetScalar(static_cast<double>(part) / Parts);
+    stretch.X[part] = x;
+    stretch.At[part] = x <= stretch.GetBegin() ? stretch.At[0]
+      : x >= stretch.GetEnd()                  ? stretch.At[Parts]
+      : model                                  ? model->Polynomial.Evaluate(model->GetPlace(x))
+                                               : this->Functions.Evaluate(x);
+  }
+
+  /// Adds as many nodes on a curve, evenly apart, as it takes for lines between them to be near
+  /// enough, unless they are too many.
+  bool Follow(const Stretch& stretch, const ValueCurve& curve)
+  {
+    double low[ValueCurve::Channels];
+    double high[ValueCurve::Channels];
+    double lines = 0;
+    double most = MostLines;
+    for (int c = 0; c < ValueCurve::Channels; ++c)
+    {
+      const auto isLess = [c](const Value& a, const Value& b)
+      { return ValueCurve::Get(a, c) < ValueCurve::Get(b, c); };
+      const auto ends = std::minmax_element(stretch.At, stretch.At + Parts + 1, isLess);
+      low[c] = ValueCurve::Get(*ends.first, c);
+      high[c] = ValueCurve::Get(*ends.second, c);
+      // Values in between may be somewhat nearer to 0.
+      const double small = 0.5 * std::max({ low[c], -high[c], 0. });
+      const double tolerance = ShareOfLines *
+        (c < 3 ? this->Allowed.GetOfColor(small) : this->Allowed.GetOfAttenuation(small));
+      const double bend = curve.GetLargestBend(c);
+      lines = std::max(lines, std::sqrt(bend / (8 * tolerance)));
+      const double beyond = bend / (8 * Parts * Parts); // values, in between
+      most = c < 3 && (low[c] < DarkColor + beyond || 1 < high[c] + beyond) ? Parts : most;
+    }
+    lines = std::ceil(lines);
+    if (!(lines <= most))
+    {
+      return false;
+    }
+    // No error of the curve takes a colour out of 0..1 where VTK's is inside.
+    const auto getColor = [&](int c, double t)
+    {
+      const double color = curve.Evaluate(c, t);
+      const double inside = std::clamp(color, 0., 1.);
+      return 0 <= low[c] && high[c] <= 1 && std::abs(color - inside) <= this->Allowed.Color ? inside
+                                                                                            : color;
+    };
+    for (double i = 1; i < lines; ++i)
+    {
+      const double t = i / lines;
+      const double x = stretch.GetScalar(t);
+      if (this->Nodes.back().Scalar < x && x < stretch.GetEnd())
+      {
+        const Value value{ { getColor(0, t), getColor(1, t), getColor(2, t) },
+          std::max(curve.Evaluate(3, t), 0.) };
+        this->Nodes.push_back({ x, value, value });
+      }
+    }
+    return true;
+  }
+
+  const PropertyFunctions& Functions;
+  const Tolerance& Allowed;
+  std::vector<TransferFunction::Node>& Nodes;
+};
+
+/// Nodes of some intervals between breaks.
+struct Block
+{
+  std::vector<TransferFunction::Node> Nodes; ///< the first one without its Left
+  Value LastLeft{};                          ///< of the node after the last interval
+  bool IsDivided = false;
+  std::exception_ptr Failure;
+};
+
+/// Intervals of a block: their functions are evaluated some thousand times.
+constexpr std::size_t BlockSize = 64;
+
+/// begin, end: breaks from the first interval to the end of the last one.
+Block MakeBlock(const PropertyFunctions& functions, const Tolerance& tolerance, const double* begin,
+  const double* end)
+{
+  Block block;
+  try
+  {
+    Subdivision subdivision(functions, tolerance, block.Nodes);
+    Value at = functions.Evaluate(*begin);
+    for (const double* x = begin; x != end; ++x)
+    {
+      const Value nextAt = functions.Evaluate(x[1]);
+      const Value right = functions.GetLimit(x[0], at, x[1], nextAt);
+      const Value nextLeft = functions.GetLimit(x[1], nextAt, x[0], at);
+      block.Nodes.push_back({ x[0], block.LastLeft, right });
+      block.IsDivided = subdivision.Add(x[0], right, x[1], nextLeft) || block.IsDivided;
+      block.LastLeft = nextLeft;
+      at = nextAt;
+    }
+  }
+  catch (...)
+  {
+    block.Failure = std::current_exception(); // none may leave a parallel loop
+  }
+  return block;
 }
 
 } // namespace
@@ -344,33 +612,44 @@ PropertyTransferFunction TransferFunctionFromProperty(
   const Tolerance tolerance(maximumError, longestPath);
   const std::vector<double> breaks = functions.GetBreaks();
 
+  // VTK only reads its functions when they are evaluated.
+  const std::size_t intervals = breaks.size() - 1;
+  const auto count = static_cast<std::ptrdiff_t>((intervals + BlockSize - 1) / BlockSize);
+  std::vector<Block> blocks(static_cast<std::size_t>(count));
+#pragma omp parallel for schedule(dynamic) if (count > 1)
+  for (std::ptrdiff_t k = 0; k < count; ++k)
+  {
+    const std::size_t first = static_cast<std::size_t>(k) * BlockSize;
+    blocks[k] = MakeBlock(functions, tolerance, breaks.data() + first,
+      breaks.data() + std::min(first + BlockSize, intervals));
+  }
+
   PropertyTransferFunction result;
   std::vector<TransferFunction::Node>& nodes = result.Function.Nodes;
-
+  std::size_t size = 1;
+  for (const Block& block : blocks)
+  {
+    if (block.Failure)
+    {
+      std::rethrow_exception(block.Failure);
+    }
+    size += block.Nodes.size();
+    result.Error = block.IsDivided ? maximumError : result.Error;
+  }
+  nodes.reserve(size);
   // Outside of all nodes functions are constant; a place there that logarithms can be taken of,
   // too.
-  const double first = breaks.front();
   const double last = breaks.back();
   const auto margin = [](double x) { return x == 0 ? 1 : 1e-6 * std::abs(x); };
-  Value left = functions.Evaluate(first - margin(first));
-  for (std::size_t i = 0; i < breaks.size(); ++i)
+  Value left = functions.Evaluate(breaks.front() - margin(breaks.front()));
+  for (Block& block : blocks)
   {
-    const double x0 = breaks[i];
-    if (x0 == last)
-    {
-      nodes.push_back({ x0, left, functions.Evaluate(last + margin(last)) });
-      break;
-    }
-    const double x1 = breaks[i + 1];
-    const Value right = functions.GetLimit(x0, x1);
-    const Value nextLeft = functions.GetLimit(x1, x0);
-    nodes.push_back({ x0, left, right });
-    if (Subdivide(functions, tolerance, x0, right, x1, nextLeft, 0, result.Function))
-    {
-      result.Error = maximumError;
-    }
-    left = nextLeft;
+    block.Nodes.front().Left = left;
+    nodes.insert(nodes.end(), block.Nodes.begin(), block.Nodes.end());
+    block.Nodes = {}; // they may be millions
+    left = block.LastLeft;
   }
+  nodes.push_back({ last, left, functions.Evaluate(last + margin(last)) });
   return result;
 }
 

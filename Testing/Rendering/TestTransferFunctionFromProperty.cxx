@@ -15,6 +15,8 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -22,6 +24,17 @@ namespace
 constexpr double MaximumError = 1e-5;
 constexpr double LongestPath = 8;
 constexpr double UnitDistance = 0.5;
+
+/// Shares of MaximumError that colours and opacities may be off by, see Tolerance in
+/// TransferFunctionFromProperty.cxx.
+constexpr double ShareOfColors = 3. / 4;
+constexpr double ShareOfOpacities = 1. / 4;
+
+/// More than that, as a share: nodes are placed by an interval's values at some places only.
+constexpr double BetweenPlaces = 1.05;
+
+/// Limits at steps are taken at a distance of 1e-9 of the intervals, from slopes up to 3.
+constexpr double LimitRounding = 3e-9;
 
 class TransferFunctionFromProperty : public testing::Test
 {
@@ -54,8 +67,6 @@ protected:
     const tetralux::PropertyTransferFunction result =
       tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath);
     EXPECT_EQ(result.Error, exact ? 0 : MaximumError);
-    // Limits at steps are taken at a distance of 1e-9 of the intervals.
-    const double tolerance = exact ? 3e-9 : MaximumError / 2;
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> scalars(smallestScalar, 9);
     double largestColorError = 0;
@@ -78,11 +89,14 @@ protected:
         largestColorError = std::max(largestColorError, std::abs(value.Color[c] - color[c]));
       }
       const double opacity = std::max(0., this->Opacity->GetValue(s));
-      largestOpacityError = std::max(largestOpacityError,
-        (std::abs(value.Attenuation * UnitDistance - opacity) - (exact ? 0 : tolerance * opacity)));
+      const double ofOpacity = exact ? 0 : ShareOfOpacities * MaximumError * opacity;
+      largestOpacityError = std::max(
+        largestOpacityError, std::abs(value.Attenuation * UnitDistance - opacity) - ofOpacity);
     }
-    EXPECT_LE(largestColorError, 1.05 * tolerance); // tested at some points of each interval only
-    EXPECT_LE(largestOpacityError, exact ? tolerance : tolerance * UnitDistance / LongestPath);
+    EXPECT_LE(
+      largestColorError, exact ? LimitRounding : BetweenPlaces * ShareOfColors * MaximumError);
+    EXPECT_LE(largestOpacityError,
+      exact ? LimitRounding : ShareOfOpacities / 2 * MaximumError * UnitDistance / LongestPath);
     return result.Function.Nodes.size();
   }
 
@@ -134,6 +148,88 @@ TEST_F(TransferFunctionFromProperty, ColorSpaces)
   this->ExpectAgreement(false);
   this->Color->SetColorSpaceToStep();
   EXPECT_LE(this->ExpectAgreement(true), 8u);
+}
+
+/// Colours of many nodes, between which they are interpolated in a colour space.
+void SetManyNodes(vtkColorTransferFunction* colors, int nodes, bool smooth)
+{
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<double> data;
+  for (int k = 0; k < nodes; ++k)
+  {
+    const double t = static_cast<double>(k) / (nodes - 1);
+    data.push_back(-4 + 11 * t);
+    for (int c = 0; c < 3; ++c)
+    {
+      data.push_back(smooth ? 0.5 + 0.4 * std::sin(4 * t + c) : unit(random));
+    }
+  }
+  colors->FillFromDataPointer(nodes, data.data());
+}
+
+constexpr int ColorSpaces[] = { VTK_CTF_RGB, VTK_CTF_HSV, VTK_CTF_LAB, VTK_CTF_DIVERGING };
+
+// Several blocks of intervals, and all kinks that random colours make.
+TEST_F(TransferFunctionFromProperty, ManyNodes)
+{
+  constexpr int Nodes = 400;
+  for (const int space : ColorSpaces)
+  {
+    SCOPED_TRACE(space);
+    this->Color->SetColorSpace(space);
+    SetManyNodes(this->Color, Nodes, false);
+    const bool isLinear = space == VTK_CTF_RGB;
+    const std::size_t nodes = this->ExpectAgreement(isLinear);
+    EXPECT_EQ(nodes == Nodes + 1, isLinear) << "and the first one of the opacity";
+    // Lines along curves whose second derivatives are about 5 for a step of colours.
+    constexpr double Bend = 5;
+    const double lines = std::sqrt(Bend / (8 * ShareOfColors * MaximumError));
+    EXPECT_LE(nodes, 1.5 * lines * Nodes);
+    const tetralux::TransferFunction function =
+      tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath).Function;
+    EXPECT_FALSE(tetralux::HasNegativeColors(function));
+    EXPECT_LE(tetralux::GetLargestColor(function), 1 + MaximumError);
+  }
+}
+
+// Where nodes are dense, curves between them are lines.
+TEST_F(TransferFunctionFromProperty, DenseNodesAreAlmostAll)
+{
+  constexpr int Nodes = 2000;
+  for (const int space : ColorSpaces)
+  {
+    SCOPED_TRACE(space);
+    this->Color->SetColorSpace(space);
+    SetManyNodes(this->Color, Nodes, true);
+    const tetralux::TransferFunction function =
+      tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath).Function;
+    EXPECT_LE(function.Nodes.size(), 1.3 * Nodes) << "some have kinks in between";
+  }
+}
+
+// What is wrong in any block is said, of the first one.
+TEST_F(TransferFunctionFromProperty, ManyNodesOfWhichSomeAreWrong)
+{
+  SetManyNodes(this->Color, 400, true);
+  double node[6];
+  for (const int k : { 350, 250 })
+  {
+    this->Color->GetNodeValue(k, node);
+    node[2] = std::numeric_limits<double>::infinity();
+    this->Color->SetNodeValue(k, node);
+  }
+  try
+  {
+    tetralux::TransferFunctionFromProperty(this->Property, MaximumError, LongestPath);
+    FAIL() << "nothing is thrown";
+  }
+  catch (const std::invalid_argument& error)
+  {
+    this->Color->GetNodeValue(250, node);
+    const std::string scalar = "at scalar " + std::to_string(node[0]);
+    EXPECT_NE(std::string(error.what()).find(scalar), std::string::npos) << error.what();
+  }
 }
 
 // Too slow for as many comparisons.

@@ -219,6 +219,19 @@ TEST(FunctionRuns, KeepColorsFromBelowZero)
   }
 }
 
+// Parts of the nodes are looked through at once.
+TEST(FunctionRuns, OfManyNodesFollowEachOther)
+{
+  constexpr int Nodes = 100000;
+  const TransferFunction function = MakeSmooth(Nodes);
+  const RunTolerance tolerance = MakeTolerance(function, 1e-4);
+  const FunctionRuns runs = FindFunctionRuns(function, tolerance);
+  ExpectNear(function, runs, tolerance);
+  constexpr std::size_t Parts = 4;
+  EXPECT_LE(
+    runs.Runs.size(), FindFunctionRuns(MakeSmooth(Nodes / 10), tolerance).Runs.size() + Parts);
+}
+
 TEST(FunctionRuns, TakeTimeInProportionToTheNodes)
 {
   for (const double error : { 1e-6, 1e-4, 1e-2 })
