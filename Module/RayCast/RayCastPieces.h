@@ -10,6 +10,7 @@
 #include "RayCast/RayCastIntervals.h"
 
 #include <cstdint>
+#include <limits>
 
 namespace tetralux
 {
@@ -43,6 +44,26 @@ struct Piece
   }
 };
 
+/// The intervals of the transfer function where rays are. They change where a cell is cut, which is
+/// rare, and are looked up then.
+struct CurrentIntervals
+{
+  Int8 Number = 0;
+  IntervalLanes Lanes{}; ///< at first none that a scalar is in
+
+  CurrentIntervals()
+  {
+    this->Lanes.Lo = std::numeric_limits<float>::infinity();
+    this->Lanes.Hi = -std::numeric_limits<float>::infinity();
+  }
+
+  TETRALUX_INLINE void Set(const KernelInput& in, Int8 number)
+  {
+    this->Number = number;
+    this->Lanes = LoadInterval(in, number, MaskFromBits(AllLanes));
+  }
+};
+
 /// What is left of cells: the scalar runs linearly from S0 at Z0 to S1 at Z1.
 template <class V>
 struct RestOfCells
@@ -59,20 +80,20 @@ TETRALUX_NOINLINE Int8 FindIntervalOfCell(const KernelInput& in, Float8 f0, Floa
 }
 
 /// Takes the next piece of what is left of cells: up to where its interval ends. Calls
-/// add(contributes, piece, from, to) if it attenuates any ray, between two distances z. interval:
-/// of the transfer function, where each ray's last scalar is; updated.
+/// add(contributes, piece, from, to) if it attenuates any ray, between two distances z. current:
+/// where each ray's last scalar is; updated.
 template <class Real, class V, class AddT>
 TETRALUX_INLINE void TakePiece(
-  const KernelInput& in, Int8& interval, RestOfCells<V>& rest, AddT add)
+  const KernelInput& in, CurrentIntervals& current, RestOfCells<V>& rest, AddT add)
 {
   const Mask8 valid = rest.Valid;
   const V z0 = rest.Z0;
   const V s0 = rest.S0;
   const V z1 = rest.Z1;
   const V s1 = rest.S1;
-  TETRALUX_CHECK(AreBelow(valid, interval, in.NumberOfIntervals));
+  TETRALUX_CHECK(AreBelow(valid, current.Number, in.NumberOfIntervals));
   Piece piece;
-  const IntervalLanes t = LoadInterval(in, interval, valid);
+  const IntervalLanes& t = current.Lanes;
   for (int c = 0; c < 3; ++c)
   {
     piece.Color[c] = t.Color[c];
@@ -100,7 +121,7 @@ TETRALUX_INLINE void TakePiece(
     const Mask8 elsewhere = below | above;
     if (Any(elsewhere))
     {
-      interval = Select(elsewhere, FindIntervalOfCell(in, f0, f1), interval);
+      current.Set(in, Select(elsewhere, FindIntervalOfCell(in, f0, f1), current.Number));
       return;
     }
     const Mask8 last = (t.Lo <= f1) & (f1 <= t.Hi);
@@ -136,10 +157,10 @@ TETRALUX_INLINE void TakePiece(
   {
     add(contributes, piece, z0, z);
   }
-  if (cut)
+  if (cut && Any(more))
   {
     const Mask8 rising = more & (s0 < s1);
-    interval = interval + Ones(rising) - Ones(AndNot(more, rising));
+    current.Set(in, current.Number + Ones(rising) - Ones(AndNot(more, rising)));
   }
   rest.Valid = more;
   rest.Z0 = z;
@@ -205,7 +226,7 @@ public:
 private:
   TETRALUX_INLINE void AddNext(const KernelInput& in, RestOfCells<V>& rest)
   {
-    TakePiece<Real>(in, this->Interval, rest,
+    TakePiece<Real>(in, this->Current, rest,
       [&](Mask8 contributes, const Piece& piece, V from, V to) TETRALUX_INLINE_LAMBDA
       {
         this->GetDerived().AddPiece(in, contributes, piece, from, to);
@@ -222,7 +243,7 @@ private:
     }
   }
 
-  Int8 Interval = 0; ///< of the transfer function, where each ray's last scalar was
+  CurrentIntervals Current; ///< where each ray's last scalar was
 };
 
 } // namespace
