@@ -80,7 +80,8 @@ public:
       }
       this->Reaches[i] = Reach * std::sqrt(Dot(this->Rows[i], this->Rows[i]));
     }
-    this->Usable = std::isfinite(sum) && volume != 0 && this->IsInFront(mesh);
+    this->Usable =
+      std::isfinite(sum) && volume != 0 && this->IsInFront(mesh) && this->HasPixels(mesh);
   }
 
   bool IsUsable() const { return this->Usable; }
@@ -92,17 +93,12 @@ public:
     for (int k = 0; k < 3; ++k)
     {
       const WalkPoint<float>& p = points[corners[k]];
-      const Vector d = { p.X - this->Origin[0], p.Y - this->Origin[1], p.Z - this->Origin[2] };
-      const double scale = this->Perspective ? 1 / Dot(this->Rows[2], d) : 1;
+      double low[2], high[2];
+      this->FindPlace({ p.X, p.Y, p.Z }, low, high);
       for (int i = 0; i < 2; ++i)
       {
-        const double pixel = Dot(this->Rows[i], d) * scale;
-        // What the quotient changes by if the point moves.
-        const double reach = PixelRounding +
-          scale *
-            (this->Reaches[i] + (this->Perspective ? std::abs(pixel) * this->Reaches[2] : 0.));
-        lower[i] = k == 0 ? pixel - reach : std::min(lower[i], pixel - reach);
-        upper[i] = k == 0 ? pixel + reach : std::max(upper[i], pixel + reach);
+        lower[i] = k == 0 ? low[i] : std::min(lower[i], low[i]);
+        upper[i] = k == 0 ? high[i] : std::max(upper[i], high[i]);
       }
     }
     // By conversions, which are one instruction each on every processor.
@@ -134,6 +130,49 @@ private:
     return result;
   }
 
+  /// Where a point may be, in pixels.
+  void FindPlace(const Vector& point, double (&low)[2], double (&high)[2]) const
+  {
+    const Vector d = { point[0] - this->Origin[0], point[1] - this->Origin[1],
+      point[2] - this->Origin[2] };
+    const double scale = this->Perspective ? 1 / Dot(this->Rows[2], d) : 1;
+    for (int i = 0; i < 2; ++i)
+    {
+      const double pixel = Dot(this->Rows[i], d) * scale;
+      // What the quotient changes by if the point moves.
+      const double reach = PixelRounding +
+        scale * (this->Reaches[i] + (this->Perspective ? std::abs(pixel) * this->Reaches[2] : 0.));
+      low[i] = pixel - reach;
+      high[i] = pixel + reach;
+    }
+  }
+
+  static Vector GetCorner(const WalkMesh& mesh, int corner)
+  {
+    Vector point;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double half = mesh.GetHalfSize()[a] / mesh.GetRadius();
+      point[a] = (corner >> a & 1) != 0 ? half : -half;
+    }
+    return point;
+  }
+
+  /// Whether all of the mesh's box is in pixels that doubles can tell.
+  bool HasPixels(const WalkMesh& mesh) const
+  {
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      double low[2], high[2];
+      this->FindPlace(GetCorner(mesh, corner), low, high);
+      if (!std::isfinite(low[0] + high[0] + low[1] + high[1]))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
   /// Whether the mesh's box is in front of the eye, by more than a face reaches.
   bool IsInFront(const WalkMesh& mesh) const
   {
@@ -143,11 +182,10 @@ private:
     }
     for (int corner = 0; corner < 8; ++corner)
     {
-      Vector d;
+      Vector d = GetCorner(mesh, corner);
       for (int a = 0; a < 3; ++a)
       {
-        const double half = mesh.GetHalfSize()[a] / mesh.GetRadius();
-        d[a] = ((corner >> a & 1) != 0 ? half : -half) - this->Origin[a];
+        d[a] -= this->Origin[a];
       }
       if (!(Dot(this->Rows[2], d) > 2 * this->Reaches[2]))
       {

@@ -273,7 +273,8 @@ private:
       const V zFar = Max(z0, z1);
       zFrom = Max(zNear, this->Near);
       zTo = Min(zFar, this->Far);
-      valid = valid & (Model::NeedsLength ? zFrom < zTo : zFrom <= zTo);
+      // Distances that are not numbers contribute nothing.
+      valid = valid & (zNear <= zFar) & (Model::NeedsLength ? zFrom < zTo : zFrom <= zTo);
       if constexpr (!CellData)
       {
         const V sNear = Select(backward, s1, s0);

@@ -404,14 +404,30 @@ private:
       : Begin(stretch.GetBegin())
       , End(stretch.GetEnd())
       , Polynomial(stretch.At)
+      , Inside(std::all_of(stretch.At, stretch.At + Parts + 1,
+          [](const Value& value) {
+            return std::all_of(
+              value.Color, value.Color + 3, [](double c) { return 0 <= c && c <= 1; });
+          }))
     {
     }
 
-    double GetPlace(double x) const { return (x - this->Begin) / (this->End - this->Begin); }
+    /// No error takes a colour out of 0..1 where VTK's are inside, or an attenuation below 0.
+    Value Evaluate(double x) const
+    {
+      Value value = this->Polynomial.Evaluate((x - this->Begin) / (this->End - this->Begin));
+      for (double& color : value.Color)
+      {
+        color = this->Inside ? std::clamp(color, 0., 1.) : color;
+      }
+      value.Attenuation = std::max(value.Attenuation, 0.);
+      return value;
+    }
 
     double Begin;
     double End;
     ValueInterpolant<Parts> Polynomial;
+    bool Inside; ///< all colours are in 0..1
   };
 
   /// model: what is evaluated in place of VTK's functions; nullptr: these. Odd values of the
@@ -504,7 +520,7 @@ private:
     stretch.X[part] = x;
     stretch.At[part] = x <= stretch.GetBegin() ? stretch.At[0]
       : x >= stretch.GetEnd()                  ? stretch.At[Parts]
-      : model                                  ? model->Polynomial.Evaluate(model->GetPlace(x))
+      : model                                  ? model->Evaluate(x)
                                                : this->Functions.Evaluate(x);
   }
 

@@ -313,6 +313,37 @@ TEST_F(TransferFunctionFromProperty, OutsideOfTheRange)
   EXPECT_EQ(function.Nodes.back().Right.Attenuation, 0);
 }
 
+/// Curves through a few values leave 0..1 by as little as they are off, which tables of integers
+/// can't hold, and which would be negative light.
+TEST_F(TransferFunctionFromProperty, ColorsStayInZeroToOne)
+{
+  constexpr int Corners = 8; // of the cube of colours
+  const auto add = [this](double x, int corner)
+  { this->Color->AddRGBPoint(x, corner & 1, corner >> 1 & 1, corner >> 2 & 1); };
+  for (const int space : { VTK_CTF_LAB, VTK_CTF_DIVERGING })
+  {
+    this->Color->SetColorSpace(space);
+    for (int pair = 0; pair < Corners * Corners; ++pair)
+    {
+      this->Color->RemoveAllPoints();
+      add(0, pair % Corners);
+      add(1, pair / Corners);
+      for (const double error : { 1e-3, 2.5e-4, 1e-4 })
+      {
+        const tetralux::TransferFunction function =
+          tetralux::TransferFunctionFromProperty(this->Property, error, LongestPath).Function;
+        for (const tetralux::TransferFunction::Node& node : function.Nodes)
+        {
+          for (const double color : node.Left.Color)
+          {
+            ASSERT_TRUE(0 <= color && color <= 1) << space << ", " << pair << ": " << color;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST_F(TransferFunctionFromProperty, Grey)
 {
   vtkNew<vtkPiecewiseFunction> grey;

@@ -138,6 +138,22 @@ TEST_P(BoundaryTilesOf, AreNotMadeFromInside)
   this->ExpectTheSameBits(false);
 }
 
+/// So far away that products with its place overflow.
+TEST_P(BoundaryTilesOf, AreNotMadeFromBeyondDoubles)
+{
+  this->Scene.Grid = MakeParallelGrid(this->FindPlace(0.5, 0.7, 3), this->FindPlace(0, 0, 0),
+    { 0, 1, 0 }, 0.6 * this->Size, Width, Height);
+  constexpr double Far = 5e307;
+  for (int a = 0; a < 3; ++a)
+  {
+    this->Scene.Grid.Origin[a] -= Far * this->Size * this->Scene.Grid.Direction[a];
+  }
+  VolumeScene volume = this->Scene.MakeVolumeScene();
+  RayCastOptions options;
+  options.Boundary = BoundarySearch::Tiles;
+  EXPECT_FALSE(Cast(volume, this->Scene, options).Statistics.BoundaryTiles);
+}
+
 INSTANTIATE_TEST_SUITE_P(RayCaster, BoundaryTilesOf,
   ::testing::Values(std::make_pair(std::string("ball"), Parameters{ { "cells", 12 } }),
     std::make_pair(std::string("ring"), Parameters{ { "around", 24 }, { "across", 4 } }),
