@@ -143,7 +143,7 @@ TEST_P(BoundaryTilesOf, AreNotMadeFromBeyondDoubles)
 {
   this->Scene.Grid = MakeParallelGrid(this->FindPlace(0.5, 0.7, 3), this->FindPlace(0, 0, 0),
     { 0, 1, 0 }, 0.6 * this->Size, Width, Height);
-  constexpr double Far = 5e307;
+  constexpr double Far = 2.6e307;
   for (int a = 0; a < 3; ++a)
   {
     this->Scene.Grid.Origin[a] -= Far * this->Size * this->Scene.Grid.Direction[a];
