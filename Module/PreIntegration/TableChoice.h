@@ -65,8 +65,8 @@ struct TableChoice
 TETRALUXCORE_EXPORT double CountPiecesPerSegment(
   const IntervalTable& table, const RaySample& sample);
 
-/// How many rays of a sample, the first ones, tables are measured on: as many as are integrated in
-/// about a second of one thread.
+/// How many rays of a sample, the first ones, are integrated in about a second of one thread: those
+/// that tables are measured on.
 TETRALUXCORE_EXPORT std::size_t CountTableRays(
   const TransferFunction& function, const RaySample& sample);
 

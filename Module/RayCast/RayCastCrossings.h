@@ -156,15 +156,14 @@ TETRALUX_INLINE Real* GetDistances(FaceCrossing& crossing)
 }
 
 /// The attenuation at scalars, or of the cell behind a face. Apart, since few faces need it.
-TETRALUX_NOINLINE Float8 FindAttenuation(
-  const KernelInput& in, Mask8 valid, Float8 scalar, std::int32_t cell)
+TETRALUX_NOINLINE Float8 FindAttenuation(const KernelInput& in, Float8 scalar, std::int32_t cell)
 {
   if (in.CellValues)
   {
     return in.CellValues[cell].Attenuation;
   }
   const Int8 interval = FindInterval(in, [&](Float8 end) { return end < scalar; });
-  const IntervalLanes t = LoadInterval(in, interval, valid);
+  const IntervalLanes t = LoadInterval(in, interval);
   return Fma(t.AttenuationSlope, scalar - t.Reference, t.Attenuation);
 }
 
@@ -192,8 +191,7 @@ TETRALUX_INLINE void AddShiftErrors(const KernelInput& in, const Corner<float> (
   {
     return;
   }
-  const Float8 attenuation =
-    FindAttenuation(in, large, Blend(weightB, weightC, a.S, b.S, c.S), cell);
+  const Float8 attenuation = FindAttenuation(in, Blend(weightB, weightC, a.S, b.S, c.S), cell);
   const Mask8 visible = large & (Float8(0.f) < attenuation); // and it is a number
   const Float8 share = attenuation * Float8(1 / in.LargestAttenuation);
   crossings.ShiftError = crossings.ShiftError + Keep(visible, most * share);

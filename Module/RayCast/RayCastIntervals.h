@@ -83,24 +83,6 @@ TETRALUX_INLINE IntervalLanes LookUpInterval(const KernelInput& in, Int8 interva
   return t;
 }
 
-/// The same interval in all lanes.
-TETRALUX_INLINE IntervalLanes RepeatInterval(const IntervalTable::Interval& interval)
-{
-  IntervalLanes t;
-  t.Lo = interval.Lo;
-  t.Hi = interval.Hi;
-  t.Reference = interval.Reference;
-  t.Attenuation = interval.Attenuation;
-  t.AttenuationSlope = interval.AttenuationSlope;
-  for (int c = 0; c < 3; ++c)
-  {
-    t.Color[c] = interval.Color[c];
-    t.ColorSlope[c] = interval.ColorSlope[c];
-    t.ColorBend[c] = interval.ColorBend[c];
-  }
-  return t;
-}
-
 TETRALUX_INLINE IntervalLanes GatherInterval(const KernelInput& in, Int8 interval)
 {
   const Int8 row = FindIntervalRow(interval);
@@ -118,8 +100,7 @@ TETRALUX_INLINE IntervalLanes GatherInterval(const KernelInput& in, Int8 interva
   return t;
 }
 
-/// valid: at least one lane, those in which the interval matters.
-TETRALUX_INLINE IntervalLanes LoadInterval(const KernelInput& in, Int8 interval, Mask8 valid)
+TETRALUX_INLINE IntervalLanes LoadInterval(const KernelInput& in, Int8 interval)
 {
   if (in.NumberOfIntervals <= IntervalColumns::Few)
   {
@@ -139,14 +120,6 @@ TETRALUX_INLINE IntervalLanes LoadInterval(const KernelInput& in, Int8 interval,
     {
       return LookUpInterval<IntervalColumns::Most>(in, interval);
     }
-  }
-  // Neighbouring rays are mostly in the same interval: one load for all of them.
-  std::int32_t indices[LaneCount];
-  Store(indices, interval);
-  const std::int32_t one = indices[FindFirstLane(Bits(valid))];
-  if (!Any(AndNot(valid, interval == Int8(one))))
-  {
-    return RepeatInterval(in.Intervals[one]);
   }
   return GatherInterval(in, interval);
 }

@@ -143,7 +143,8 @@ struct FaceCrossing
     double Double[MostLanes / 2];
   } Distances;         ///< of each lane, in the precision of the kernel
   std::int32_t Entry;  ///< index into KernelInput::Entries
-  std::uint32_t Lanes; ///< rays that cross it, and have not walked from it or to it
+  std::uint32_t Lanes; ///< rays that cross it, but for those that entered or left there before
+                       ///< another crossing
 };
 
 /// Room for the crossings of a packet's rays, owned by one thread and grown on demand.

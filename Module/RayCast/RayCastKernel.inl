@@ -549,22 +549,22 @@ private:
     {
       return;
     }
-    std::int32_t places[LaneCount], entries[LaneCount];
+    std::int32_t places[LaneCount];
     std::int32_t cells[LaneCount] = {}, opposites[LaneCount] = {}, corners[3][LaneCount] = {};
     Store(places, nearest.Place);
-    Store(entries, nearest.Entry);
     for (unsigned left = lanes; left != 0; left &= left - 1)
     {
       const int lane = FindFirstLane(left);
-      TETRALUX_CHECK(entries[lane] < this->In.NumberOfEntries);
-      const WalkEntry& entry = this->In.Entries[entries[lane]];
+      FaceCrossing& crossing = this->Buffer.Crossings[places[lane]];
+      TETRALUX_CHECK(crossing.Entry < this->In.NumberOfEntries);
+      const WalkEntry& entry = this->In.Entries[crossing.Entry];
       for (int k = 0; k < 3; ++k)
       {
         corners[k][lane] = entry.Points[k];
       }
       cells[lane] = entry.Cell;
       opposites[lane] = entry.Opposite;
-      this->Buffer.Crossings[places[lane]].Lanes &= ~(1u << lane);
+      crossing.Lanes &= ~(1u << lane);
       ++this->Counts.Paths;
     }
     const Mask8 start = MaskFromBits(lanes);

@@ -60,7 +60,7 @@ struct CurrentIntervals
   TETRALUX_INLINE void Set(const KernelInput& in, Int8 number)
   {
     this->Number = number;
-    this->Lanes = LoadInterval(in, number, MaskFromBits(AllLanes));
+    this->Lanes = LoadInterval(in, number);
   }
 };
 
